@@ -1,0 +1,84 @@
+# Needs make, and Python 3.11 or later with venv.  `make PYTHON=python3.12 lab` names another Python.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+
+# JupyterLab refuses to run as root unless told so.
+AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
+
+# Strict: every output is compared with the one stored, in the environment of this Python.
+NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
+
+.PHONY: help lab test lint bench notebooks constraints clean
+
+help:
+	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
+	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
+	@echo "make lint       run the quick checks only: style, types, imports"
+	@echo "make bench      measure speed"
+	@echo "make notebooks  run every notebook again and store its outputs"
+	@echo "make clean      remove caches (not $(VENV))"
+
+lab: $(VENV)/.lab
+	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
+	$(BIN)/jupyter lab $(AS_ROOT) notebooks/00_start_here.ipynb
+
+test: lint
+	@echo "== tests of the maths, doctests, coverage (pytest)"
+	$(BIN)/python -m pytest -m "not browser" --cov --cov-report=term-missing:skip-covered
+	@echo "== every notebook gives its stored outputs (pytest with nbval)"
+	$(BIN)/python -m pytest -n 2 --dist loadscope $(NBVAL) notebooks
+	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
+	$(BIN)/python -m pytest -m browser tests/browser
+
+lint: $(VENV)/.test
+	@echo "== errors and habits (ruff check)"
+	$(BIN)/ruff check
+	@echo "== layout of the code (ruff format)"
+	$(BIN)/ruff format --check
+	@echo "== types (mypy)"
+	$(BIN)/mypy
+	@echo "== imports point down only (import-linter)"
+	$(BIN)/lint-imports
+
+bench: $(VENV)/.test
+	$(BIN)/python -m pytest benchmarks --benchmark-only
+
+# Widget state, timings and the Python version would change at every run, so they are not stored.
+notebooks: $(VENV)/.test
+	$(BIN)/jupyter nbconvert --to notebook --execute --inplace \
+	    --ExecutePreprocessor.store_widget_state=False --ExecutePreprocessor.record_timing=False \
+	    --ClearMetadataPreprocessor.enabled=True --ClearMetadataPreprocessor.clear_cell_metadata=False \
+	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=kernelspec \
+	    notebooks/*.ipynb
+
+# After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out.
+constraints: $(VENV)/.test
+	$(BIN)/python -m pip freeze --exclude-editable --exclude camkit | LC_ALL=C sort -f > constraints.txt
+	touch $(VENV)/.lab $(VENV)/.test
+
+clean:
+	rm -rf build dist .browser .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find camkit tests benchmarks notebooks -name __pycache__ -o -name .ipynb_checkpoints | xargs rm -rf
+
+
+# A stamp file says that its extra is installed, so a second call starts at once.
+$(VENV)/.lab $(VENV)/.test: $(VENV)/.%: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "Installing camkit with all that 'make $*' needs into $(VENV); the first time takes a minute or two."
+	$(PIP_INSTALL) -e '.[$*]'
+	@touch $@
+
+$(BIN)/python:
+	@for python in "$(PYTHON)" python3.13 python3.12 python3.11; do \
+	    if $$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	        echo "Making the virtual environment $(VENV) with $$($$python --version)."; \
+	        $$python -m venv $(VENV) && exit 0; \
+	        rm -rf $(VENV); \
+	        echo "$$python cannot make a virtual environment (on Debian or Ubuntu: apt-get install python3-venv)."; \
+	        exit 1; \
+	    fi; \
+	done; \
+	echo "camkit needs Python 3.11 or later, but '$(PYTHON) --version' says: $$($(PYTHON) --version 2>&1)."; \
+	echo "Name one that is installed, for example: make PYTHON=/usr/bin/python3.12 $(or $(MAKECMDGOALS),lab)"; \
+	exit 1

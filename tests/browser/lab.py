@@ -1,0 +1,243 @@
+"""Drives a real JupyterLab in a real Chromium, as a person would: open a notebook, run it, look, press keys.
+
+The server is started with ``window.jupyterapp`` exposed, so that questions such as "is a cell running?"
+are asked of JupyterLab itself and not guessed from its looks.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import re
+import secrets
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Locator, Page
+from playwright.sync_api import TimeoutError as PlaywrightTimeout
+
+CHROMIUM_FLAGS = [
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-sync",
+    "--headless",
+    "--no-first-run",
+    "--no-sandbox",
+]
+
+# The settings file in which a question about news, which would cover the notebook, is answered.
+NOTIFICATIONS = "@jupyterlab/apputils-extension/notification.jupyterlab-settings"
+
+
+def find_chromium() -> str | None:
+    """The browser that ``CAMKIT_CHROMIUM`` names, or the first one installed."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    return os.environ.get("CAMKIT_CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
+
+
+@dataclass(frozen=True)
+class LabServer:
+    """A running JupyterLab; ``root`` is the folder whose notebooks it serves."""
+
+    url: str
+    token: str
+    root: Path
+
+    def api(self, path: str, method: str = "GET") -> Any:
+        """The answer of the server's REST interface."""
+        headers = {"Authorization": f"token {self.token}"}
+        request = urllib.request.Request(f"{self.url}/api/{path}", method=method, headers=headers)
+        with urllib.request.urlopen(request, timeout=10) as answer:
+            return json.loads(answer.read() or "null")
+
+    def end_kernels(self) -> None:
+        """Ends what the last test left running."""
+        for session in self.api("sessions"):
+            self.api(f"sessions/{session['id']}", "DELETE")
+
+
+@contextmanager
+def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> Iterator[LabServer]:
+    """JupyterLab on a free port, serving ``root``; its kernels import from ``source`` first.
+
+    All its settings lie in ``folder``; none of the user's count.
+    """
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    server = LabServer(f"http://127.0.0.1:{port}", secrets.token_hex(16), root)
+    environment = os.environ | _isolation(folder) | {"PYTHONPATH": str(source)}
+    configuration = {
+        "ServerApp": {
+            "port": port,
+            "port_retries": 0,
+            "root_dir": str(root),
+            "allow_root": True,
+            "open_browser": False,
+        },
+        "IdentityProvider": {"token": server.token},
+        "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
+    }
+    config = Path(environment["JUPYTER_CONFIG_DIR"], "jupyter_lab_config.json")
+    notifications = Path(environment["JUPYTERLAB_SETTINGS_DIR"], NOTIFICATIONS)
+    config.parent.mkdir()
+    config.write_text(json.dumps(configuration))
+    notifications.parent.mkdir(parents=True)
+    notifications.write_text(json.dumps({"fetchNews": "false", "checkForUpdates": False}))
+    log = folder / "server.log"
+    with log.open("w") as out:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "jupyterlab"],
+            cwd=root,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+        )
+        try:
+            _wait_for(server, process, log, timeout)
+            yield server
+            server.end_kernels()
+        finally:
+            process.terminate()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+
+def _isolation(folder: Path) -> dict[str, str]:
+    """The environment in which the user's own settings and kernels do not count."""
+    homes = {
+        "IPYTHONDIR": "ipython",
+        "JUPYTER_CONFIG_DIR": "config",
+        "JUPYTER_DATA_DIR": "data",
+        "JUPYTER_RUNTIME_DIR": "runtime",
+        "JUPYTERLAB_SETTINGS_DIR": "settings",
+        "JUPYTERLAB_WORKSPACES_DIR": "workspaces",
+    }
+    # The kernel "python3" is then the one beside this Python.
+    return {name: str(folder / home) for name, home in homes.items()} | {"JUPYTER_PREFER_ENV_PATH": "1"}
+
+
+def _wait_for(server: LabServer, process: subprocess.Popen[bytes], log: Path, timeout: float) -> None:
+    end = time.monotonic() + timeout
+    while time.monotonic() < end and process.poll() is None:
+        try:
+            server.api("status")
+            return
+        except (urllib.error.URLError, ConnectionError, TimeoutError):
+            time.sleep(0.1)
+    raise RuntimeError(f"JupyterLab did not start within {timeout:g} s. The end of its log:\n{log.read_text()[-3000:]}")
+
+
+# What JupyterLab says of the notebook in front: its kernel, and each cell with the error it ended in, if any.
+_STATE = """() => {
+    const panel = window.jupyterapp.shell.currentWidget;
+    const error = (cell) => (cell.model.outputs?.toJSON() ?? []).find(output => output.output_type === 'error');
+    return {
+        kernel: panel.sessionContext.session?.kernel?.status ?? 'none',
+        cells: panel.content.widgets.map(cell => ({
+            source: cell.model.sharedModel.getSource(),
+            running: cell.model.executionState === 'running',
+            error: error(cell) ?? null,
+        })),
+    };
+}"""
+
+_READY = """(name) => {
+    const panel = window.jupyterapp?.shell.currentWidget;
+    return panel?.context?.path === name && panel.context.isReady && panel.sessionContext.isReady
+        && panel.sessionContext.session?.kernel?.status === 'idle' && panel.content.widgets.length > 0;
+}"""
+
+_RUN = """() => {
+    window.camkitRan = false;
+    window.jupyterapp.commands.execute('notebook:run-all-cells').finally(() => { window.camkitRan = true; });
+}"""
+
+_RAN = "() => window.camkitRan && window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === 'idle'"
+
+_ASK = """async ([expression, seconds]) => {
+    const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+    const asked = kernel.requestExecute(
+        {code: '', silent: true, store_history: false, user_expressions: {answer: expression}});
+    const late = new Promise(resolve => setTimeout(() => resolve(null), 1000 * seconds));
+    const reply = await Promise.race([asked.done, late]);
+    return reply && reply.content.user_expressions.answer;
+}"""
+
+
+def open_notebook(page: Page, name: str, timeout: float = 60) -> None:
+    """Opens a notebook of the server's folder in an empty workspace and waits until its kernel is idle."""
+    page.goto(f"/lab/tree/{name}?reset")
+    try:
+        page.wait_for_function(_READY, arg=name, timeout=1000 * timeout)
+    except PlaywrightTimeout:
+        raise AssertionError(f"{name} was not open with an idle kernel after {timeout:g} s{_dialog(page)}") from None
+
+
+def run_all(page: Page, timeout: float = 120) -> None:
+    """Runs all cells and waits until the kernel is idle; a cell that ends in an error fails the test."""
+    page.evaluate(_RUN)
+    try:
+        page.wait_for_function(_RAN, timeout=1000 * timeout)
+    except PlaywrightTimeout:
+        state = page.evaluate(_STATE)
+        running = [f"cell {i}:\n{cell['source']}" for i, cell in enumerate(state["cells"]) if cell["running"]]
+        raise AssertionError(
+            f"after {timeout:g} s the kernel is {state['kernel']} and still runs {running[0] if running else 'no cell'}"
+            f"{_dialog(page)}"
+        ) from None
+    for i, cell in enumerate(page.evaluate(_STATE)["cells"]):
+        if cell["error"]:
+            traceback = re.sub(r"\x1b\[[0-9;]*m", "", "\n".join(cell["error"]["traceback"]))
+            raise AssertionError(f"cell {i} ended in an error:\n{cell['source']}\n\n{traceback}")
+
+
+def cell(page: Page, i: int) -> Locator:
+    """Cell ``i`` of the notebook in front, counted from 0 with the cells of prose, scrolled into view."""
+    page.evaluate("(i) => window.jupyterapp.shell.currentWidget.content.scrollToItem(i)", i)
+    return page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Notebook .jp-Cell").nth(i)
+
+
+def cell_output(page: Page, i: int) -> Locator:
+    """What cell ``i`` shows below its code."""
+    return cell(page, i).locator(".jp-Cell-outputArea")
+
+
+def kernel_value(page: Page, expression: str, timeout: float = 30) -> Any:
+    """What a Python expression is in the notebook's kernel, by way of JSON (an array comes as a list)."""
+    as_json = f"__import__('json').dumps({expression}, default=lambda o: o.tolist())"
+    answer = page.evaluate(_ASK, [as_json, timeout])
+    if answer is None:
+        raise AssertionError(f"the kernel did not say within {timeout:g} s what {expression} is")
+    if answer["status"] != "ok":
+        raise AssertionError(f"{expression}: {answer['ename']}: {answer['evalue']}")
+    return json.loads(ast.literal_eval(answer["data"]["text/plain"]))
+
+
+def screenshot(page: Page, path: Path | str) -> None:
+    """Saves what the window shows, to be looked at."""
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=path)
+
+
+def _dialog(page: Page) -> str:
+    """The text of a dialog that is in the way, if there is one."""
+    texts = page.locator(".jp-Dialog-content").all_inner_texts()
+    return f"; a dialog is open: {texts[0]}" if texts else ""

@@ -1,0 +1,92 @@
+"""The maths needs numpy and scipy only, and what is installed from the wheel is all of camkit."""
+
+import os
+import re
+import subprocess
+import sys
+import sysconfig
+import zipfile
+from pathlib import Path
+
+import numpy
+import pytest
+import scipy
+
+REPOSITORY = Path(__file__).parents[1]
+
+# The modules that need the [lab] extra; `import camkit` must not need them.
+LAB = {"app", "plot", "optimise"}
+
+# As on a machine where nothing else is installed: an import of anything else fails.
+ONLY_NUMPY_AND_SCIPY = """
+import importlib, sys
+
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        allowed = sys.stdlib_module_names | {"camkit", "numpy", "scipy"}
+        if name.partition(".")[0] not in allowed and not name.startswith("_sysconfigdata"):  # named by platform
+            raise ModuleNotFoundError(f"{name} is not part of the maths", name=name)
+
+sys.meta_path.insert(0, Refuse())
+for name in sys.argv[1:]:
+    importlib.import_module(name)
+"""
+
+
+def python(*arguments: str | Path, executable: str | Path = sys.executable, **options) -> str:
+    """What a Python process prints; its error is the test's error."""
+    done = subprocess.run([executable, *arguments], capture_output=True, text=True, **options)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def maths() -> list[str]:
+    """``camkit`` and every module below it that the maths is made of."""
+    files = (path.relative_to(REPOSITORY).with_suffix("") for path in REPOSITORY.glob("camkit/**/*.py"))
+    names = [".".join(part for part in path.parts if part != "__init__") for path in files]
+    return sorted(name for name in names if name == "camkit" or name.split(".")[1] not in LAB)
+
+
+def test_the_maths_imports_numpy_and_scipy_only() -> None:
+    python("-c", ONLY_NUMPY_AND_SCIPY, *maths(), cwd=REPOSITORY)
+
+
+def test_a_forbidden_import_would_be_seen() -> None:
+    refused = subprocess.run([sys.executable, "-c", ONLY_NUMPY_AND_SCIPY, "matplotlib"], capture_output=True, text=True)
+    assert "matplotlib is not part of the maths" in refused.stderr
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built with the backend that is installed, so nothing is downloaded."""
+    folder = tmp_path_factory.mktemp("wheel")
+    python("-m", "build", "--wheel", "--no-isolation", "--outdir", folder, REPOSITORY)
+    return next(folder.glob("camkit-*.whl"))
+
+
+@pytest.mark.slow
+def test_the_wheel_holds_all_of_camkit_and_nothing_else(wheel: Path) -> None:
+    ours = {str(path.relative_to(REPOSITORY)) for path in REPOSITORY.glob("camkit/**/*") if path.is_file()}
+    packed = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    assert packed == {name for name in ours if "__pycache__" not in name}
+
+
+@pytest.mark.slow
+def test_the_wheel_works_beside_numpy_and_scipy_alone(wheel: Path, tmp_path: Path) -> None:
+    python("-m", "venv", "--without-pip", tmp_path)
+    site = Path(sysconfig.get_path("purelib", "venv", {"base": str(tmp_path)}))
+    for package in (numpy, scipy):  # linked, not installed again: they are large
+        installed = Path(package.__file__).parent
+        for part in installed.parent.glob(f"{installed.name}*"):  # the package, its version, its libraries
+            (site / part.name).symlink_to(part)
+    python("-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", site, wheel)
+
+    clean = {name: value for name, value in os.environ.items() if not re.match("PYTHON|COV", name)}
+    said = python(
+        "-c",
+        "import camkit; print(camkit.__file__, 50 * camkit.mm)",
+        executable=tmp_path / "bin/python",
+        cwd=tmp_path,
+        env=clean,
+    )
+    assert said.split() == [str(site / "camkit/__init__.py"), "0.05"]
