@@ -1,0 +1,62 @@
+"""Motion laws and motion programs: how a follower should move, before there is a cam."""
+
+from .constant_velocity import ConstantVelocity
+from .free import Degree9, FreePolynomial
+from .half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
+from .harmonic import Cycloidal, SimpleHarmonic
+from .joints import Joint, Peak, ProgramPeaks
+from .law import Kinematics, Law, Peaks
+from .modified import ModifiedSine, ModifiedTrapezoid
+from .polynomial import Parabolic, Poly345, Poly4567, Poly56789
+from .program import Dwell, MotionProgram, Return, Rise, Segment
+from .skewed import Skewed
+from .spline import SplineLaw, TableLaw
+
+LAWS: tuple[Law, ...] = (
+    SimpleHarmonic(),
+    Parabolic(),
+    Cycloidal(),
+    ModifiedTrapezoid(),
+    ModifiedSine(),
+    Poly345(),
+    Poly4567(),
+    Poly56789(),
+)
+"""The laws that need no parameter, for a menu."""
+
+HALF_LAWS: tuple[Law, ...] = (HalfCycloidalStart(), HalfCycloidalEnd(), HalfHarmonicStart(), HalfHarmonicEnd())
+"""The laws between rest and a velocity, for a program that joins them to constant velocity."""
+
+__all__ = [
+    "HALF_LAWS",
+    "LAWS",
+    "ConstantVelocity",
+    "Cycloidal",
+    "Degree9",
+    "Dwell",
+    "FreePolynomial",
+    "HalfCycloidalEnd",
+    "HalfCycloidalStart",
+    "HalfHarmonicEnd",
+    "HalfHarmonicStart",
+    "Joint",
+    "Kinematics",
+    "Law",
+    "ModifiedSine",
+    "ModifiedTrapezoid",
+    "MotionProgram",
+    "Parabolic",
+    "Peak",
+    "Peaks",
+    "Poly345",
+    "Poly4567",
+    "Poly56789",
+    "ProgramPeaks",
+    "Return",
+    "Rise",
+    "Segment",
+    "SimpleHarmonic",
+    "Skewed",
+    "SplineLaw",
+    "TableLaw",
+]

@@ -1,0 +1,92 @@
+"""What a motion law is: position, velocity, acceleration and jerk of a rise of 1 over a time of 1."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+ROUNDING = 1e-9
+"""How far outside [0, 1] a ``u`` may lie and still be taken for the end that was meant."""
+
+
+class Kinematics(NamedTuple):
+    """Position and its first three derivatives, unpackable as ``s, v, a, j``."""
+
+    s: Any
+    v: Any
+    a: Any
+    j: Any
+
+
+class Peaks(NamedTuple):
+    """The largest |v|, |a| and |j| of a law, unpackable as ``Cv, Ca, Cj``."""
+
+    Cv: Any
+    Ca: Any
+    Cj: Any
+
+
+class Law(ABC):
+    """A rise of 1 over ``u`` from 0 to 1; every law is a small frozen dataclass with its formula in ``at``.
+
+    Laws are equal and hashed by value.  Parameters may be arrays of shape ``(p, 1)``, a population of
+    ``p`` laws; the four results then have the shape ``(p, n)``.
+    """
+
+    name: ClassVar[str]
+    """What the law is called in menus and files."""
+
+    @property
+    @abstractmethod
+    def continuity(self) -> int:
+        """Highest derivative without a jump where the law meets a dwell: 1 velocity, 2 acceleration, 3 jerk."""
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        """The ``u`` inside (0, 1), in order, at which a derivative up to the jerk may jump or have a corner."""
+        return ()
+
+    def __call__(self, u: ArrayLike) -> Kinematics:
+        """``s, v, a, j`` at ``u`` (any shape), derivatives with respect to ``u``; ``nan`` outside [0, 1]."""
+        return Kinematics(*(np.asarray(x)[()] for x in self.at(_inside(u))))
+
+    @abstractmethod
+    def at(self, u: Any) -> Kinematics:
+        """The formula itself, for an array ``u`` that is known to lie in [0, 1]."""
+
+    @abstractmethod
+    def peaks(self) -> Peaks:
+        """``Cv, Ca, Cj``: the largest |v|, |a|, |j|.
+
+        ``inf`` where a lower derivative jumps, at the ends as well for the laws that run from dwell to
+        dwell.  Laws made to be joined to a moving neighbour (half laws, free ends) count [0, 1] only.
+        """
+
+
+def _inside(u: ArrayLike) -> Any:
+    """``u`` as an array of floats, ``nan`` where it lies outside [0, 1]."""
+    u = np.asarray(u, dtype=float)
+    nearest = np.minimum(np.maximum(u, 0.0), 1.0)
+    return np.where(np.abs(u - nearest) <= ROUNDING, nearest, np.nan)
+
+
+def mirrored(u: Any, first_half: Callable[[Any], Kinematics]) -> Kinematics:
+    """A symmetric law from its first half: ``s(u) = 1 - s(1 - u)``."""
+    late = u > 0.5
+    s, v, a, j = first_half(np.where(late, 1 - u, u))
+    return Kinematics(np.where(late, 1 - s, s), v, np.where(late, -a, a), j)
+
+
+def finite(value: Any) -> Any:
+    """Whether ``value`` is a finite number, element by element; ``False`` for what is no number.
+
+    >>> finite(1.5), finite("1.5"), finite(np.array([[1.0], [np.nan]])).tolist()
+    (np.True_, False, [[True], [False]])
+    """
+    if isinstance(value, (int, float, np.ndarray, np.number)) and not isinstance(value, bool):
+        return np.isfinite(value)
+    return False

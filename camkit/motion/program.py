@@ -1,0 +1,291 @@
+"""A motion program: rises, returns and dwells in a row, against cam angle.
+
+>>> from camkit.motion import Cycloidal
+>>> from camkit.units import deg, mm
+>>> rise, back = Rise(120 * deg, 20 * mm, Cycloidal()), Return(180 * deg, 20 * mm, Cycloidal())
+>>> program = MotionProgram((rise, Dwell(60 * deg), back))
+>>> program([60 * deg, 150 * deg, 360 * deg]).s.round(6)
+array([0.01, 0.02, 0.  ])
+>>> round(program.peaks().velocity.value, 6)
+0.019099
+>>> program.joints()[0].verdict
+'at 120 deg the jerk jumps by -0.08594 follower units/rad^3: finite; acceptable'
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, reduce
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..quantities import fails
+from ..units import in_unit
+from .joints import Joint, ProgramPeaks, find_joints, find_peaks
+from .law import Kinematics, finite
+
+TURN = 2 * np.pi
+SAME_ANGLE = 1e-9
+"""Cam angles closer than this (rad) are the same."""
+SAME_JOINT = 1e-12
+"""An angle this little (rad) before a joint is the joint: what rounding does to ``120 * deg``."""
+SAME_LEVEL = 1e-9
+"""Levels closer than this, relative to the lifts, are the same."""
+
+
+class Segment(ABC):
+    """A part of a program over some cam ``angle`` (rad)."""
+
+    angle: Any
+
+    @property
+    @abstractmethod
+    def change(self) -> Any:
+        """What the segment adds to the level."""
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        """The shares of the segment at which its motion may jump or have a corner."""
+        return ()
+
+    @abstractmethod
+    def motion(self, u: Any) -> Kinematics:
+        """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
+
+
+@dataclass(frozen=True)
+class Dwell(Segment):
+    """The follower rests over ``angle`` (rad, above 0; a population's has the shape ``(p, 1)``).
+
+    >>> Dwell(0.0)
+    Traceback (most recent call last):
+        ...
+    ValueError: the angle of the dwell is 0 deg; it must be a finite angle above 0 deg
+    """
+
+    angle: Any
+
+    def __post_init__(self) -> None:
+        _refuse_angle(self)
+
+    @property
+    def change(self) -> Any:
+        return 0.0
+
+    def motion(self, u: Any) -> Kinematics:
+        rest = 0.0 * u
+        return Kinematics(rest, rest, rest, rest)
+
+
+@dataclass(frozen=True)
+class _Move(Segment):
+    """A segment that follows a motion law."""
+
+    angle: Any
+    lift: Any
+    law: Callable[[Any], Kinematics]
+
+    def __post_init__(self) -> None:
+        _refuse_angle(self)
+        if fails(finite(self.lift)):
+            raise ValueError(f"the lift of the {_word(self)} is {self.lift}; it must be a finite number")
+        if not callable(self.law) or isinstance(self.law, type):
+            raise ValueError(
+                f"the law of the {_word(self)} is {self.law!r}; it must be a motion law such as Cycloidal()"
+            )
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        return getattr(self.law, "kinks", ())
+
+    def motion(self, u: Any) -> Kinematics:
+        s, v, a, j = self.law(u)
+        h, beta = self.change, self.angle
+        return Kinematics(h * s, h * v / beta, h * a / beta**2, h * j / beta**3)
+
+
+@dataclass(frozen=True)
+class Rise(_Move):
+    """The level grows by ``lift`` (m or rad) over ``angle`` (rad, above 0) after the motion law ``law``.
+
+    ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a motion law, or
+    any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by ``ValueError``.
+    """
+
+    @property
+    def change(self) -> Any:
+        return self.lift
+
+
+@dataclass(frozen=True)
+class Return(_Move):
+    """The level falls by ``lift`` over ``angle``; otherwise as ``Rise``.  A program may begin with a return."""
+
+    @property
+    def change(self) -> Any:
+        return -self.lift
+
+
+@dataclass(frozen=True)
+class MotionProgram:
+    """Segments that follow one another from cam angle 0, the level beginning at ``start``.
+
+    Called with cam angles (rad) it gives ``s, v, a, j``: the level in the follower's unit (m or rad) and
+    its derivatives per rad, rad^2, rad^3.  A program that spans 360 deg repeats with every turn and must
+    come back to its first level; a shorter one is ``nan`` outside [0, span].
+
+    A population holds arrays of shape ``(p, 1)`` in its segments, its laws or its ``start``; cam angles of
+    shape ``(n,)`` or ``(p, n)`` then give ``(p, n)``.  One program that cannot be is refused by
+    ``ValueError``; in a population its row is ``nan``.
+    """
+
+    segments: tuple[Segment, ...]
+    start: Any = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "segments", tuple(self.segments))
+        _refuse_program(self)
+
+    @cached_property
+    def starts(self) -> list[Any]:
+        """The cam angle at which each segment begins, and at last the span."""
+        return list(accumulate((segment.angle for segment in self.segments), initial=0.0))
+
+    @cached_property
+    def levels(self) -> list[Any]:
+        """The level at which each segment begins, and at last the final one."""
+        return list(accumulate((segment.change for segment in self.segments), initial=self.start))
+
+    @property
+    def span(self) -> Any:
+        """The cam angle of the whole program, rad."""
+        return self.starts[-1]
+
+    @property
+    def edges(self) -> Any:
+        """The cam angles of the joints from 0 to ``span``, rad: ``(k + 1,)`` for ``k`` segments, or ``(p, k + 1)``."""
+        return np.concatenate([np.atleast_1d(edge) for edge in np.broadcast_arrays(*self.starts)], axis=-1)
+
+    @property
+    def periodic(self) -> Any:
+        """Whether the program spans 360 deg."""
+        return np.abs(self.span - TURN) <= SAME_ANGLE
+
+    @property
+    def closes(self) -> Any:
+        """Whether the last level is the first one, or need not be."""
+        size = sum(np.abs(segment.change) for segment in self.segments)
+        return (np.abs(self.levels[-1] - self.start) <= SAME_LEVEL * size) | np.logical_not(self.periodic)
+
+    @cached_property
+    def possible(self) -> Any:
+        """Whether the program can be; of a population, which rows can."""
+        each = [finite(segment.change) & _positive(segment.angle) for segment in self.segments]
+        return reduce(np.logical_and, each, finite(self.start) & (self.span <= TURN + SAME_ANGLE) & self.closes)
+
+    def __call__(self, cam_angle: ArrayLike) -> Kinematics:
+        """``s, v, a, j`` at ``cam_angle`` (rad); at a joint the segment that begins there speaks."""
+        phi = np.asarray(cam_angle, dtype=float)
+        with np.errstate(all="ignore"):
+            out = self._at(self._within(np.atleast_1d(phi)))
+        return Kinematics(*(out if phi.ndim else out[..., 0]))
+
+    def in_time(self, cam_angle: ArrayLike, speed: Any) -> Kinematics:
+        """``s, v, a, j`` with respect to time (m or rad, per s^k) at a constant shaft ``speed`` (rad/s).
+
+        ``speed`` may be an array of shape ``(p, 1)``.  ``ValueError`` for one that is not finite.
+
+        >>> from camkit.motion import SimpleHarmonic
+        >>> from camkit.units import deg, mm, rpm
+        >>> rise = MotionProgram((Rise(120 * deg, 50 * mm, SimpleHarmonic()),))
+        >>> rise.in_time(60 * deg, 100 * rpm).v.round(2)
+        np.float64(0.39)
+        """
+        if fails(finite(speed)):
+            raise ValueError(f"the speed of the shaft is {speed}; it must be a finite number")
+        s, v, a, j = self(cam_angle)
+        return Kinematics(s + 0 * speed, v * speed, a * speed**2, j * speed**3)
+
+    def joints(self) -> list[Joint]:
+        """A record for each joint, in order; over 360 deg the joint of the last to the first segment comes last.
+
+        ``ValueError`` for a population, whose members have joints of their own.
+        """
+        if np.ndim(self.possible):
+            raise ValueError("the program is a population; joints are named for one program at a time")
+        return find_joints(self)
+
+    def peaks(self) -> ProgramPeaks:
+        """Peak |v|, |a|, |j| with the cam angle of each, found between samples and on both sides of joints.
+
+        ``inf`` where a lower derivative jumps, at a joint or inside a law.  A population gives arrays ``(p,)``.
+        """
+        return find_peaks(self)
+
+    def _within(self, phi: Any) -> Any:
+        """Cam angles brought into the turn, ``nan`` where the program says nothing."""
+        once = np.where(np.abs(phi - TURN) <= SAME_ANGLE, TURN, np.mod(phi, TURN))
+        x = np.where(self.periodic, once, phi)
+        return np.where((x >= -SAME_ANGLE) & (x <= self.span + SAME_ANGLE), x, np.nan)
+
+    def _at(self, x: Any) -> Any:
+        index = np.zeros(x.shape, dtype=int)
+        for edge in self.starts[1:-1]:
+            index = index + (x >= edge - SAME_JOINT)
+        pieces = [self._piece(i, index == i, x) for i in np.unique(index)]
+        shapes = [np.shape(values) for _, _, motion in pieces for values in motion]
+        lead = np.broadcast_shapes(*(shape[:-1] for shape in (np.shape(self.possible), index.shape, *shapes)))
+        out = np.full((4, *lead, x.shape[-1]), np.nan)
+        for columns, here, motion in pieces:
+            for k, values in enumerate(motion):
+                np.copyto(out[k][..., columns], values, where=here)
+        np.copyto(out, np.nan, where=np.logical_not(self.possible))
+        return out
+
+    def _piece(self, i: int, here: Any, x: Any) -> tuple[slice, Any, Kinematics]:
+        """The columns that segment ``i`` has a say in, where in them it speaks, and what it says there."""
+        said = np.flatnonzero(here.any(axis=tuple(range(here.ndim - 1))))
+        columns, segment = slice(said[0], said[-1] + 1), self.segments[i]
+        u = np.minimum(np.maximum((x[..., columns] - self.starts[i]) / segment.angle, 0.0), 1.0)
+        s, v, a, j = segment.motion(u)
+        return columns, here[..., columns], Kinematics(self.levels[i] + s, v, a, j)
+
+
+def _positive(angle: Any) -> Any:
+    return finite(angle) is not False and finite(angle) & (angle > 0)
+
+
+def _word(segment: Segment) -> str:
+    return type(segment).__name__.lower()
+
+
+def _degrees(angle: Any) -> str:
+    return f"{in_unit(float(angle), 'deg'):.6g} deg" if finite(angle) else str(angle)
+
+
+def _refuse_angle(segment: Segment) -> None:
+    if fails(_positive(segment.angle)):
+        shown = _degrees(segment.angle)
+        raise ValueError(f"the angle of the {_word(segment)} is {shown}; it must be a finite angle above 0 deg")
+
+
+def _refuse_program(program: MotionProgram) -> None:
+    if not program.segments:
+        raise ValueError("the program is empty; it needs at least one rise, return or dwell")
+    for number, segment in enumerate(program.segments, start=1):
+        if not isinstance(segment, Segment):
+            raise ValueError(f"segment {number} of the program is {segment!r}; it must be a rise, a return or a dwell")
+    if fails(finite(program.start)):
+        raise ValueError(f"the start of the program is {program.start}; it must be a finite number")
+    if fails(program.span <= TURN + SAME_ANGLE):
+        raise ValueError(f"the program spans {_degrees(program.span)}; it can span at most 360 deg")
+    if fails(program.closes):
+        gap = f"{float(program.levels[-1] - program.start):.6g}"
+        raise ValueError(
+            f"the program ends {gap} from its start after 360 deg; a full turn must come back to its start"
+        )
