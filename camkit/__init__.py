@@ -1,0 +1,71 @@
+"""camkit: the open workbook for mechanism design in JupyterLab.
+
+All public names are importable from here.  The maths needs numpy and scipy alone; what needs pymoo,
+matplotlib or ipywidgets is loaded when it is first asked for.
+"""
+
+from importlib import import_module
+from typing import Any
+
+from .cam.door_handle import DoorHandleCam, door_handle_study
+from .cam.load import ArmLoad, Friction
+from .cam.oscillating_roller import OscillatingRollerCam
+from .decision import ahp, crowding, topsis, weighted_sum
+from .export import load, profile_csv, save
+from .motion import *  # noqa: F403
+from .motion import __all__ as _motion_names
+from .quantities import Measure, quantity
+from .study import Study, weighted
+from .units import GPa, MPa, N, cm, deg, kg, kN, kW, m, mm, rad, rpm
+
+__version__ = "0.1.0"
+
+_LATER = {
+    "Front": "optimise",
+    "nsga2": "optimise",
+    "explore": "app",
+    "judge": "app",
+    "search": "app",
+    "try_everything": "app",
+    "picture": "plot.picture",
+}
+"""Names whose modules need more than numpy and scipy, and where they live."""
+
+__all__ = [
+    "ArmLoad",
+    "DoorHandleCam",
+    "Friction",
+    "GPa",
+    "MPa",
+    "Measure",
+    "N",
+    "OscillatingRollerCam",
+    "Study",
+    "ahp",
+    "load",
+    "profile_csv",
+    "save",
+    "cm",
+    "crowding",
+    "deg",
+    "door_handle_study",
+    "kN",
+    "kW",
+    "kg",
+    "m",
+    "mm",
+    "quantity",
+    "rad",
+    "rpm",
+    "topsis",
+    "weighted",
+    "weighted_sum",
+    *_LATER,
+    *_motion_names,
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        return getattr(import_module(f".{_LATER[name]}", __name__), name)
+    raise AttributeError(f"camkit has no {name!r}")

@@ -1,0 +1,1 @@
+"""Disk cams: one module for each kind of follower or machine."""

@@ -1,0 +1,128 @@
+"""What a rocking arm resists with, and what rubs on the way from cam to arm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..quantities import Design, quantity
+
+
+@dataclass(frozen=True)
+class ArmLoad(Design):
+    """The torque that a cam must put into a rocking arm.
+
+    Inertia of a uniform arm, ``I = m l^2 / 3`` (Gong, Liu, He 2025), and what a real machine adds: a
+    constant torque, a torque tabulated over the arm's travel, a torsion spring, the arm's weight.
+    Torque counts positive where it resists a growing arm angle.
+    """
+
+    mass: float = quantity("m", 2, 0, 10, "kg", "uniform arm", at_least=0)
+    speed: float = quantity("omega", 15, 0, 100, "rpm", "speed of the cam", at_least=0)
+    torque: float = quantity("T", 0, -50, 50, "N m", "constant resisting torque", above=None)
+    spring_rate: float = quantity("c", 0, 0, 50, "N m/rad", "torsion spring on the arm", at_least=0)
+    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arm; 0: it turns level", at_least=0)
+    up_angle: float = quantity("u", 90, -180, 180, "deg", "from the line cam-pivot to straight up", above=None)
+    torque_table: tuple[tuple[float, float], ...] = ()
+    """Pairs of arm travel [rad] and resisting torque [N m], in order of travel; straight lines between."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        table = np.asarray(self.torque_table, dtype=float).reshape(-1, 2)
+        if not np.isfinite(table).all():
+            raise ValueError("the torque table has an entry that is not a finite number; it holds (travel, torque)")
+        if (np.diff(table[:, 0]) <= 0).any():
+            raise ValueError("the torque table's travel must grow from entry to entry; it does not")
+
+    def resisting_torque(self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any) -> Any:
+        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from its start, rad)."""
+        inertia = self.mass * arm_length**2 / 3
+        weight = self.mass * self.gravity * arm_length / 2 * np.sin(arm_angle + self.up_angle)
+        static = self.torque + self.spring_rate * travel + weight
+        if self.torque_table:
+            static = static + np.interp(travel, *np.transpose(self.torque_table))
+        return inertia * self.speed**2 * acceleration + static
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Where and how cam and roller meet; lengths in m, ``alpha`` in rad, arrays ``(n,)`` or ``(p, n)``."""
+
+    arm_length: Any
+    roller_radius: Any
+    rotation: int
+    velocity: Any
+    alpha: Any
+    offset: Any
+    """``Q = R sin(alpha - beta)``: cam axis to the contact normal."""
+    reach: Any
+    """``B = R cos(alpha - beta)``: along the normal to the roller's centre."""
+
+    @property
+    def sense(self) -> Any:
+        """``k``: +1 where the arm's angle changes against the cam's rotation, -1 where it goes with it."""
+        return np.where(self.rotation * self.velocity < 0, -1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Friction(Design):
+    """Coulomb friction between cam and roller, friction circles of the three pins.
+
+    A friction circle has the radius ``pin radius * coefficient``: the force in the pin touches it.
+    """
+
+    coefficient: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and roller", at_least=0)
+    cam_axis: float = quantity("rho_1", 1.5, 0, 5, "mm", "friction circle of the cam axis", at_least=0)
+    roller_pin: float = quantity("rho_2", 0.5, 0, 5, "mm", "friction circle of the roller pin", at_least=0)
+    arm_pivot: float = quantity("rho_3", 1, 0, 5, "mm", "friction circle of the arm pivot", at_least=0)
+
+    def published_efficiency(self, contact: Contact) -> Any:
+        """Power out over power in as published, every friction counted as a loss: equation (21), put right.
+
+        ``eta = |v| T / M`` with ``lam = arctan f`` and ``k`` as in `free_body_efficiency`
+
+            T = F [l cos(alpha + k lam) - r sin(lam) - rho_2 - rho_3]
+            M = F [R sin(alpha - beta + lam) - r sin(lam) + rho_1]
+
+        The print lacks the square root over ``R^2`` and misplaces brackets.  Two terms are on the cautious
+        side: the roller's shift ``r sin(lam)`` helps the arm where ``sigma = +1``, and a roller that slides
+        does not turn on its pin.  `free_body_efficiency` has neither.
+        """
+        c, lam = contact, np.arctan(self.coefficient)
+        shift = c.roller_radius * np.sin(lam)
+        arm = c.arm_length * np.cos(c.alpha + c.sense * lam) - shift - self.roller_pin - self.arm_pivot
+        cam = abs(c.offset) * np.cos(lam) + c.reach * np.sin(lam) - shift + self.cam_axis
+        return _power_ratio(c, arm, cam)
+
+    def free_body_efficiency(self, contact: Contact) -> Any:
+        """Power out over power in from the free-body diagram of roller, arm and cam.
+
+        Roller: two forces hold it, at the cam and at its pin, so they share a line.  Either it slides, and the
+        line leans from the normal by ``arctan f``; or it rolls, and the line touches the pin's friction
+        circle, ``r sin(lam) = rho_2``.  The easier one happens: ``lam = min(arctan f, arcsin(rho_2 / r))``.
+        The line leans to the side to which the cam's surface runs, ``sigma`` times a quarter turn from the
+        normal.  With ``e = +1`` where the arm's angle grows (inner flank pushes), ``-1`` where it shrinks (outer
+        flank), and ``k = e sigma``:
+
+        - arm, moments about its pivot: ``T = F [l cos(alpha + k lam) + sigma r sin(lam) - rho_3]``
+        - cam, moments about its axis: ``M = F [|Q| cos(lam) + (B - e r) sin(lam) + rho_1]``
+
+        ``Q = R sin(alpha - beta) = sigma l v cos(alpha)`` is the distance from the cam axis to the contact
+        normal, ``B = R cos(alpha - beta)`` the distance along it to the roller's centre.  ``eta = |v| T / M``;
+        without friction this is 1.
+        """
+        c, r = contact, contact.roller_radius
+        rolling = np.arcsin(np.clip(self.roller_pin / np.maximum(r, 1e-300), 0, 1))
+        lam = np.minimum(np.arctan(self.coefficient), rolling)
+        push = np.where(c.velocity < 0, -1.0, 1.0)
+        arm = c.arm_length * np.cos(c.alpha + c.sense * lam) + c.rotation * r * np.sin(lam) - self.arm_pivot
+        cam = abs(c.offset) * np.cos(lam) + (c.reach - push * r) * np.sin(lam) + self.cam_axis
+        return _power_ratio(c, arm, cam)
+
+
+def _power_ratio(contact: Contact, arm: Any, cam: Any) -> Any:
+    """``|v| arm / cam``; 0 where the arm rests, and 0 where friction jams it (``arm`` not positive)."""
+    v = abs(contact.velocity)
+    return np.where(v == 0, 0.0 * arm, np.maximum(v * arm, 0.0) / np.where(v == 0, 1.0, cam))

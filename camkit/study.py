@@ -1,0 +1,177 @@
+"""A study: which numbers of a design are free, what is to be small, what must be kept.
+
+It knows measures, not mechanisms: it carries a design from numbers to measures and back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from .quantities import Measure, Quantity, declarations, words
+
+
+@dataclass(frozen=True)
+class WeightedSum(Measure):
+    """Measures divided by their values at a reference design, weighted and added (see `weighted`)."""
+
+    parts: tuple[Measure, ...] = ()
+    weights: tuple[float, ...] = ()
+    reference: tuple[float, ...] = ()
+
+    def with_weights(self, weights: Any) -> WeightedSum:
+        """The same sum with other weights."""
+        return weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference)
+
+
+def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[float]) -> WeightedSum:
+    """The measure ``sum(w_i * measure_i / reference_i)``; 1 at the reference if the weights add to 1.
+
+    >>> a, b = Measure("a", "", lambda x: x[0]), Measure("b", "", lambda x: x[1])
+    >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
+    1.75
+    """
+    for measure, value in zip(weights, reference, strict=True):
+        if not np.isfinite(value) or value == 0:
+            raise ValueError(f"the {measure.name} at the reference design is {value:g}; it must be finite and not 0")
+    for measure, weight in weights.items():
+        if not weight >= 0:
+            raise ValueError(f"the weight of the {measure.name} is {weight:g}; it must be 0 or more")
+
+    def total(analysis: Any) -> Any:
+        return sum(w * part(analysis) / r for (part, w), r in zip(weights.items(), reference, strict=True))
+
+    return WeightedSum(
+        name, "", total, 1, tuple(weights), tuple(map(float, weights.values())), tuple(map(float, reference))
+    )
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What a study says of ``p`` designs; what cannot be built has ``inf`` objectives and is infeasible."""
+
+    x: np.ndarray
+    """Free values, ``(p, n_free)``, SI."""
+    f: np.ndarray
+    """Objectives, all to be small, ``(p, n_objectives)``."""
+    g: np.ndarray
+    """Limits as ``(value - limit) / |limit|`` with a sign so that <= 0 is kept, ``(p, n_limits)``."""
+
+    @property
+    def feasible(self) -> np.ndarray:
+        """Which designs keep every limit, ``(p,)``."""
+        return np.isfinite(self.f).all(-1) & (self.g <= 0).all(-1)
+
+
+@dataclass(frozen=True)
+class Study:
+    """Search space, objectives and limits around a starting design.
+
+    ``free`` names fields of the design, with bounds in SI or, as a bare name, with the range that its
+    declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
+    ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.
+
+    Raises ``ValueError`` for a name that is not a number of the design, bounds that are reversed or not
+    finite, a start outside its bounds, or no objective at all.
+    """
+
+    start: Any
+    free: Any
+    minimise: tuple[Measure, ...]
+    at_most: Mapping[Measure, float] | None = None
+    at_least: Mapping[Measure, float] | None = None
+    angles: int = 361
+
+    def __post_init__(self) -> None:
+        declared = {k: q for k, q in declarations(self.start).items() if isinstance(q, Quantity)}
+        if isinstance(self.free, str) or not self.free:
+            raise ValueError("a study needs the names of one or more free quantities")
+        for name in self.free:
+            if name not in declared:
+                raise ValueError(
+                    f"{name!r} is not a quantity of {type(self.start).__name__}; there are {', '.join(declared)}"
+                )
+        if not isinstance(self.free, Mapping):
+            ranges = {
+                k: (declared[k].low * declared[k].factor, declared[k].high * declared[k].factor) for k in self.free
+            }
+            object.__setattr__(self, "free", ranges)
+        if not self.minimise:
+            raise ValueError("a study needs one or more measures to minimise")
+        object.__setattr__(self, "minimise", tuple(self.minimise))
+        object.__setattr__(self, "at_most", dict(self.at_most or {}))
+        object.__setattr__(self, "at_least", dict(self.at_least or {}))
+        for name, (low, high) in self.free.items():
+            self._check_bounds(name, declared[name], low, high)
+        for measure, limit in (*self.at_most.items(), *self.at_least.items()):  # type: ignore[union-attr]
+            if not np.isfinite(limit):
+                raise ValueError(f"the limit of the {measure.name} is {limit}; it must be a finite number")
+
+    def _check_bounds(self, name: str, declared: Quantity, low: float, high: float) -> None:
+        if not (np.isfinite([low, high]).all() and low < high):
+            raise ValueError(
+                f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}; "
+                "they must be finite, the first below the second"
+            )
+        if not (declared.allows(low) and declared.allows(high)):
+            raise ValueError(
+                f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}; "
+                f"each must be {declared.possible}"
+            )
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Lower and upper bounds, ``(2, n_free)``, SI."""
+        return np.array(list(self.free.values()), dtype=float).T
+
+    @property
+    def x0(self) -> np.ndarray:
+        """The starting design's free values, ``(n_free,)``, SI."""
+        return np.array([getattr(self.start, name) for name in self.free], dtype=float)
+
+    @cached_property
+    def limits(self) -> tuple[tuple[Measure, float, int], ...]:
+        """Every limit as measure, value, sense: +1 for at most, -1 for at least."""
+        assert self.at_most is not None and self.at_least is not None
+        return (
+            *((m, v, 1) for m, v in self.at_most.items()),
+            *((m, v, -1) for m, v in self.at_least.items()),
+        )
+
+    def design(self, x: Any) -> Any:
+        """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
+        columns = (
+            [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
+        )
+        return self.start.replace(**dict(zip(self.free, columns, strict=True)))
+
+    def analyse(self, x: Any) -> Any:
+        """The analysis of the design or population ``x``."""
+        return self.design(x).analyse(self.angles)
+
+    def evaluate(self, x: Any) -> Evaluation:
+        """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
+        x = np.atleast_2d(np.asarray(x, dtype=float))
+        if x.shape[1] != len(self.free):
+            raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
+        analysis = self.analyse(x)
+        f = self._columns([measure(analysis) for measure in self.minimise], len(x))
+        g = self._columns([sense * (m(analysis) - v) / (abs(v) or 1.0) for m, v, sense in self.limits], len(x))
+        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
+
+    @staticmethod
+    def _columns(values: list[Any], p: int) -> np.ndarray:
+        return np.stack([np.broadcast_to(v, p) for v in values], axis=-1) if values else np.zeros((p, 0))
+
+    def weighing(self, weights: Any) -> Study:
+        """The same study with other weights in the objectives that are weighted sums."""
+        changed = (m.with_weights(weights) if isinstance(m, WeightedSum) else m for m in self.minimise)
+        return replace(self, minimise=tuple(changed))
+
+    def replace(self, **changes: Any) -> Study:
+        """The same study with some fields changed."""
+        return replace(self, **changes)
