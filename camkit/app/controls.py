@@ -1,0 +1,178 @@
+"""Controls made from declarations: a row for each quantity, with a slider to drag and a box to type in."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import ipywidgets as w
+import traitlets
+
+from ..quantities import Choice, Quantity, words
+from ..units import in_unit
+
+GREEK = {
+    "psi": "&psi;",
+    "phi": "&phi;",
+    "tau": "&tau;",
+    "rho": "&rho;",
+    "omega": "&omega;",
+    "sigma": "&sigma;",
+    "lambda": "&lambda;",
+    "alpha": "&alpha;",
+    "beta": "&beta;",
+    "theta": "&theta;",
+}
+
+
+def symbol_html(symbol: str) -> str:
+    """``psi_0`` as a reader expects it."""
+    letter, _, index = symbol.partition("_")
+    letter = GREEK.get(letter, letter)
+    return f"<i>{letter}</i><sub>{index}</sub>" if index else f"<i>{letter}</i>"
+
+
+class Knob:
+    """One number: symbol, name, slider, box, unit.
+
+    The slider moves in steps; a number typed into the box counts to its last digit, even outside the slider's range.
+    ``value`` is in SI, exact; the box shows six digits of it.
+    """
+
+    def __init__(self, name: str, declared: Quantity, value: float, changed: Callable[[], None]) -> None:
+        self.declared, self.value, self._changed, self._silent = declared, float(value), changed, False
+        shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
+        self.slider = w.FloatSlider(
+            value=shown,
+            min=min(declared.low, shown),
+            max=max(declared.high, shown),
+            step=step,
+            readout=False,
+            tooltip=declared.meaning,
+            layout=w.Layout(width="auto", min_width="60px", flex="1 1 80px"),
+        )
+        self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="76px"))
+        label = w.HTML(
+            f"<span title='{declared.meaning}'>{symbol_html(declared.symbol)}&ensp;{words(name)}</span>",
+            layout=w.Layout(flex="0 0 172px"),
+        )
+        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(flex="0 0 54px"))
+        self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
+        self.row.add_class("camkit-knob")
+        self.slider.observe(lambda change: self._moved(change.new), "value")
+        self.box.observe(lambda change: self._typed(change.new), "value")
+
+    def set(self, value: float) -> None:
+        """Show ``value`` (SI) without telling anyone."""
+        self.value = float(value)
+        shown = in_unit(self.value, self.declared.unit)
+        self._put(self.box, _six_digits(shown))
+        self._put(self.slider, shown)
+
+    def _put(self, widget: Any, shown: float) -> None:
+        self._silent = True
+        try:
+            widget.value = shown
+        finally:
+            self._silent = False
+
+    def _moved(self, shown: float) -> None:
+        """The slider moved; that the page snaps a typed value to the slider's steps is no move."""
+        if not self._silent and abs(shown - self.value / self.declared.factor) > 0.501 * self.slider.step:
+            self.value = float(f"{shown:.10g}") * self.declared.factor
+            self._put(self.box, _six_digits(shown))
+            self._changed()
+
+    def _typed(self, shown: float) -> None:
+        if not self._silent:
+            self.value = shown * self.declared.factor
+            self._put(self.slider, shown)
+            self._changed()
+
+
+def _six_digits(shown: float) -> float:
+    return float(f"{shown:.6g}")
+
+
+def _decade(width: float) -> int:
+    """The power of ten at or below ``width``."""
+    return int(f"{width:e}".split("e")[1])
+
+
+class Menu:
+    """One choice among named options; ``value`` is the option itself."""
+
+    def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
+        self._changed, self._silent = changed, False
+        self.menu = w.Dropdown(
+            options=[(option.name, option) for option in declared.options], value=value,
+            tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
+        )  # fmt: skip
+        label = w.HTML(f"<span title='{declared.meaning}'>{words(name)}</span>", layout=w.Layout(flex="0 0 172px"))
+        self.row = w.HBox([label, self.menu], layout=w.Layout(align_items="center"))
+        self.row.add_class("camkit-knob")
+        self.menu.observe(self._chosen, "value")
+
+    @property
+    def value(self) -> Any:
+        """The chosen option."""
+        return self.menu.value
+
+    def set(self, value: Any) -> None:
+        """Show ``value`` without telling anyone."""
+        self._silent = True
+        try:
+            self.menu.value = value
+        finally:
+            self._silent = False
+
+    def _chosen(self, _: Any) -> None:
+        if not self._silent:
+            self._changed()
+
+
+def control(name: str, declared: Quantity | Choice, value: Any, changed: Callable[[], None]) -> Knob | Menu:
+    """The control that a declaration asks for."""
+    kind = Menu if isinstance(declared, Choice) else Knob
+    return kind(name, declared, value, changed)  # type: ignore[arg-type]
+
+
+class Download(anywidget.AnyWidget):
+    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``."""
+
+    _esm = Path(__file__).with_name("download.js")
+    description = traitlets.Unicode("").tag(sync=True)
+
+    def __init__(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> None:
+        super().__init__(description=description)
+        self.content = content
+        self.on_msg(lambda *_: self.send({"name": filename, "mime": mime, "text": self.content()}))
+
+
+class Upload(anywidget.AnyWidget):
+    """A button; ``use(text)`` is called with the text of the file that a person chooses."""
+
+    _esm = Path(__file__).with_name("upload.js")
+    description = traitlets.Unicode("").tag(sync=True)
+    accept = traitlets.Unicode(".json").tag(sync=True)
+
+    def __init__(self, description: str, use: Callable[[str], None]) -> None:
+        super().__init__(description=description)
+        self.on_msg(lambda _, message, __: use(message["text"]))
+
+
+def banner() -> w.HTML:
+    """Where a sentence appears when something is impossible; empty otherwise."""
+    box = w.HTML("", layout=w.Layout(display="none"))
+    box.add_class("camkit-banner")
+    return box
+
+
+def tell(box: w.HTML, sentence: str) -> None:
+    """Show ``sentence`` in a banner, or nothing."""
+    safe = re.sub(r"[<>&]", lambda m: {"<": "&lt;", ">": "&gt;", "&": "&amp;"}[m[0]], sentence)
+    box.value = f"<div role='alert'>{safe}</div>" if sentence else ""
+    box.layout.display = "" if sentence else "none"

@@ -1,0 +1,169 @@
+"""`explore`: a design under sliders, its pictures and its measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from .. import export
+from ..plot.picture import View, takes_turn
+from ..quantities import Measure, Quantity, declarations
+from ..units import deg
+from .controls import Download, Knob, Menu, Upload, banner, control, tell
+from .panel import Panel
+from .picture import LivePicture
+
+
+class Explorer(Panel):
+    """Sliders for a design's quantities; pictures and measures follow at once.
+
+    ``design`` is the design that is shown, the last one that could be built.  ``load(design)`` shows another,
+    ``on_change(f)`` calls ``f(design)`` after every change.  What cannot be built shows as a sentence in place
+    of the picture.
+    """
+
+    def __init__(
+        self,
+        design: Any,
+        views: Sequence[View],
+        free: Sequence[str] | None = None,
+        measures: Sequence[Measure] = (),
+        at_most: Mapping[Measure, float] | None = None,
+        at_least: Mapping[Measure, float] | None = None,
+        turn: float = 0.0,
+        **size: Any,
+    ) -> None:
+        self.start = self.design = design
+        self.analysis = design.analyse()
+        self.measures = tuple(measures)
+        self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
+            m: (v, -1) for m, v in (at_least or {}).items()
+        }
+        self._first = [float(m(self.analysis)) for m in self.measures]
+        self._followers: list[Callable[[Any], None]] = []
+        self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", **size)
+        self._banner = banner()
+        self.controls = self._make_controls(free or tuple(declarations(design)))
+        self.turn = self._make_turn(turn) if any(map(takes_turn, views)) else None
+        self._table = w.HTML()
+        super().__init__([self._grid(), self._buttons(), self._banner, self.picture.widget, self._table])
+        self._show()
+
+    def _make_controls(self, free: Sequence[str]) -> dict[str, Knob | Menu]:
+        declared = declarations(self.design)
+        unknown = [name for name in free if name not in declared]
+        if unknown:
+            raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
+        return {name: control(name, declared[name], getattr(self.design, name), self._changed) for name in free}
+
+    def _make_turn(self, turn: float) -> Knob:
+        span = float(np.max(self.analysis.cam_angle)) / deg
+        declared = Quantity("phi", 0, 0, span, "deg", "turns the mechanism", above=None)
+        return Knob("cam angle shown", declared, turn, self._show)
+
+    def _grid(self) -> w.Widget:
+        rows = [c.row for c in self.controls.values()] + ([self.turn.row] if self.turn else [])
+        grid = w.Box(rows)
+        grid.add_class("camkit-grid")
+        return grid
+
+    def _buttons(self) -> w.Widget:
+        reset = w.Button(description="Reset", icon="undo", tooltip="back to the design that the panel began with")
+        reset.on_click(lambda _: self.load(self.start))
+        name = type(self.design).__name__
+        save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
+        table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: export.profile_csv(self.analysis))
+        load = Upload("Load design", self.load_json)
+        has_profile = hasattr(self.analysis, "profile")
+        return w.HBox([reset, save, load, *([table] if has_profile else [])])
+
+    def load_json(self, text: str) -> None:
+        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
+        try:
+            design = export.from_json(text, type(self.design))
+        except ValueError as refusal:
+            tell(self._banner, f"This file cannot be used: {refusal}.")
+        else:
+            self.load(design)
+
+    def load(self, design: Any) -> None:
+        """Show ``design``: every slider moves to its value."""
+        for name, knob in self.controls.items():
+            knob.set(getattr(design, name))
+        self._try(design)
+
+    def on_change(self, act: Callable[[Any], None]) -> None:
+        """Call ``act(design)`` after every change to a design that can be built."""
+        self._followers.append(act)
+
+    def _changed(self) -> None:
+        try:
+            design = self.design.replace(**{name: knob.value for name, knob in self.controls.items()})
+        except ValueError as refusal:
+            self._refuse(str(refusal))
+        else:
+            self._try(design)
+
+    def _try(self, design: Any) -> None:
+        try:
+            analysis = design.analyse()
+        except ValueError as refusal:
+            self._refuse(str(refusal))
+            return
+        self.design, self.analysis = design, analysis
+        self._show()
+        for act in self._followers:
+            act(design)
+
+    def _refuse(self, sentence: str) -> None:
+        """The sentence in place of the picture and the numbers, which would belong to another design."""
+        tell(self._banner, f"This cannot be built: {sentence}.")
+        self.picture.widget.layout.display = self._table.layout.display = "none"
+
+    def _show(self) -> None:
+        tell(self._banner, "")
+        self.picture.widget.layout.display = self._table.layout.display = ""
+        self.picture.show(self.analysis, self.turn.value if self.turn else 0.0)
+        self._table.value = self._table_html()
+
+    def rows(self) -> list[tuple[Measure, float, float]]:
+        """Every measure with its value now and at the start, SI."""
+        return [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
+
+    def _table_html(self) -> str:
+        rows = [self._row_html(*row) for row in self.rows()]
+        half = -(-len(rows) // 2) if len(rows) > 9 else max(len(rows), 1)
+        head = "<tr><th>measure</th><th>now</th><th>start</th><th>change</th><th>limit</th><th></th></tr>"
+        tables = (f"<table>{head}{''.join(rows[i : i + half])}</table>" for i in range(0, len(rows), half))
+        return f"<div class='camkit-tables'>{''.join(tables)}</div>"
+
+    def _row_html(self, measure: Measure, now: float, first: float) -> str:
+        change = f"{100 * (now - first) / abs(first):+.1f} %" if first and np.isfinite([now, first]).all() else ""
+        limit, met = self._verdict(measure, now)
+        cells = (measure.text(now), measure.text(first), change, limit)
+        return f"<tr><td>{measure.name}</td>{''.join(f'<td>{c}</td>' for c in cells)}<td>{met}</td></tr>"
+
+    def _verdict(self, measure: Measure, now: float) -> tuple[str, str]:
+        if measure not in self._limits:
+            return "", ""
+        value, sense = self._limits[measure]
+        met = sense * (now - value) <= 0
+        sign = "&le;" if sense > 0 else "&ge;"
+        return f"{sign} {measure.text(value)}", "met" if met else "<span class='camkit-missed'>not met</span>"
+
+    def summary(self) -> str:
+        """Every measure as it is now."""
+        return "\n".join(f"{m.name}: {m.text(now)}" for m, now, _ in self.rows())
+
+
+def explore(design: Any, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
+    """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
+
+    ``measures`` are listed with their value now, at the start and the change; ``at_most`` and ``at_least`` map
+    measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first.  The result's
+    ``.design`` is a plain design for the next cell.
+    """
+    return Explorer(design, views, free, **options)

@@ -1,0 +1,111 @@
+"""A figure that lives: drawn once, its curves moved in place, sent as an image to the page.
+
+A full drawing takes a few hundred milliseconds, three quarters of them for text.  So while something moves, only
+the curves are drawn, over a stored background (blitting), and a little after the last move everything is
+drawn again with axes that fit.
+"""
+
+from __future__ import annotations
+
+import io
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import numpy as np
+import traitlets
+from matplotlib import rc_context
+from PIL import Image
+
+from ..plot.artists import STYLE, moving
+from ..plot.picture import View, draw, layout, small_png
+
+SETTLE = 0.25
+"""Seconds after the last move until everything is drawn again."""
+
+
+class ImageWidget(anywidget.AnyWidget):
+    """An image on the page; ``on_click(f)`` calls ``f(x, y)`` with shares of its width and height."""
+
+    _esm = Path(__file__).with_name("image.js")
+    _css = ".camkit-image { display: block; width: 100%; height: auto; }"
+    data = traitlets.Bytes(b"").tag(sync=True)
+    mime = traitlets.Unicode("image/png").tag(sync=True)
+    description = traitlets.Unicode("").tag(sync=True)
+
+    def on_click(self, act: Callable[[float, float], None]) -> None:
+        """Call ``act(x, y)`` at every click."""
+        self.on_msg(lambda _, message, __: act(message["x"], message["y"]))
+
+    def put(self, data: bytes, mime: str) -> None:
+        """Show another image."""
+        with self.hold_sync():
+            self.mime, self.data = mime, data
+
+
+class LivePicture:
+    """Views of an analysis in one figure, shown in ``widget``."""
+
+    def __init__(self, views: tuple[View, ...], description: str, **size: Any) -> None:
+        self.views = views
+        self.figure, self.axes = layout(views, **size)
+        self.widget = ImageWidget(description=description)
+        self._lock = threading.RLock()
+        self._background: Any = None
+        self._later: threading.Timer | None = None
+
+    def show(self, analysis: Any, turn: float = 0.0) -> None:
+        """Show another analysis: at once with the axes as they are, and a little later with axes that fit."""
+        with self._lock:
+            draw(analysis, self.axes, self.views, turn)
+            if self._background is None:
+                self.settle()
+            else:
+                self._blit()
+                self.widget.put(self._encoded("JPEG", quality=88, subsampling=0), "image/jpeg")
+                self._settle_later()
+
+    def settle(self) -> None:
+        """Draw everything anew, axes fitted to the curves."""
+        with self._lock:
+            if self._later:
+                self._later.cancel()
+                self._later = None
+            for ax in self.axes:
+                ax.relim()
+                ax.autoscale_view()
+                for artist in moving(ax):
+                    artist.set_animated(True)
+            with rc_context(STYLE):
+                self.figure.canvas.draw()
+            self.figure.set_layout_engine("none")  # the first drawing has laid the axes out; that takes half a second
+            self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]
+            self._blit()
+            self.widget.put(self._encoded("PNG", compress_level=2), "image/png")
+
+    def png(self) -> bytes:
+        """The picture as a PNG file, settled."""
+        with self._lock:
+            if self._later:
+                self.settle()
+            return small_png(self.figure)
+
+    def _settle_later(self) -> None:
+        if self._later:
+            self._later.cancel()
+        self._later = threading.Timer(SETTLE, self.settle)
+        self._later.start()
+
+    def _blit(self) -> None:
+        self.figure.canvas.restore_region(self._background)  # type: ignore[attr-defined]
+        for ax in self.axes:
+            for artist in moving(ax):
+                ax.draw_artist(artist)
+
+    def _encoded(self, kind: str, **options: Any) -> bytes:
+        image = Image.fromarray(np.asarray(self.figure.canvas.buffer_rgba())[..., :3])  # type: ignore[attr-defined]
+        out = io.BytesIO()
+        image.save(out, kind, **options)
+        return out.getvalue()

@@ -1,0 +1,308 @@
+"""`search`: a search in the background, its front, and the choice of one design from it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from .. import export
+from ..decision import CHOOSERS
+from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
+from ..plot.front import ShownFront, pareto, shown_objectives
+from ..quantities import Quantity, declarations, words
+from ..study import Study
+from ..units import in_unit
+from .controls import Download, Upload, banner, symbol_html, tell
+from .explore import Explorer
+from .judge import Judgements
+from .panel import Panel
+from .picture import LivePicture
+
+REPORT = 0.25
+"""Seconds between two reports of a running search."""
+
+MakeStudy = Callable[..., Study]
+
+
+class Bounds:
+    """One row of the search space: whether a quantity is free, and between which bounds."""
+
+    def __init__(self, name: str, declared: Quantity, bounds: tuple[float, float], free: bool) -> None:
+        self.name, self.declared = name, declared
+        narrow = w.Layout(width="84px")
+        self.free = w.Checkbox(value=free, indent=False, layout=w.Layout(width="22px"), tooltip="free to change")
+        self.low, self.high = w.FloatText(layout=narrow), w.FloatText(layout=narrow)
+        self._show(bounds)
+        label = w.HTML(f"{symbol_html(declared.symbol)}&ensp;{words(name)}", layout=w.Layout(flex="1 1 170px"))
+        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(width="44px"))
+        self.row = w.HBox([self.free, label, self.low, self.high, unit], layout=w.Layout(align_items="center"))
+        self.row.add_class("camkit-knob")
+
+    def _show(self, bounds: tuple[float, float]) -> None:
+        """Show ``bounds`` (SI), rounded to what fits; as long as nobody edits them they stay exact."""
+        self._exact = bounds
+        self.low.value, self.high.value = self._shown = [float(f"{in_unit(b, self.declared.unit):.6g}") for b in bounds]
+
+    @property
+    def value(self) -> tuple[float, float]:
+        """The bounds in SI."""
+        if [self.low.value, self.high.value] == self._shown:
+            return self._exact
+        return self.low.value * self.declared.factor, self.high.value * self.declared.factor
+
+    def set(self, bounds: tuple[float, float] | None) -> None:
+        """Show other bounds (SI); ``None``: not free."""
+        self.free.value = bounds is not None
+        if bounds is not None:
+            self._show(bounds)
+
+
+class Search(Panel):
+    """NSGA-II on the design of an `Explorer`, and the choice from its front.
+
+    ``studies`` maps a name in the menu to a function ``make(start, reference=, space=, weights=)`` that gives a
+    `Study`.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
+    generation and keeps the front so far.  Judgements weigh the objectives anew without a new search.
+    """
+
+    def __init__(
+        self,
+        explorer: Explorer,
+        studies: Mapping[str, MakeStudy],
+        space: Mapping[str, tuple[float, float]],
+        free: Sequence[str],
+        criteria: Judgements,
+        importance: Judgements | None = None,
+        population: int = 100,
+        generations: int = 100,
+    ) -> None:
+        self.explorer, self.studies, self.criteria, self.importance = explorer, studies, criteria, importance
+        declared: Any = declarations(explorer.design)
+        self.bounds = {n: Bounds(n, declared[n], b, n in free) for n, b in space.items()}
+        self._make_widgets(population, generations)
+        self.study = self._study()
+        self._x = np.zeros((0, len(self.study.free)))
+        self.front = Front(self.study, self._x, np.zeros((0, len(self.study.minimise))))
+        self.winner: int | None = None
+        self._thread: threading.Thread | None = None
+        self._stop = threading.Event()
+        self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
+        self.picture.widget.on_click(self._clicked)
+        super().__init__([self._body()])
+        for panel in (criteria, importance):
+            if panel:
+                panel.on_change(self._judged)
+        self._show_front()
+
+    def _make_widgets(self, population: int, generations: int) -> None:
+        narrow = w.Layout(width="190px")
+        style = {"description_width": "92px"}
+        self.mode = w.Dropdown(
+            options=list(self.studies), description="problem", layout=w.Layout(width="270px"), style=style
+        )
+        self.population = w.BoundedIntText(population, 4, 1000, description="population", layout=narrow, style=style)
+        self.generations = w.BoundedIntText(
+            generations, 1, 10000, description="generations", layout=narrow, style=style
+        )
+        self.seed = w.BoundedIntText(1, 0, 10**6, description="seed", layout=narrow, style=style)
+        self.run_button = w.Button(description="Optimise", icon="play", button_style="primary")
+        self.stop_button = w.Button(description="Stop", icon="stop", disabled=True)
+        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
+        self.status = w.HTML("not run yet")
+        self.status.add_class("camkit-status")
+        self.rule = w.Dropdown(
+            options=list(CHOOSERS), description="choose by", layout=w.Layout(width="270px"), style=style
+        )
+        self.pick = w.IntSlider(
+            0, 0, 0, description="design", disabled=True, layout=w.Layout(width="430px"), style=style
+        )
+        self.take = w.Button(description="Load the winner", icon="star", disabled=True)
+        self.verdict, self._banner = w.HTML(), banner()
+        self.run_button.on_click(lambda _: self.run())
+        self.stop_button.on_click(lambda _: self.stop())
+        self.take.on_click(lambda _: self.select(self.winner))
+        self.rule.observe(lambda _: self._show_front(), "value")
+        self.pick.observe(lambda change: self.select(change.new), "value")
+
+    def _body(self) -> w.Widget:
+        save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()))
+        settings = w.HBox([self.population, self.generations, self.seed], layout=w.Layout(flex_flow="row wrap"))
+        buttons = w.HBox([self.run_button, self.stop_button, self.progress])
+        rows = [bounds.row for bounds in self.bounds.values()]
+        heading = w.HTML("<b>free quantities and their bounds</b>")
+        left = [
+            self.mode,
+            heading,
+            *rows,
+            settings,
+            buttons,
+            self.status,
+            self._banner,
+            w.HBox([save, Upload("Load study", self.load_json)]),
+        ]
+        right = [self.picture.widget, self.pick, w.HBox([self.rule, self.take]), self.verdict]
+        return w.HBox(
+            [w.VBox(left, layout=w.Layout(flex="1 1 430px")), w.VBox(right, layout=w.Layout(flex="1 1 480px"))],
+            layout=w.Layout(flex_flow="row wrap"),
+        )
+
+    def _study(self) -> Study:
+        space = {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value}
+        make = self.studies[self.mode.value]
+        if not space:
+            raise ValueError("no quantity is free; tick one or more")
+        return make(self.explorer.design, reference=self.explorer.start, space=space, weights=self.criteria.weights)
+
+    def run(self) -> None:
+        """Start the search; returns at once."""
+        if self._thread and self._thread.is_alive():
+            return
+        try:
+            self.study = self._study()
+        except ValueError as refusal:
+            tell(self._banner, f"This cannot be searched: {refusal}.")
+            return
+        tell(self._banner, "")
+        self._stop.clear()
+        self.run_button.disabled, self.stop_button.disabled = True, False
+        self.progress.max, self.progress.value = self.generations.value, 0
+        self._thread = threading.Thread(target=self._search)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop after the running generation; the front so far stays."""
+        self._stop.set()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Until the search has ended."""
+        if self._thread:
+            self._thread.join(seconds)
+
+    def _search(self) -> None:
+        try:
+            reference = reference_point(self.study)
+            reported = 0.0
+            for generation in nsga2_generations(
+                self.study, self.population.value, self.generations.value, self.seed.value
+            ):
+                gone = not threading.main_thread().is_alive()
+                last = generation.number == generation.of or self._stop.is_set() or gone
+                if last or time.monotonic() - reported > REPORT:
+                    self._report(generation, reference, last)
+                    reported = time.monotonic()
+                if last:
+                    break
+        except Exception as error:  # shown to the user: a thread has no other way to speak
+            tell(self._banner, f"The search ended early: {error}.")
+        finally:
+            self.run_button.disabled, self.stop_button.disabled = False, True
+
+    def _report(self, generation: Generation, reference: Any, last: bool) -> None:
+        self._x = generation.front.x
+        self.front = generation.front
+        self.progress.value = generation.number
+        stopped = last and generation.number < generation.of
+        self.status.value = (
+            f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
+            f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
+            f"hypervolume {self.front.hypervolume(reference):.6g}"
+        )
+        tell(self._banner, self.front.message if last else "")
+        self._show_front()
+
+    def _judged(self) -> None:
+        """Weigh the same designs anew."""
+        self.study = self.study.weighing(self.criteria.weights)
+        self.front = Front(self.study, self._x, self.front.f).judged_by(self.study)
+        self._show_front()
+
+    def _show_front(self) -> None:
+        weights = self.importance.weights if self.importance else None
+        self.winner = CHOOSERS[self.rule.value](self.front, weights) if len(self.front) else None
+        self.pick.max, self.pick.disabled = max(len(self.front) - 1, 0), not len(self.front)
+        self.take.disabled = self.winner is None
+        self.verdict.value = self._verdict()
+        analysis = self.explorer.start.analyse(self.study.angles)
+        start = np.array([measure(analysis) for measure in self.study.minimise])
+        self.picture.show(ShownFront(self.front, self._selected(), self.winner, start))
+
+    def _selected(self) -> int | None:
+        """The front's design that is in the sliders, if one is."""
+        now = [getattr(self.explorer.design, name) for name in self.study.free]
+        same = np.isclose(self.front.x, now, rtol=1e-9, atol=0).all(-1) if len(self.front) else np.zeros(0, bool)
+        return int(np.argmax(same)) if same.any() else None
+
+    def _verdict(self) -> str:
+        if self.winner is None:
+            return self.front.message
+        x, f = self.front.x[self.winner], self.front.f[self.winner]
+        declared: Any = declarations(self.study.start)
+        free = ", ".join(f"{words(n)} {declared[n].text(v)}" for n, v in zip(self.study.free, x, strict=True))
+        goals = ", ".join(f"{m.name} {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
+        return f"<b>winner: design {self.winner}</b> of 0..{len(self.front) - 1}: {goals}<br>{free}"
+
+    def select(self, index: int | None) -> None:
+        """Load one design of the front into the sliders."""
+        if index is None or index >= len(self.front):
+            return
+        self.explorer.load(self.front[index])
+        if self.pick.value != index:
+            self.pick.value = index
+        self._show_front()
+
+    def _clicked(self, x: float, y: float) -> None:
+        if not len(self.front):
+            return
+        width, height = self.picture.figure.canvas.get_width_height()
+        points = self.picture.axes[0].transData.transform(shown_objectives(self.front).T)
+        self.select(int(np.argmin(np.hypot(*(points - (x * width, (1 - y) * height)).T))))
+
+    def work(self) -> export.Work:
+        """Everything on the page, to be saved."""
+        judgements = {"criteria": self.criteria.upper}
+        if self.importance:
+            judgements["importance"] = self.importance.upper
+        search = {"population": self.population.value, "generations": self.generations.value, "seed": self.seed.value}
+        return export.Work(self.study, self.explorer.design, judgements, search, self.front.x)
+
+    def load(self, work: export.Work) -> None:
+        """Show a saved study: judgements, bounds, front, and the design in the sliders."""
+        self.study, self._x = work.study, np.asarray(work.x)
+        self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else self.front
+        for name, bounds in self.bounds.items():
+            bounds.set(work.study.free.get(name))
+        for name, value in work.search.items():
+            getattr(self, name).value = value
+        self.criteria.load(work.judgements["criteria"])
+        if self.importance and "importance" in work.judgements:
+            self.importance.load(work.judgements["importance"])
+        self.explorer.load(work.design)
+        self.status.value = f"loaded: {len(self.front)} designs on the front"
+        self._show_front()
+
+    def load_json(self, text: str) -> None:
+        """Show the study that a saved file holds; a file that cannot be used is refused in a sentence."""
+        try:
+            self.load(export.from_json(text, export.Work))
+        except (ValueError, KeyError) as refusal:
+            tell(self._banner, f"This file cannot be used: {refusal}.")
+        else:
+            tell(self._banner, "")
+
+    def summary(self) -> str:
+        """The front's ends and the winner."""
+        if self.winner is None:
+            return f"no front yet; free: {', '.join(map(words, self.study.free))}"
+        f = self.front.f[self.winner]
+        goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
+        return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def search(explorer: Explorer, studies: Mapping[str, MakeStudy], **options: Any) -> Search:
+    """A panel that searches around the design in ``explorer`` and helps to choose from the front (see `Search`)."""
+    return Search(explorer, studies, **options)

@@ -1,0 +1,118 @@
+"""Curves that can be drawn once and moved afterwards.
+
+Each is known by a key: the first call draws it, every later call with the same key on the same axes moves it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+INK = "#1f2933"
+GREY = "#7b8794"
+PALE = "#e4e7eb"
+BLUE = "#0072B2"
+ORANGE = "#E69F00"
+GREEN = "#009E73"
+SKY = "#56B4E9"
+PURPLE = "#CC79A7"
+WARNING = "#D55E00"
+COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
+"""Okabe and Ito's colour-blind-safe palette; vermilion is kept for warnings."""
+
+STYLE: Any = {
+    "font.size": 11,
+    "font.family": "DejaVu Sans",
+    "axes.titlesize": 11.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.titlecolor": INK,
+    "axes.labelsize": 11,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": GREY,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": PALE,
+    "grid.linewidth": 0.8,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.labelsize": 10,
+    "ytick.labelsize": 10,
+    "legend.fontsize": 9.5,
+    "legend.frameon": False,
+    "legend.handlelength": 1.2,
+    "lines.linewidth": 1.9,
+    "figure.facecolor": "white",
+}
+"""Matplotlib settings of every picture; ``matplotlib.rc_context(STYLE)`` around one's own."""
+
+
+def _find(ax: Axes, key: str) -> Any:
+    return next((artist for artist in (*ax.lines, *ax.patches, *ax.texts) if artist.get_gid() == key), None)
+
+
+def moving(ax: Axes) -> list[Any]:
+    """Everything on ``ax`` that was drawn with a key, lowest first."""
+    found = [artist for artist in (*ax.patches, *ax.lines, *ax.texts) if artist.get_gid()]
+    return sorted(found, key=lambda artist: artist.get_zorder())
+
+
+def new(ax: Axes) -> bool:
+    """Whether nothing has been drawn on ``ax`` yet, so that labels and bands are still to come."""
+    return not moving(ax)
+
+
+def line(ax: Axes, key: str, x: Any, y: Any, **style: Any) -> Line2D:
+    """A curve known as ``key``."""
+    found = _find(ax, key)
+    if found is None:
+        (found,) = ax.plot(x, y, gid=key, **style)
+    else:
+        found.set_data(x, y)
+    return found
+
+
+def area(ax: Axes, key: str, points: Any, **style: Any) -> Polygon:
+    """A filled polygon known as ``key``; ``points`` are ``(2, n)``."""
+    found = _find(ax, key)
+    if found is None:
+        found = ax.add_patch(Polygon(np.transpose(points), closed=True, gid=key, **style))
+    else:
+        found.set_xy(np.transpose(points))
+    return found
+
+
+def text(ax: Axes, key: str, x: float, y: float, words: str, **style: Any) -> Any:
+    """A text known as ``key``."""
+    found = _find(ax, key)
+    if found is None:
+        return ax.text(x, y, words, gid=key, **style)
+    found.set_position((x, y))
+    found.set_text(words)
+    return found
+
+
+def frame(ax: Axes, title: str, xlabel: str, ylabel: str) -> None:
+    """Title and axis labels, and few ticks: text takes three quarters of a drawing's time."""
+    ax.locator_params(nbins=5)
+    ax.set_title(title)
+    ax.set_xlabel(xlabel)
+    ax.set_ylabel(ylabel)
+
+
+def beside_title(ax: Axes, handles: Any = None) -> None:
+    """The legend in one row above the axes, where no curve can meet it."""
+    handles = handles or ax.get_legend_handles_labels()[0]
+    place: Any = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.99), "borderaxespad": 0.1}
+    ax.legend(handles=handles, ncols=len(handles), columnspacing=0.9, handletextpad=0.4, **place)
+
+
+def gaps(values: Any, where: Any) -> np.ndarray:
+    """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
+    return np.where(where, values, np.nan)

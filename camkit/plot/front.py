@@ -1,0 +1,80 @@
+"""Views of a decision: the Pareto front, the weights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..units import factor
+from .artists import BLUE, GREY, INK, WARNING, line, new, text
+
+
+@dataclass(frozen=True)
+class ShownFront:
+    """A front with what is marked on it: indices of the design in the sliders and of the winner."""
+
+    front: Any
+    selected: int | None = None
+    winner: int | None = None
+    start: Any = None
+    """Objectives of the starting design, ``(k,)``."""
+
+
+def shown_objectives(front: Any) -> np.ndarray:
+    """The first two objectives as a person reads them: in their units, large is large; ``(2, p)``."""
+    pairs = zip(front.study.minimise[:2], np.transpose(front.f)[:2], strict=True)
+    return np.array([m.sign * f / factor(m.unit) for m, f in pairs]).reshape(2, -1)
+
+
+def _better(measure: Any) -> str:
+    return "larger is better" if measure.sign < 0 else "smaller is better"
+
+
+def pareto(shown: ShownFront, ax: Axes) -> Axes:
+    """The front of the first two objectives, the start, the design in the sliders and the winner."""
+    first, objectives = new(ax), shown.front.study.minimise
+    x, y = shown_objectives(shown.front)
+    line(ax, "front", x, y, linestyle="none", marker="o", markersize=6, color=BLUE, alpha=0.75, label="front")
+    begin = [] if shown.start is None else [m.sign * v / factor(m.unit) for m, v in zip(objectives, shown.start)][:2]  # noqa: B905
+    line(ax, "start", begin[:1], begin[1:], linestyle="none", marker="s", markersize=8, color=GREY, label="start")
+    for key, index, style in (
+        ("in the sliders", shown.selected, {"marker": "o", "markersize": 14, "markeredgecolor": INK}),
+        ("winner", shown.winner, {"marker": "*", "markersize": 19, "markeredgecolor": WARNING}),
+    ):
+        at = slice(0, 0) if index is None else slice(index, index + 1)
+        line(ax, key, x[at], y[at], linestyle="none", markerfacecolor="none", markeredgewidth=2, label=key, **style)
+    if first:
+        ax.set_title("Pareto front")
+        ax.set_xlabel(f"{objectives[0].label}\n({_better(objectives[0])})")
+        ax.set_ylabel(f"{objectives[1].label}\n({_better(objectives[1])})")
+        ax.legend(loc="best")
+    return ax
+
+
+def weight_bars(judged: tuple[tuple[str, ...], Any], ax: Axes) -> Axes:
+    """Weights of the criteria as bars, from ``(names, judgement)``; the consistency ratio above them."""
+    names, judgement = judged
+    first = new(ax)
+    for i, (name, weight) in enumerate(zip(names, judgement.weights, strict=True)):
+        line(ax, name, [0, 100 * weight], [-i, -i], color=BLUE, linewidth=16, solid_capstyle="butt")
+        text(ax, f"{name} value", 100 * weight + 1.5, -i, f"{100 * weight:.1f} %", va="center", color=INK)
+    ratio = judgement.consistency_ratio
+    line(
+        ax,
+        "inconsistent",
+        [100] if ratio > 0.1 else [],
+        [0.62] if ratio > 0.1 else [],
+        color=WARNING,
+        marker="o",
+        clip_on=False,
+    )
+    text(ax, "ratio", 98, 0.62, f"consistency ratio {ratio:.3f}", ha="right", va="center", color=INK)
+    if first:
+        ax.set_title("Weights")
+        ax.set_yticks([-i for i in range(len(names))], names)
+        ax.set(xlim=(0, 104), ylim=(0.5 - len(names), 0.9), xlabel="weight  [%]")
+        ax.grid(axis="y", visible=False)
+    return ax
