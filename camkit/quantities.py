@@ -151,6 +151,11 @@ class Design:
             )
         return dataclasses.replace(self, **changes)  # type: ignore[type-var]
 
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        """In a notebook's plain text: declared numbers in their units, six digits."""
+        shown = (f"{words(name)} {_shown(getattr(self, name), d)}" for name, d in declarations(self).items())
+        printer.text(f"{type(self).__name__}: {', '.join(shown)}")
+
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td style='text-align:left'>{words(name)}</td><td><i>{declared.symbol}</i></td>"

@@ -72,6 +72,7 @@ class Explorer(Panel):
 
     def _buttons(self) -> w.Widget:
         reset = w.Button(description="Reset", icon="undo", tooltip="back to the design that the panel began with")
+        reset.layout.width = "auto"
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
         save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))

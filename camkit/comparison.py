@@ -1,0 +1,86 @@
+"""Printed against computed: a published table beside what the package gives, with a verdict for each number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+AGREES = 0.1
+"""A gap of at most this (percent) that rounded inputs explain still counts as agreement."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One printed number and its recomputation; ``printed`` is text, so that its last digit is known."""
+
+    name: str
+    unit: str
+    printed: str
+    computed: float
+    remark: str = ""
+
+    @property
+    def step(self) -> float:
+        """One unit of the last printed digit."""
+        _, _, decimals = self.printed.partition(".")
+        return 10.0 ** -len(decimals)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the print is reproduced to its last digit, agrees to 0.1 %, or by how much it is missed."""
+        gap = abs(self.computed - float(self.printed))
+        if gap <= 0.5 * self.step * (1 + 1e-9):
+            return "reproduced"
+        if gap <= 1.5 * self.step:
+            return "reproduced but for the last digit"
+        percent = 100 * (self.computed / float(self.printed) - 1)
+        return f"agrees to {abs(percent):.2g} %" if abs(percent) <= AGREES else f"off by {percent:+.3g} %"
+
+    @property
+    def reproduced(self) -> bool:
+        """Whether the verdict is good."""
+        return not self.verdict.startswith("off")
+
+    def cells(self) -> tuple[str, ...]:
+        """The row as text, the computed number with one digit more than the print."""
+        digits = max(int(np.round(-np.log10(self.step))), 0) + 1
+        return self.name, self.unit, self.printed, f"{self.computed:.{digits}f}", self.verdict, self.remark
+
+
+HEAD = ("quantity", "unit", "printed", "computed", "verdict", "remark")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A printed table beside its recomputation; shows as a table in a notebook, as text elsewhere.
+
+    >>> print(Comparison("Areas", "a book", [Row("disk of radius 1", "m^2", "3.14", 3.14159)]))
+    Areas (a book)
+    disk of radius 1 [m^2]: printed 3.14, computed 3.142: reproduced
+    """
+
+    title: str
+    source: str
+    rows: Sequence[Row]
+
+    def __repr__(self) -> str:
+        lines = (
+            f"{name}{f' [{unit}]' if unit else ''}: printed {printed}, computed {computed}: {verdict}"
+            for name, unit, printed, computed, verdict, _ in (row.cells() for row in self.rows)
+        )
+        return "\n".join([f"{self.title} ({self.source})", *lines])
+
+    def _repr_html_(self) -> str:
+        align = "style='text-align:left'"
+        head = "".join(f"<th {align}>{word}</th>" for word in HEAD)
+        rows = "".join(
+            f"<tr>{''.join(f'<td {align}>{self._marked(cell, row)}</td>' for cell in row.cells())}</tr>"
+            for row in self.rows
+        )
+        return f"<table><caption><b>{self.title}</b> ({self.source})</caption><tr>{head}</tr>{rows}</table>"
+
+    @staticmethod
+    def _marked(cell: str, row: Row) -> str:
+        return f"<b>{cell}</b>" if cell == row.verdict and not row.reproduced else cell
