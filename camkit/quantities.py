@@ -130,16 +130,28 @@ class Design:
 
     def __post_init__(self) -> None:
         for name, declared in declarations(self).items():
-            value = getattr(self, name)
-            if isinstance(declared, Choice):
-                continue
-            if not isinstance(value, (int, float, np.ndarray, np.number)) or isinstance(value, bool):
-                raise ValueError(f"the {words(name)} {declared.symbol} is {value!r}; it must be {declared.possible}")
-            if fails(declared.allows(value)):
-                raise ValueError(
-                    f"the {words(name)} {declared.symbol} ({declared.meaning}) is {declared.text(float(value))}; "
-                    f"it must be {declared.possible}"
-                )
+            if isinstance(declared, Quantity):
+                self._check(name, declared, getattr(self, name))
+
+    def _check(self, name: str, declared: Quantity, value: Any) -> None:
+        """Refuse one number that cannot be built; drop the members of a population that cannot."""
+        subject = f"the {words(name)}" if name == declared.symbol else f"the {words(name)} {declared.symbol}"
+        if not isinstance(value, (int, float, np.ndarray, np.number)) or isinstance(value, bool):
+            raise ValueError(f"{subject} is {value!r}; it must be {declared.possible}")
+        ok = declared.allows(value)
+        if fails(ok):
+            raise ValueError(
+                f"{subject} ({declared.meaning}) is {declared.text(float(value))}; it must be {declared.possible}"
+            )
+        self.keep(ok)
+
+    def keep(self, ok: Any) -> None:
+        """Members of a population for which ``ok`` does not hold become ``nan`` in every number."""
+        if np.all(ok):
+            return
+        for name, declared in declarations(self).items():
+            if isinstance(declared, Quantity):
+                object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 
     def replace(self, **changes: Any) -> Any:
         """The same design with some fields changed (and checked again)."""

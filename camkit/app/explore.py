@@ -9,12 +9,17 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..plot.picture import View, takes_turn
+from ..plot.picture import View, positions_of
 from ..quantities import Measure, Quantity, declarations
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tell
 from .panel import Panel
 from .picture import LivePicture
+
+VIEWPOINT = {
+    "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
+    "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
+}
 
 
 class Explorer(Panel):
@@ -33,8 +38,9 @@ class Explorer(Panel):
         measures: Sequence[Measure] = (),
         at_most: Mapping[Measure, float] | None = None,
         at_least: Mapping[Measure, float] | None = None,
-        turn: float = 0.0,
-        **size: Any,
+        width: float = 12.6,
+        height: float = 7.0,
+        **position: float,
     ) -> None:
         self.start = self.design = design
         self.analysis = design.analyse()
@@ -44,10 +50,11 @@ class Explorer(Panel):
         }
         self._first = [float(m(self.analysis)) for m in self.measures]
         self._followers: list[Callable[[Any], None]] = []
-        self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", **size)
+        self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", width=width, height=height)
         self._banner = banner()
         self.controls = self._make_controls(free or tuple(declarations(design)))
-        self.turn = self._make_turn(turn) if any(map(takes_turn, views)) else None
+        wanted = dict.fromkeys(name for view in views for name in positions_of(view))
+        self.positions = {name: self._position(name, position.get(name)) for name in wanted}
         self._table = w.HTML()
         super().__init__([self._grid(), self._buttons(), self._banner, self.picture.widget, self._table])
         self._show()
@@ -59,13 +66,18 @@ class Explorer(Panel):
             raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
         return {name: control(name, declared[name], getattr(self.design, name), self._changed) for name in free}
 
-    def _make_turn(self, turn: float) -> Knob:
-        span = float(np.max(self.analysis.cam_angle)) / deg
-        declared = Quantity("phi", 0, 0, span, "deg", "turns the mechanism", above=None)
-        return Knob("cam angle shown", declared, turn, self._show)
+    def _position(self, name: str, value: float | None) -> Knob:
+        """The control that turns the mechanism or the view of it."""
+        if name == "turn":
+            angle = next(a for a in ("cam_angle", "crank_angle") if hasattr(self.analysis, a))
+            low, high = (float(f(getattr(self.analysis, angle))) / deg for f in (np.min, np.max))
+            declared = Quantity("phi", low, low, high, "deg", "turns the mechanism", above=None)
+            return Knob(f"{angle}_shown", declared, declared.low * deg if value is None else value, self._show)
+        declared = VIEWPOINT[name]
+        return Knob(name, declared, declared.default * deg if value is None else value, self._show)
 
     def _grid(self) -> w.Widget:
-        rows = [c.row for c in self.controls.values()] + ([self.turn.row] if self.turn else [])
+        rows = [c.row for c in (*self.controls.values(), *self.positions.values())]
         grid = w.Box(rows)
         grid.add_class("camkit-grid")
         return grid
@@ -127,7 +139,7 @@ class Explorer(Panel):
     def _show(self) -> None:
         tell(self._banner, "")
         self.picture.widget.layout.display = self._table.layout.display = ""
-        self.picture.show(self.analysis, self.turn.value if self.turn else 0.0)
+        self.picture.show(self.analysis, **{name: knob.value for name, knob in self.positions.items()})
         self._table.value = self._table_html()
 
     def rows(self) -> list[tuple[Measure, float, float]]:
@@ -164,7 +176,7 @@ def explore(design: Any, *views: View, free: Sequence[str] | None = None, **opti
     """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
 
     ``measures`` are listed with their value now, at the start and the change; ``at_most`` and ``at_least`` map
-    measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first.  The result's
-    ``.design`` is a plain design for the next cell.
+    measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first, ``azimuth`` and
+    ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the next cell.
     """
     return Explorer(design, views, free, **options)

@@ -56,10 +56,10 @@ class LivePicture:
         self._background: Any = None
         self._later: threading.Timer | None = None
 
-    def show(self, analysis: Any, turn: float = 0.0) -> None:
+    def show(self, analysis: Any, **position: float) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit."""
         with self._lock:
-            draw(analysis, self.axes, self.views, turn)
+            draw(analysis, self.axes, self.views, **position)
             if self._background is None:
                 self.settle()
             else:

@@ -79,17 +79,20 @@ class DoorHandleCam(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fails(self.relief_cam_angle < self.handle_angle):
+        shares = self.relief_cam_angle < self.handle_angle
+        if fails(shares):
             raise ValueError(
                 f"the relief cam angle is {self.relief_cam_angle / deg:.4g} deg of {self.handle_angle / deg:.4g} deg "
                 "handle angle; it must leave some for the lift crank"
             )
-        if fails(self.handle_angle + self.lift_cam_angle <= 2 * np.pi):
+        fits = self.handle_angle + self.lift_cam_angle <= 2 * np.pi
+        if fails(fits):
             raise ValueError(
                 "relief curve, transition arc and lift curve need "
                 f"{(self.handle_angle + self.lift_cam_angle) / deg:.4g} deg of the cam; there are 360 deg"
             )
-        if fails(np.isfinite(self._relief_rest_angle)):
+        reaches = np.isfinite(self._relief_rest_angle)
+        if fails(reaches):
             low = abs(self.relief_centre_distance - self.relief_arm) / mm
             high = (self.relief_centre_distance + self.relief_arm) / mm
             raise ValueError(
@@ -97,6 +100,7 @@ class DoorHandleCam(Design):
                 f"an arm of {self.relief_arm / mm:.4g} mm at {self.relief_centre_distance / mm:.4g} mm reaches "
                 f"{low:.4g} to {high:.4g} mm"
             )
+        self.keep(shares & fits & reaches)
 
     @property
     def lift_cam_angle(self) -> Any:
@@ -196,7 +200,7 @@ class DoorHandleCam(Design):
         k = n // 3
         before = np.linspace(0, 1, k) * self.relief_cam_angle * (1 - 1e-9)
         after = self.relief_cam_angle + np.linspace(0, 1, n - k) * self.lift_cam_angle
-        return np.concatenate([before, after], axis=-1), k
+        return _behind(before, after), k
 
 
 @dataclass(frozen=True)
@@ -247,8 +251,9 @@ class DoorHandleAnalysis:
 
         The transition arc is what the relief roller runs over while its crank dwells.
         """
-        relief = self.from_relief(getattr(self.relief, name))
-        return np.concatenate([relief, getattr(self.lift, name)[..., self.k :]], axis=-1)
+        return _behind(
+            self.from_relief(getattr(self.relief, name)), getattr(self.lift, name)[..., self.k :], points=True
+        )
 
     @cached_property
     def stretch(self) -> np.ndarray:
@@ -259,7 +264,7 @@ class DoorHandleAnalysis:
     @property
     def profile_angle(self) -> np.ndarray:
         """The handle angle at which a roller touches each point of the groove, rad."""
-        return np.concatenate([self.cam_angle, self.cam_angle[..., self.k :]], axis=-1)
+        return _behind(self.cam_angle, self.cam_angle[..., self.k :])
 
     @cached_property
     def pitch(self) -> np.ndarray:
@@ -277,7 +282,7 @@ class DoorHandleAnalysis:
         return self._joined("outer_profile")
 
     def _along(self, name: str) -> np.ndarray:
-        return np.concatenate([getattr(self.relief, name), getattr(self.lift, name)[..., self.k :]], axis=-1)
+        return _behind(getattr(self.relief, name), getattr(self.lift, name)[..., self.k :])
 
     @cached_property
     def curvature(self) -> np.ndarray:
@@ -293,6 +298,14 @@ class DoorHandleAnalysis:
     def outer_undercut(self) -> np.ndarray:
         """Where the outer flank of the groove is undercut."""
         return self._along("outer_undercut")
+
+
+def _behind(first: np.ndarray, second: np.ndarray, points: bool = False) -> np.ndarray:
+    """Two stretches in one array, also where only one of them has a population axis."""
+    if points:
+        return np.stack([_behind(a, b) for a, b in zip(first, second, strict=True)])
+    lead = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
+    return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in (first, second)], axis=-1)
 
 
 PAPER_JUDGEMENTS = ((1, 5, 5), (1 / 5, 1, 1), (1 / 5, 1, 1))
@@ -312,6 +325,9 @@ EXPANDED_SPACE = PAPER_SPACE | {
     "roller_radius": (3 * mm, 6 * mm),
 }
 """What the paper leaves for later: centre distances, relief motion angle and roller radius are free too."""
+
+STUDY_ANGLES = 361
+"""Handle angles of an analysis within a search."""
 
 CURVE_TABLE = tuple(part(measure, name) for name in BOTH for measure in CURVE)
 """Every measure of both curves, for a table."""
@@ -347,7 +363,7 @@ def door_handle_study(
     start = start or DoorHandleCam()
     of = WORSE_CURVE if whole else LIFT_CURVE
     efforts = [of[steepest], of[peak_force], of[peak_torque]]
-    analysis = (reference or start).analyse()
+    analysis = (reference or start).analyse(STUDY_ANGLES)
     effort = weighted("effort", dict(zip(efforts, weights, strict=True)), [float(m(analysis)) for m in efforts])
     groove = {of[undercut_margin]: 0.1} if whole else {}
     return Study(
@@ -355,5 +371,6 @@ def door_handle_study(
         free=space or PAPER_SPACE,
         minimise=(effort, -of[least_convex_radius]),
         at_most={of[steepest]: 45 * deg},
+        angles=STUDY_ANGLES,
         at_least={of[base_radius]: 30 * mm, of[least_convex_radius]: 7 * mm, **groove},
     )

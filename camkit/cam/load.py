@@ -114,7 +114,8 @@ class Friction(Design):
         without friction this is 1.
         """
         c, r = contact, contact.roller_radius
-        rolling = np.arcsin(np.clip(self.roller_pin / np.maximum(r, 1e-300), 0, 1))
+        share = np.divide(self.roller_pin, r, out=np.ones_like(1.0 * r), where=np.greater(r, 0))  # a knife edge slides
+        rolling = np.arcsin(np.clip(share, 0, 1))
         lam = np.minimum(np.arctan(self.coefficient), rolling)
         push = np.where(c.velocity < 0, -1.0, 1.0)
         arm = c.arm_length * np.cos(c.alpha + c.sense * lam) + c.rotation * r * np.sin(lam) - self.arm_pivot

@@ -6,6 +6,7 @@ Each takes an analysis with a ``cam_angle`` axis last, so it serves one design a
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,7 @@ def work_ratio(analysis: Any) -> Any:
     power_in = np.divide(v, eta, out=np.zeros_like(v * eta), where=moving)
     jammed = ((v > 0) & (eta <= 0)).any(-1)
     ratio = np.trapezoid(v, analysis.cam_angle, axis=-1) / np.trapezoid(power_in, analysis.cam_angle, axis=-1)
-    return np.where(jammed, 0.0, ratio)
+    return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
 steepest = Measure("steepest pressure angle", "deg", lambda a: abs(a.pressure_angle).max(-1))
@@ -72,5 +73,5 @@ def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Any] = np.
     return Measure(
         f"{measure.name}, worse curve",
         measure.unit,
-        lambda a: of.reduce([measure(getattr(a, name)) for name in names]),  # type: ignore[attr-defined]
+        lambda a: reduce(of, [measure(getattr(a, name)) for name in names]),  # type: ignore[attr-defined]
     )

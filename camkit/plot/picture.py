@@ -52,20 +52,25 @@ def layout(
     return figure, axes
 
 
-def takes_turn(view: View) -> bool:
-    """Whether a view shows the mechanism at a position."""
-    return "turn" in inspect.signature(view).parameters
+POSITIONS = ("turn", "azimuth", "elevation")
+"""What a view may ask for beside the analysis: where the mechanism stands, from where it is seen (rad)."""
 
 
-def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], turn: float = 0.0) -> None:
+def positions_of(view: View) -> tuple[str, ...]:
+    """Which of `POSITIONS` a view takes."""
+    takes = inspect.signature(view).parameters
+    return tuple(name for name in POSITIONS if name in takes)
+
+
+def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **position: float) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next."""
     with rc_context(STYLE):
         for view, ax in zip(views, axes, strict=True):
-            view(analysis, ax, turn=turn) if takes_turn(view) else view(analysis, ax)
+            view(analysis, ax, **{name: position[name] for name in positions_of(view) if name in position})
 
 
-def picture(shown: Any, *views: View, turn: float = 0.0, **size: Any) -> Picture:
+def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, **position: float) -> Picture:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take."""
-    figure, axes = layout(views, **size)
-    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, turn)
+    figure, axes = layout(views, width, height)
+    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **position)
     return figure
