@@ -65,8 +65,9 @@ class Bounds:
 class Search(Panel):
     """NSGA-II on the design of an `Explorer`, and the choice from its front.
 
-    ``studies`` maps a name in the menu to a function ``make(start, reference=, space=, weights=)`` that gives a
-    `Study`.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
+    ``studies`` maps a name in the menu to a function ``make(start, reference=, space=)`` that gives a `Study`; it
+    takes ``weights=`` as well if there are ``criteria`` to judge.  ``importance`` judges the objectives among each
+    other.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
     generation and keeps the front so far.  Judgements weigh the objectives anew without a new search.
     """
 
@@ -76,7 +77,7 @@ class Search(Panel):
         studies: Mapping[str, MakeStudy],
         space: Mapping[str, tuple[float, float]],
         free: Sequence[str],
-        criteria: Judgements,
+        criteria: Judgements | None = None,
         importance: Judgements | None = None,
         population: int = 100,
         generations: int = 100,
@@ -94,9 +95,8 @@ class Search(Panel):
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(self._clicked)
         super().__init__([self._body()])
-        for panel in (criteria, importance):
-            if panel:
-                panel.on_change(self._judged)
+        for panel in self._judges().values():
+            panel.on_change(self._judged)
         self._show_front()
 
     def _make_widgets(self, population: int, generations: int) -> None:
@@ -156,7 +156,8 @@ class Search(Panel):
         make = self.studies[self.mode.value]
         if not space:
             raise ValueError("no quantity is free; tick one or more")
-        return make(self.explorer.design, reference=self.explorer.start, space=space, weights=self.criteria.weights)
+        weights = {"weights": self.criteria.weights} if self.criteria else {}
+        return make(self.explorer.design, reference=self.explorer.start, space=space, **weights)
 
     def run(self) -> None:
         """Start the search; returns at once."""
@@ -217,7 +218,8 @@ class Search(Panel):
 
     def _judged(self) -> None:
         """Weigh the same designs anew."""
-        self.study = self.study.weighing(self.criteria.weights)
+        if self.criteria:
+            self.study = self.study.weighing(self.criteria.weights)
         self.front = Front(self.study, self._x, self.front.f).judged_by(self.study)
         self._show_front()
 
@@ -262,11 +264,14 @@ class Search(Panel):
         points = self.picture.axes[0].transData.transform(shown_objectives(self.front).T)
         self.select(int(np.argmin(np.hypot(*(points - (x * width, (1 - y) * height)).T))))
 
+    def _judges(self) -> dict[str, Judgements]:
+        """The judgement panels that there are, by name."""
+        panels = {"criteria": self.criteria, "importance": self.importance}
+        return {name: panel for name, panel in panels.items() if panel}
+
     def work(self) -> export.Work:
         """Everything on the page, to be saved."""
-        judgements = {"criteria": self.criteria.upper}
-        if self.importance:
-            judgements["importance"] = self.importance.upper
+        judgements = {name: panel.upper for name, panel in self._judges().items()}
         search = {"population": self.population.value, "generations": self.generations.value, "seed": self.seed.value}
         return export.Work(self.study, self.explorer.design, judgements, search, self.front.x)
 
@@ -278,9 +283,9 @@ class Search(Panel):
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():
             getattr(self, name).value = value
-        self.criteria.load(work.judgements["criteria"])
-        if self.importance and "importance" in work.judgements:
-            self.importance.load(work.judgements["importance"])
+        for name, panel in self._judges().items():
+            if name in work.judgements:
+                panel.load(work.judgements[name])
         self.explorer.load(work.design)
         self.status.value = f"loaded: {len(self.front)} designs on the front"
         self._show_front()
