@@ -75,8 +75,8 @@ class Study:
     declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
     ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.
 
-    Raises ``ValueError`` for a name that is not a number of the design, bounds that are reversed or not
-    finite, a start outside its bounds, or no objective at all.
+    Raises ``ValueError`` for a name that is not a number of the design, for bounds that are reversed, not finite
+    or impossible, for a limit that is not finite, and for no free quantity or no objective at all.
     """
 
     start: Any
