@@ -7,9 +7,14 @@ matplotlib or ipywidgets is loaded when it is first asked for.
 from importlib import import_module
 from typing import Any
 
+from .cam.closing import ContactPair
 from .cam.door_handle import DoorHandleCam, door_handle_study
 from .cam.load import ArmLoad, Friction
+from .cam.oscillating_flat import OscillatingFlatCam
 from .cam.oscillating_roller import OscillatingRollerCam
+from .cam.slide import SlideFriction, SlideLoad
+from .cam.translating_flat import TranslatingFlatCam
+from .cam.translating_roller import TranslatingRollerCam
 from .decision import ahp, crowding, topsis, weighted_sum
 from .export import load, profile_csv, save
 from .motion import *  # noqa: F403
@@ -26,6 +31,7 @@ _LATER = {
     "explore": "app",
     "judge": "app",
     "search": "app",
+    "edit_program": "app",
     "try_everything": "app",
     "picture": "plot.picture",
 }
@@ -33,14 +39,20 @@ _LATER = {
 
 __all__ = [
     "ArmLoad",
+    "ContactPair",
     "DoorHandleCam",
     "Friction",
     "GPa",
     "MPa",
     "Measure",
     "N",
+    "OscillatingFlatCam",
     "OscillatingRollerCam",
+    "SlideFriction",
+    "SlideLoad",
     "Study",
+    "TranslatingFlatCam",
+    "TranslatingRollerCam",
     "ahp",
     "load",
     "profile_csv",

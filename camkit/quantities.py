@@ -118,8 +118,8 @@ def fails(ok: Any) -> bool:
 
 
 def words(name: str) -> str:
-    """A field's name as it is read: ``lift_arm`` -> ``lift arm``."""
-    return name.replace("_", " ")
+    """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.mass`` -> ``load mass``."""
+    return name.replace("_", " ").replace(".", " ")
 
 
 class Design:
@@ -215,3 +215,25 @@ class Measure:
     def text(self, value: float) -> str:
         """``value`` (SI) as a person reads it."""
         return f"{in_unit(float(value), self.unit):.4g} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True)
+class PeakMeasure(Measure):
+    """The largest value of a curve: ``function`` gives the curve, its points last; the measure is their maximum.
+
+    A search then sees every point and not only the largest, which jumps from one to another.  ``-PeakMeasure`` of
+    the negative curve is a least value.  ``angle`` says at which cam angle each point of the curve stands.
+
+    >>> lowest = -PeakMeasure("least height", "mm", lambda analysis: -analysis["height"])
+    >>> float(lowest({"height": np.array([0.05, 0.02, 0.04])}))
+    0.02
+    """
+
+    angle: Callable[[Any], Any] | None = field(default=None, repr=False, compare=False)
+
+    def curve(self, analysis: Any) -> Any:
+        """The value at every point, before the sign."""
+        return self.function(analysis)
+
+    def __call__(self, analysis: Any) -> Any:
+        return self.sign * self.function(analysis).max(-1)

@@ -25,7 +25,7 @@ class WeightedSum(Measure):
 
     def with_weights(self, weights: Any) -> WeightedSum:
         """The same sum with other weights."""
-        return weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference)
+        return replace(weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference), sign=self.sign)
 
 
 def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[float]) -> WeightedSum:

@@ -15,35 +15,82 @@ class ArmLoad(Design):
     """The torque that a cam must put into a rocking arm.
 
     Inertia of a uniform arm, ``I = m l^2 / 3`` (Gong, Liu, He 2025), and what a real machine adds: a
-    constant torque, a torque tabulated over the arm's travel, a torsion spring, the arm's weight.
-    Torque counts positive where it resists a growing arm angle.
+    constant torque, torques tabulated over the arm's travel and over the cam angle, a torsion spring, the
+    arm's weight.  Torque counts positive where it resists a growing arm angle.
     """
 
     mass: float = quantity("m", 2, 0, 10, "kg", "uniform arm", at_least=0)
     speed: float = quantity("omega", 15, 0, 100, "rpm", "speed of the cam", at_least=0)
     torque: float = quantity("T", 0, -50, 50, "N m", "constant resisting torque", above=None)
     spring_rate: float = quantity("c", 0, 0, 50, "N m/rad", "torsion spring on the arm", at_least=0)
+    preload: float = quantity("T_0", 0, 0, 50, "N m", "torque of the spring at the arm's start", at_least=0)
     gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arm; 0: it turns level", at_least=0)
     up_angle: float = quantity("u", 90, -180, 180, "deg", "from the line cam-pivot to straight up", above=None)
     torque_table: tuple[tuple[float, float], ...] = ()
     """Pairs of arm travel [rad] and resisting torque [N m], in order of travel; straight lines between."""
+    cam_angle_table: tuple[tuple[float, float], ...] = ()
+    """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        table = np.asarray(self.torque_table, dtype=float).reshape(-1, 2)
-        if not np.isfinite(table).all():
-            raise ValueError("the torque table has an entry that is not a finite number; it holds (travel, torque)")
-        if (np.diff(table[:, 0]) <= 0).any():
-            raise ValueError("the torque table's travel must grow from entry to entry; it does not")
+        refuse_table("torque table", "travel", "torque", self.torque_table)
+        refuse_table("cam angle table", "cam angle", "torque", self.cam_angle_table)
 
-    def resisting_torque(self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any) -> Any:
-        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from its start, rad)."""
-        inertia = self.mass * arm_length**2 / 3
+    def inertia(self, arm_length: Any) -> Any:
+        """Moment of inertia about the arm's pivot, kg m^2."""
+        return self.mass * arm_length**2 / 3
+
+    def static_torque(self, arm_length: Any, arm_angle: Any, travel: Any, cam_angle: Any = 0.0) -> Any:
+        """Torque about the arm's pivot without its inertia, N m (``travel`` from its start, rad)."""
         weight = self.mass * self.gravity * arm_length / 2 * np.sin(arm_angle + self.up_angle)
-        static = self.torque + self.spring_rate * travel + weight
-        if self.torque_table:
-            static = static + np.interp(travel, *np.transpose(self.torque_table))
-        return inertia * self.speed**2 * acceleration + static
+        static = self.torque + self.preload + self.spring_rate * travel + weight
+        return static + tabulated(self.torque_table, travel) + tabulated(self.cam_angle_table, cam_angle)
+
+    def resisting_torque(
+        self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any, cam_angle: Any = 0.0
+    ) -> Any:
+        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from its start, rad)."""
+        static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
+        return self.inertia(arm_length) * self.speed**2 * acceleration + static
+
+    def opposite(self, spread: Any, arm_length: Any, other_length: Any) -> ArmLoad:
+        """The same load as a second arm of ``other_length`` on the same shaft feels it, mirrored.
+
+        The second arm's angle is ``spread`` less this one's, so all that resists the one helps the other.
+        """
+        ratio = arm_length / other_length
+        return self.replace(
+            mass=self.mass * ratio**2,
+            gravity=self.gravity / ratio,
+            up_angle=-spread - self.up_angle,
+            torque=-(self.torque + self.preload),
+            preload=0.0,
+            torque_table=opposite_table(self.torque_table, -1),
+            cam_angle_table=opposite_table(self.cam_angle_table, 1),
+        )
+
+
+Table = tuple[tuple[float, float], ...]
+"""Pairs of an argument and a load, in order of the argument."""
+
+
+def refuse_table(name: str, first: str, second: str, table: Table) -> None:
+    """``ValueError`` if a table has an entry that is no finite number or is out of order."""
+    entries = np.asarray(table, dtype=float).reshape(-1, 2)
+    if not np.isfinite(entries).all():
+        raise ValueError(f"the {name} has an entry that is not a finite number; it holds ({first}, {second})")
+    if (np.diff(entries[:, 0]) <= 0).any():
+        raise ValueError(f"the {name}'s {first} must grow from entry to entry; it does not")
+
+
+def tabulated(table: Table, at: Any) -> Any:
+    """The load that ``table`` gives, straight between its entries and constant outside; 0 from an empty one."""
+    return np.interp(at, *np.transpose(table)) if table else 0.0
+
+
+def opposite_table(table: Table, side: int) -> Table:
+    """``table`` with the load reversed, and with ``side=-1`` the argument too."""
+    return tuple((side * x, -load) for x, load in table[::side])
 
 
 @dataclass(frozen=True)

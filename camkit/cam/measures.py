@@ -33,7 +33,8 @@ def work_ratio(analysis: Any) -> Any:
     moving = (v > 0) & (eta > 0)
     power_in = np.divide(v, eta, out=np.zeros_like(v * eta), where=moving)
     jammed = ((v > 0) & (eta <= 0)).any(-1)
-    ratio = np.trapezoid(v, analysis.cam_angle, axis=-1) / np.trapezoid(power_in, analysis.cam_angle, axis=-1)
+    work_out, work_in = (np.trapezoid(power, analysis.cam_angle, axis=-1) for power in (v, power_in))
+    ratio = np.divide(work_out, work_in, out=np.zeros_like(1.0 * work_in), where=work_in > 0)
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 

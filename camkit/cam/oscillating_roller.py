@@ -17,12 +17,14 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import offset_curvature, rotated
-from ..motion import Cycloidal, Dwell, Kinematics, MotionProgram, Return, Rise
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, fails, quantity
 from ..units import deg, mm
+from .analysis import RollerAnalysis
+from .conjugate import opposite
 from .load import ArmLoad, Contact, Friction
 from .measures import CURVE
+from .statics import Pivot
 
 
 def _rise_and_return() -> MotionProgram:
@@ -68,22 +70,27 @@ class OscillatingRollerCam(Design):
         analysis.refuse_impossible()
         return analysis
 
+    def conjugate(self, spread: Any, arm_length: Any = None, roller_radius: Any = None) -> OscillatingRollerCam:
+        """The second cam of a pair: it carries a second roller on the same shaft, ``spread`` (rad) from the first.
+
+        Given in the machine's frame mirrored in the line of centres, so its arm again stands above that line.
+        """
+        l = self.arm_length if arm_length is None else arm_length
+        return self.replace(
+            motion=opposite(self.motion),
+            arm_length=l,
+            start_angle=spread - self.start_angle,
+            roller_radius=self.roller_radius if roller_radius is None else roller_radius,
+            rotation=-self.rotation,
+            load=self.load.opposite(spread, self.arm_length, l),
+        )
+
 
 @dataclass(frozen=True)
-class OscillatingRollerAnalysis:
-    """What follows from an `OscillatingRollerCam` at the given cam angles.
-
-    Arrays are ``(n,)`` for one design and ``(p, n)`` for ``p``; points ``(2, n)`` and ``(2, p, n)``.  Each is
-    computed when first asked for.  ``nan`` where a member of a population cannot be built.
-    """
+class OscillatingRollerAnalysis(RollerAnalysis):
+    """What follows from an `OscillatingRollerCam` at the given cam angles."""
 
     cam: OscillatingRollerCam
-    cam_angle: np.ndarray
-
-    @cached_property
-    def motion(self) -> Kinematics:
-        """The arm's travel and its derivatives with respect to the cam angle, ``s, v, a, j`` (rad)."""
-        return self.cam.motion(self.cam_angle)
 
     @cached_property
     def buildable(self) -> Any:
@@ -117,44 +124,9 @@ class OscillatingRollerAnalysis:
         return np.where(self.buildable, self.cam.start_angle + self.motion.s, np.nan)
 
     @property
-    def curves(self) -> dict[str, OscillatingRollerAnalysis]:
-        """Every cam curve of the machine by its name: this one."""
-        return {"cam": self}
-
-    @property
-    def stretch(self) -> np.ndarray:
-        """The name of the stretch of the profile to which each point belongs."""
-        return np.full(self.cam_angle.shape[-1], "cam")
-
-    @property
-    def profile_angle(self) -> np.ndarray:
-        """The cam angle at which the roller touches each point of the profile, rad."""
-        return self.cam_angle
-
-    @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Every rocking arm by its name: its pivot ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
         return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.roller_centre)}
-
-    @property
-    def turn(self) -> np.ndarray:
-        """How far the cam has turned counter-clockwise at each cam angle, rad."""
-        return self.cam.rotation * self.cam_angle
-
-    @property
-    def velocity(self) -> np.ndarray:
-        """``v = dpsi/dphi``."""
-        return self.motion.v
-
-    @property
-    def acceleration(self) -> np.ndarray:
-        """``w = d2psi/dphi2``, 1/rad."""
-        return self.motion.a
-
-    @property
-    def jerk(self) -> np.ndarray:
-        """``d3psi/dphi3``, 1/rad^2."""
-        return self.motion.j
 
     @cached_property
     def pitch_radius(self) -> np.ndarray:
@@ -198,26 +170,6 @@ class OscillatingRollerAnalysis:
         return top / (self._along**2 + self._across**2) ** 1.5
 
     @cached_property
-    def profile_curvature(self) -> np.ndarray:
-        """Curvature of the inner flank (the plate cam), convex > 0, 1/m."""
-        return offset_curvature(self.curvature, -self.cam.roller_radius)
-
-    @cached_property
-    def outer_profile_curvature(self) -> np.ndarray:
-        """Curvature of a groove's outer flank, convex seen from the cam axis > 0, 1/m."""
-        return offset_curvature(self.curvature, self.cam.roller_radius)
-
-    @cached_property
-    def undercut(self) -> np.ndarray:
-        """Where the roller would cut away the inner flank: ``r_T kappa >= 1``."""
-        return self.cam.roller_radius * self.curvature >= 1
-
-    @cached_property
-    def outer_undercut(self) -> np.ndarray:
-        """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``."""
-        return -self.cam.roller_radius * self.curvature >= 1
-
-    @cached_property
     def roller_centre(self) -> np.ndarray:
         """The roller's centre in the frame of the machine, m."""
         a, l = self.cam.centre_distance, self.cam.arm_length
@@ -230,39 +182,36 @@ class OscillatingRollerAnalysis:
         direction = np.stack(np.broadcast_arrays(a - l * self._gain * self._cos, l * self._gain * self._sin))
         return direction / np.sqrt(self._along**2 + self._across**2)
 
-    def on_cam(self, points: np.ndarray) -> np.ndarray:
-        """Points of the machine's frame as they lie on the cam at each cam angle."""
-        return rotated(points, -self.turn)
-
-    @cached_property
-    def pitch(self) -> np.ndarray:
-        """Pitch curve: the roller's centre as the cam sees it, m."""
-        return self.on_cam(self.roller_centre)
-
-    @cached_property
-    def profile(self) -> np.ndarray:
-        """Inner flank, the profile of a plate cam, m."""
-        return self.on_cam(self.roller_centre - self.cam.roller_radius * self.normal)
-
-    @cached_property
-    def outer_profile(self) -> np.ndarray:
-        """Outer flank of a groove cam, m."""
-        return self.on_cam(self.roller_centre + self.cam.roller_radius * self.normal)
-
     @cached_property
     def resisting_torque(self) -> np.ndarray:
         """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
-        return self.cam.load.resisting_torque(self.cam.arm_length, self.arm_angle, self.motion.s, self.acceleration)
+        load, l = self.cam.load, self.cam.arm_length
+        return load.resisting_torque(l, self.arm_angle, self.motion.s, self.acceleration, self.cam_angle)
+
+    @property
+    def resistance(self) -> np.ndarray:
+        """The `resisting_torque`."""
+        return self.resisting_torque
 
     @cached_property
-    def contact_force(self) -> np.ndarray:
-        """Force between cam and roller without friction, N; < 0 where only a groove's outer flank can give it."""
-        return self.resisting_torque / (self.cam.arm_length * np.cos(self.pressure_angle))
+    def static_resistance(self) -> np.ndarray:
+        """Torque about the arm's pivot besides inertia, N m."""
+        return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self.motion.s, self.cam_angle)
 
-    @cached_property
-    def cam_torque(self) -> np.ndarray:
-        """Torque on the cam without friction, N m: power in = power out."""
-        return self.resisting_torque * self.velocity
+    @property
+    def inertia(self) -> Any:
+        """Of the arm about its pivot, kg m^2."""
+        return self.cam.load.inertia(self.cam.arm_length)
+
+    @property
+    def lever(self) -> np.ndarray:
+        """``l cos alpha``, m."""
+        return self.cam.arm_length * np.cos(self.pressure_angle)
+
+    @property
+    def bearing(self) -> Pivot:
+        """The pivot about which the arm rocks."""
+        return Pivot(self.cam.centre_distance, self.velocity, self.cam.friction.arm_pivot)
 
     @cached_property
     def _contact(self) -> Contact:

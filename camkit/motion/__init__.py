@@ -8,9 +8,10 @@ from .joints import Joint, Peak, ProgramPeaks
 from .law import Kinematics, Law, Peaks
 from .modified import ModifiedSine, ModifiedTrapezoid
 from .polynomial import Parabolic, Poly345, Poly4567, Poly56789
-from .program import Dwell, MotionProgram, Return, Rise, Segment
+from .program import Dwell, MotionProgram, Return, Rise, Segment, program_between
 from .skewed import Skewed
 from .spline import SplineLaw, TableLaw
+from .vibration import period_ratio, residual_vibration
 
 LAWS: tuple[Law, ...] = (
     SimpleHarmonic(),
@@ -59,4 +60,7 @@ __all__ = [
     "Skewed",
     "SplineLaw",
     "TableLaw",
+    "period_ratio",
+    "program_between",
+    "residual_vibration",
 ]

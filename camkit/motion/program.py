@@ -15,7 +15,7 @@ array([0.01, 0.02, 0.  ])
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import accumulate
@@ -254,6 +254,36 @@ class MotionProgram:
         u = np.minimum(np.maximum((x[..., columns] - self.starts[i]) / segment.angle, 0.0), 1.0)
         s, v, a, j = segment.motion(u)
         return columns, here[..., columns], Kinematics(self.levels[i] + s, v, a, j)
+
+
+def program_between(
+    pieces: Sequence[tuple[Any, Any, Any, Callable[[Any], Kinematics]]], start: Any = 0.0
+) -> MotionProgram:
+    """A program from pieces ``(from, to, level, law)``: over those cam angles (rad) the follower goes to ``level``.
+
+    A piece whose level is the one before is a dwell.
+
+    >>> from camkit.motion import Cycloidal
+    >>> from camkit.units import deg, mm
+    >>> law = Cycloidal()
+    >>> pieces = [(0, 90 * deg, 20 * mm, law), (90 * deg, 120 * deg, 20 * mm, law), (120 * deg, 360 * deg, 0, law)]
+    >>> [type(segment).__name__ for segment in program_between(pieces).segments]
+    ['Rise', 'Dwell', 'Return']
+
+    Raises ``ValueError`` where pieces overlap, where angles are missing between them, and as `MotionProgram` does.
+    """
+    segments: list[Segment] = []
+    angle, level = 0.0, start
+    for begin, end, to, law in pieces:
+        if abs(begin - angle) > SAME_ANGLE:
+            what = "overlaps the one before, which ends at" if begin < angle else "leaves angles missing after"
+            raise ValueError(f"the piece from {_degrees(begin)} to {_degrees(end)} {what} {_degrees(angle)}")
+        change = to - level
+        segments.append(
+            Dwell(end - begin) if change == 0 else (Rise if change > 0 else Return)(end - begin, abs(change), law)
+        )
+        angle, level = end, to
+    return MotionProgram(tuple(segments), start)
 
 
 def _positive(angle: Any) -> Any:

@@ -551,6 +551,6 @@ def test_the_groove_of_a_population_that_differs_in_one_quantity(name):
 def test_a_search_of_the_lift_curve_keeps_no_cam_that_cannot_be_built():
     """The relief arm plays no part in the paper's objectives, but a design without a relief curve is none."""
     x = [50 * mm, 0.34, 67.6 * mm]
-    with pytest.raises(ValueError, match="reaches 32.4 to 167.6 mm"):
+    with pytest.raises(ValueError, match=r"reaches 32\.4 to 167\.6 mm"):
         DoorHandleCam(lift_arm=x[0], lift_start_angle=x[1], relief_arm=x[2])
     assert not door_handle_study().evaluate([x, [50 * mm, 0.34, 75 * mm]]).feasible[0]

@@ -1,0 +1,392 @@
+"""What the analyses of all disk cams share, whatever follows the cam.
+
+The cam axis is the origin of the machine's frame; ``sigma`` = +1: the cam turns counter-clockwise.  A follower's
+module adds where it touches the cam, the contact normal there, its pressure angle and its curvature.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..geometry import offset_curvature, rotated
+from ..motion import Kinematics
+from . import statics, valve_train
+
+
+class Extreme(NamedTuple):
+    """An extreme value over the cam and the cam angle (rad) at which it stands: numbers, or ``(p,)``."""
+
+    value: Any
+    cam_angle: Any
+
+
+@dataclass(frozen=True)
+class CamAnalysis(ABC):
+    """What follows from a disk cam at the given cam angles.
+
+    Arrays are ``(n,)`` for one design and ``(p, n)`` for ``p``; points ``(2, n)`` and ``(2, p, n)``.  Each is
+    computed when first asked for.  ``nan`` where a member of a population cannot be built.
+    """
+
+    cam: Any
+    cam_angle: np.ndarray
+
+    @property
+    @abstractmethod
+    def buildable(self) -> Any:
+        """Whether the design can be built, ``(..., 1)``."""
+
+    @abstractmethod
+    def refuse_impossible(self) -> None:
+        """``ValueError`` in a sentence if this is one design and it cannot be built."""
+
+    @property
+    @abstractmethod
+    def normal(self) -> np.ndarray:
+        """The contact normal, a unit vector from cam to follower in the frame of the machine."""
+
+    @property
+    @abstractmethod
+    def pressure_angle(self) -> np.ndarray:
+        """``alpha``, signed: between the contact normal and the way the follower goes where it is touched, rad."""
+
+    @property
+    @abstractmethod
+    def profile_margin(self) -> Extreme:
+        """Least convex radius of curvature of the profile, m; at or below 0 the follower cuts the cam away."""
+
+    @abstractmethod
+    def contact_point(self, flank: Any = 1) -> np.ndarray:
+        """Where the follower touches the inner flank (+1) or a groove's outer one (-1), machine's frame, m."""
+
+    @property
+    @abstractmethod
+    def driving_flank(self) -> Any:
+        """The flank that gives the follower its motion: +1 the inner one, -1 a groove's outer one."""
+
+    @property
+    @abstractmethod
+    def loaded_flank(self) -> Any:
+        """The flank that gives the contact force."""
+
+    @property
+    @abstractmethod
+    def lean(self) -> Any:
+        """Angle by which the force of a contact that is not smooth leans from the normal, rad."""
+
+    @property
+    @abstractmethod
+    def fit(self) -> np.ndarray:
+        """Curvature of cam and follower together where they press on each other, 1/m; not above 0: undercut."""
+
+    @property
+    @abstractmethod
+    def bearing(self) -> statics.Bearing:
+        """What leads the follower."""
+
+    @property
+    @abstractmethod
+    def lever(self) -> np.ndarray:
+        """Load on the follower that a smooth contact force of 1 N carries, 1 or m."""
+
+    @property
+    @abstractmethod
+    def inertia(self) -> Any:
+        """Mass (kg) of a sliding follower, moment of inertia (kg m^2) of an arm."""
+
+    @property
+    @abstractmethod
+    def static_resistance(self) -> np.ndarray:
+        """What resists the follower's travel besides inertia, N, or N m for an arm."""
+
+    @property
+    @abstractmethod
+    def resistance(self) -> np.ndarray:
+        """What resists the follower's travel, N, or N m for an arm."""
+
+    @cached_property
+    def motion(self) -> Kinematics:
+        """The follower's travel and its derivatives with respect to the cam angle, ``s, v, a, j`` (m or rad)."""
+        return self.cam.motion(self.cam_angle)
+
+    @property
+    def curves(self) -> dict[str, Any]:
+        """Every cam curve of the machine by its name: this one."""
+        return {"cam": self}
+
+    @property
+    def stretch(self) -> np.ndarray:
+        """The name of the stretch of the profile to which each point belongs."""
+        return np.full(self.cam_angle.shape[-1], "cam")
+
+    @property
+    def profile_angle(self) -> np.ndarray:
+        """The cam angle at which the follower touches each point of the profile, rad."""
+        return self.cam_angle
+
+    @property
+    def turn(self) -> np.ndarray:
+        """How far the cam has turned counter-clockwise at each cam angle, rad."""
+        return self.cam.rotation * self.cam_angle
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """``v = ds/dphi``, or ``dpsi/dphi`` of an arm."""
+        return self.motion.v
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        """``w = d2s/dphi2``, or ``d2psi/dphi2`` of an arm."""
+        return self.motion.a
+
+    @property
+    def jerk(self) -> np.ndarray:
+        """``d3s/dphi3``, or ``d3psi/dphi3`` of an arm."""
+        return self.motion.j
+
+    def on_cam(self, points: np.ndarray) -> np.ndarray:
+        """Points of the machine's frame as they lie on the cam at each cam angle."""
+        return rotated(points, -self.turn)
+
+    @cached_property
+    def contact_force(self) -> np.ndarray:
+        """Force between cam and follower without friction, N; < 0 where only a groove's outer flank can give it."""
+        return self.resistance / self.lever
+
+    @cached_property
+    def cam_torque(self) -> np.ndarray:
+        """Torque on the cam without friction, N m: power in = power out."""
+        return self.resistance * self.velocity
+
+    @cached_property
+    def rubbing(self) -> statics.Rubbing:
+        """Contact force and cam torque with friction."""
+        return statics.rubbing(self)
+
+    @cached_property
+    def free_body_efficiency(self) -> np.ndarray:
+        """Power out over power in, from the free-body diagram."""
+        return statics.efficiency(self, self.driving_flank)
+
+    def highest(self, f: Callable[[Any], Any]) -> Extreme:
+        """The largest value of ``f(analysis)`` over the cam, found between its cam angles too."""
+        value, angle = highest(self, f)
+        return Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in (value, angle)))
+
+    def lowest(self, f: Callable[[Any], Any]) -> Extreme:
+        """As `highest`, for the least value."""
+        value, angle = self.highest(lambda analysis: -f(analysis))
+        return Extreme(-value, angle)
+
+
+def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
+    """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
+    return Extreme(*valve_train.highest(lambda phi: f(replace(analysis, cam_angle=phi)), analysis.cam_angle))
+
+
+def lowest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
+    """As `highest`, for the least value."""
+    value, angle = highest(analysis, lambda at: -f(at))
+    return Extreme(-value, angle)
+
+
+@dataclass(frozen=True)
+class RollerAnalysis(CamAnalysis):
+    """A cam under a roller: a plate (inner flank) or a groove (both flanks)."""
+
+    @property
+    @abstractmethod
+    def roller_centre(self) -> np.ndarray:
+        """The roller's centre in the frame of the machine, m."""
+
+    @property
+    @abstractmethod
+    def curvature(self) -> np.ndarray:
+        """Curvature of the pitch curve, convex > 0, 1/m."""
+
+    @cached_property
+    def profile_curvature(self) -> np.ndarray:
+        """Curvature of the inner flank (the plate cam), convex > 0, 1/m."""
+        return offset_curvature(self.curvature, -self.cam.roller_radius)
+
+    @cached_property
+    def outer_profile_curvature(self) -> np.ndarray:
+        """Curvature of a groove's outer flank, convex seen from the cam axis > 0, 1/m."""
+        return offset_curvature(self.curvature, self.cam.roller_radius)
+
+    @cached_property
+    def undercut(self) -> np.ndarray:
+        """Where the roller would cut away the inner flank: ``r_T kappa >= 1``."""
+        return self.cam.roller_radius * self.curvature >= 1
+
+    @cached_property
+    def outer_undercut(self) -> np.ndarray:
+        """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``."""
+        return -self.cam.roller_radius * self.curvature >= 1
+
+    @cached_property
+    def profile_margin(self) -> Extreme:
+        """Least convex radius of the inner flank, ``1 / kappa - r_T``, m; ``inf`` if it is convex nowhere."""
+        return self._margin(1)
+
+    @cached_property
+    def outer_profile_margin(self) -> Extreme:
+        """The same for a groove's outer flank, which the roller cuts where the pitch curve is hollow."""
+        return self._margin(-1)
+
+    def _margin(self, flank: int) -> Extreme:
+        most, angle = self.highest(lambda analysis: flank * analysis.curvature)
+        radius = _radius(most) - np.atleast_1d(self.cam.roller_radius)[..., 0]
+        return Extreme(radius[()], angle)
+
+    def contact_point(self, flank: Any = 1) -> np.ndarray:
+        """Where the roller touches the inner flank (+1) or the outer one (-1), machine's frame, m."""
+        return self.roller_centre - flank * self.cam.roller_radius * self.normal
+
+    @property
+    def driving_flank(self) -> Any:
+        """The inner flank where the follower goes out, the outer one where it comes back."""
+        return np.where(self.velocity < 0, -1.0, 1.0)
+
+    @property
+    def loaded_flank(self) -> Any:
+        """The inner flank, or the outer one where the follower pulls."""
+        return np.where(self.contact_force < 0, -1.0, 1.0)
+
+    @property
+    def lean(self) -> Any:
+        """The roller slides (``arctan f``) or, if that is easier, turns on its pin (``arcsin(rho_2 / r_T)``)."""
+        friction, r = self.cam.friction, self.cam.roller_radius
+        share = np.divide(friction.roller_pin, r, out=np.ones_like(1.0 * r), where=np.greater(r, 0))
+        return np.minimum(np.arctan(friction.coefficient), np.arcsin(np.clip(share, 0, 1)))
+
+    @cached_property
+    def fit(self) -> np.ndarray:
+        """``1 / (r_T (1 -+ r_T kappa))``: on the inner flank, on the outer one where the force is negative."""
+        r, flank = self.cam.roller_radius, self.loaded_flank
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return 1 / (r * (1 - flank * r * self.curvature))
+
+    @cached_property
+    def pitch(self) -> np.ndarray:
+        """Pitch curve: the roller's centre as the cam sees it, m."""
+        return self.on_cam(self.roller_centre)
+
+    @cached_property
+    def profile(self) -> np.ndarray:
+        """Inner flank, the profile of a plate cam, m."""
+        return self.on_cam(self.contact_point(1))
+
+    @cached_property
+    def outer_profile(self) -> np.ndarray:
+        """Outer flank of a groove cam, m."""
+        return self.on_cam(self.contact_point(-1))
+
+
+@dataclass(frozen=True)
+class FlatAnalysis(CamAnalysis):
+    """A cam under a flat face, held to it from outside: it has no groove, and its pitch curve is the profile."""
+
+    @property
+    @abstractmethod
+    def profile_radius(self) -> np.ndarray:
+        """Radius of curvature of the cam, convex > 0, m; at or below 0 the face cuts it away."""
+
+    @property
+    @abstractmethod
+    def face_reach(self) -> tuple[Any, Any]:
+        """Least and largest distance along the face at which it is touched, m."""
+
+    @property
+    def face_width(self) -> Any:
+        """Least width of the face: how far the contact wanders, m."""
+        low, high = self.face_reach
+        return high - low
+
+    @property
+    def curvature(self) -> np.ndarray:
+        """Curvature of the profile, convex > 0, 1/m."""
+        return self.profile_curvature
+
+    @cached_property
+    def profile_curvature(self) -> np.ndarray:
+        """Curvature of the profile, convex > 0, 1/m; < 0 where the face cuts it away."""
+        with np.errstate(divide="ignore"):
+            return 1 / self.profile_radius
+
+    @property
+    def outer_profile_curvature(self) -> np.ndarray:
+        """``nan``: there is no outer flank."""
+        return np.nan * self.profile_radius
+
+    @cached_property
+    def undercut(self) -> np.ndarray:
+        """Where the face would cut the cam away: it would have to be hollow or pointed there."""
+        return self.profile_radius <= 0
+
+    @property
+    def outer_undercut(self) -> np.ndarray:
+        """Nowhere: there is no outer flank."""
+        return np.zeros_like(self.undercut)
+
+    @cached_property
+    def profile_margin(self) -> Extreme:
+        """Least radius of curvature of the profile, m; at or below 0 the face cuts it away."""
+        return self.lowest(lambda analysis: analysis.profile_radius)
+
+    @property
+    def driving_flank(self) -> Any:
+        """The profile, there is no other; where the follower comes back it drives the cam."""
+        return 1.0
+
+    @property
+    def loaded_flank(self) -> Any:
+        """The profile; where the follower pulls it has left the cam."""
+        return 1.0
+
+    @property
+    def lean(self) -> Any:
+        """The face slides: ``arctan f``."""
+        return np.arctan(self.cam.friction.coefficient)
+
+    @property
+    def fit(self) -> np.ndarray:
+        """Curvature of the profile; the face adds nothing."""
+        return self.profile_curvature
+
+    @cached_property
+    def pitch(self) -> np.ndarray:
+        """The profile, m."""
+        return self.profile
+
+    @cached_property
+    def pitch_radius(self) -> np.ndarray:
+        """Cam axis to the point of contact, m."""
+        return np.hypot(*self.contact_point())
+
+    @cached_property
+    def profile(self) -> np.ndarray:
+        """The cam's outline, m."""
+        return self.on_cam(self.contact_point())
+
+    @property
+    def outer_profile(self) -> np.ndarray:
+        """``nan``: there is no outer flank."""
+        return np.nan * self.profile
+
+    @property
+    def efficiency(self) -> np.ndarray:
+        """Power out over power in, from the free-body diagram: cam to follower going out, back again coming in."""
+        return self.free_body_efficiency
+
+
+def _radius(curvature: Any) -> Any:
+    """Radius of the most convex place; ``inf`` if it is hollow or straight."""
+    with np.errstate(divide="ignore"):
+        return np.where(curvature <= 0, np.inf, 1 / curvature)

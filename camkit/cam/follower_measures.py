@@ -1,0 +1,42 @@
+"""Measures of a cam and its follower beyond those of one curve: margins, closing, wear."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..quantities import Measure
+from .closing import ContactPair, contact_along, jump_speed, torque_balance
+from .measures import CURVE, base_radius, mean_efficiency, peak_force, peak_torque, steepest
+
+least_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
+undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
+face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
+least_force = Measure("least contact force", "N", lambda a: a.contact_force.min(-1))
+mean_torque = Measure(
+    "mean cam torque with friction", "N mm", lambda a: torque_balance(a.cam_angle, a.rubbing.cam_torque).mean
+)
+jump_margin = Measure(
+    "overspeed before the follower jumps", "%", lambda a: jump_speed(a) / np.atleast_1d(a.cam.load.speed)[..., 0] - 1
+)
+
+
+def peak_pressure(pair: ContactPair) -> Measure:
+    """The largest Hertz pressure along the cam for a pair of materials; ``nan`` if a flank is undercut."""
+    return Measure("peak contact pressure", "MPa", lambda a: contact_along(a, pair).pressure.max(-1))
+
+
+_CLOSING = (least_force, mean_torque, jump_margin)
+ROLLER_CURVE = (*CURVE, least_profile_radius, undercut_place, *_CLOSING)
+"""What a table of a cam under a sliding roller shows."""
+FLAT_CURVE = (
+    steepest,
+    base_radius,
+    least_profile_radius,
+    undercut_place,
+    face_width,
+    peak_force,
+    peak_torque,
+    mean_efficiency,
+    *_CLOSING,
+)
+"""What a table of a cam under a flat face shows."""

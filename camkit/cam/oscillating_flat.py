@@ -1,0 +1,263 @@
+"""Disk cam with a flat face on a rocking arm.
+
+As with a roller on an arm, the cam axis O is the origin, the arm's pivot A lies on the x axis at the centre distance
+``a``, ``psi`` is the arm's angle at A from the line A -> O, and ``sigma = +1``: the cam turns counter-clockwise and
+``psi`` grows against it.  The face is parallel to the arm, ``b`` from the pivot, ``b > 0`` away from the cam.  It
+stands ``p = a sin psi + b`` from the cam axis; it is touched ``q = a cos psi / (1 + sigma v)`` along the arm from the
+pivot; with the cam's normal turning by ``-sigma (1 + sigma v)`` per cam angle, ``rho = p + d2p/dtheta2`` is
+
+    rho = b + a [(1 + sigma v)(1 + 2 sigma v) sin psi + w cos psi] / (1 + sigma v)^3
+
+Source: derived here from the support function; Norton, Cam Design and Manufacturing Handbook, treats the follower.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..quantities import Design, fails, quantity
+from ..units import deg, mm, rpm
+from .analysis import FlatAnalysis, lowest
+from .conjugate import opposite
+from .follower_measures import FLAT_CURVE
+from .load import ArmLoad, Friction
+from .sizing import refuse_radius
+from .statics import Pivot
+
+
+def _rise_and_return() -> MotionProgram:
+    law = Cycloidal()
+    return MotionProgram(
+        (Rise(120 * deg, 12 * deg, law), Dwell(60 * deg), Return(120 * deg, 12 * deg, law), Dwell(60 * deg))
+    )
+
+
+def _closed() -> ArmLoad:
+    return ArmLoad(mass=0.5, speed=300 * rpm, spring_rate=5, preload=2)
+
+
+@dataclass(frozen=True)
+class OscillatingFlatCam(Design):
+    """A disk cam that rocks an arm through a flat face.
+
+    ``motion`` gives the arm's angle beyond ``start_angle``; ``rotation`` is ``sigma``: +1 where a growing arm angle
+    goes against the cam's rotation, -1 where it goes with it.
+
+    >>> cam = OscillatingFlatCam().analyse()
+    >>> print(f"{cam.profile_margin.value / mm:.3f} mm")
+    13.879 mm
+
+    Raises ``ValueError`` for a size that cannot be built; `analyse` does for a face that would pass the cam axis,
+    an arm that moves with the cam as fast as the cam, or one that is too short.
+    """
+
+    motion: MotionProgram = field(default_factory=_rise_and_return)
+    centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
+    start_angle: float = quantity("psi_0", 20, -30, 60, "deg", "arm's angle from the line of centres", above=None)
+    face_offset: float = quantity("b", 5, -20, 40, "mm", "face from the pivot, away from the cam", above=None)
+    arm_length: float = quantity("l", 110, 30, 200, "mm", "arm pivot to the end of the face")
+    rotation: int = 1
+    load: ArmLoad = field(default_factory=_closed)
+    friction: Friction = field(default_factory=Friction)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.rotation not in (1, -1):
+            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+
+    @property
+    def roller_radius(self) -> float:
+        """0: there is no roller."""
+        return 0.0
+
+    @property
+    def base_radius(self) -> Any:
+        """``p_0 = a sin psi_0 + b``: cam axis to face at the arm's start, m."""
+        return self.centre_distance * np.sin(self.start_angle) + self.face_offset
+
+    def analyse(self, n: int = 721) -> OscillatingFlatAnalysis:
+        """Geometry and forces at ``n`` cam angles over the motion's whole span."""
+        turn = np.linspace(0, 1, n) * self.motion.span
+        analysis = OscillatingFlatAnalysis(self, turn)
+        analysis.refuse_impossible()
+        return analysis
+
+    def face_offset_for(self, *, least_radius: Any, n: int = 721) -> Any:
+        """Least offset of the face with which no radius of curvature is below ``least_radius``, m.
+
+        The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
+
+        >>> cam = OscillatingFlatCam()
+        >>> wide = cam.replace(face_offset=cam.face_offset_for(least_radius=18 * mm))
+        >>> print(f"{wide.face_offset / mm:.3f} mm, {wide.analyse().profile_margin.value / mm:.6f} mm")
+        9.121 mm, 18.000000 mm
+        """
+        refuse_radius(least_radius)
+        analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        return least_radius - lowest(analysis, lambda at: at.offset_free_radius).value
+
+    def conjugate(self, spread: Any, face_offset: Any = None) -> OscillatingFlatCam:
+        """The second cam of a pair: it carries a second face on the same arm, ``spread`` (rad) from the first.
+
+        Given in the machine's frame mirrored in the line of centres, so its arm again stands above that line.
+        """
+        return self.replace(
+            motion=opposite(self.motion),
+            start_angle=spread - self.start_angle,
+            face_offset=self.face_offset if face_offset is None else face_offset,
+            rotation=-self.rotation,
+            load=self.load.opposite(spread, 1.0, 1.0),
+        )
+
+
+@dataclass(frozen=True)
+class OscillatingFlatAnalysis(FlatAnalysis):
+    """What follows from an `OscillatingFlatCam` at the given cam angles."""
+
+    cam: OscillatingFlatCam
+
+    @cached_property
+    def _swing(self) -> Any:
+        return self.cam.start_angle + self.motion.s
+
+    @cached_property
+    def _gain(self) -> np.ndarray:
+        """``1 + sigma v``: arm motion as seen from the cam."""
+        return 1 + self.cam.rotation * self.velocity
+
+    @cached_property
+    def _contact_length(self) -> Any:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return self.cam.centre_distance * np.cos(self._swing) / self._gain
+
+    @cached_property
+    def _face_distance(self) -> Any:
+        return self.cam.centre_distance * np.sin(self._swing) + self.cam.face_offset
+
+    @cached_property
+    def buildable(self) -> Any:
+        """Whether the design can be built, ``(..., 1)``: face clear of the cam axis and long enough."""
+        upright, slow = abs(self._swing) < np.pi / 2, self._gain > 0
+        reached = upright & slow & (self._contact_length <= self.cam.arm_length)
+        return (reached & (self._face_distance > 0)).all(-1, keepdims=True)
+
+    def refuse_impossible(self) -> None:
+        """``ValueError`` in a sentence if this is one design and it cannot be built."""
+        if not fails(self.buildable[..., 0]):
+            return
+        low, high = np.degrees([self._swing.min(), self._swing.max()])
+        if low <= -90 or high >= 90:
+            raise ValueError(
+                f"the arm swings from {low:.4g} to {high:.4g} deg from the line of centres; "
+                "it must stay between -90 and 90 deg"
+            )
+        if self._gain.min() <= 0:
+            raise ValueError(
+                f"the arm moves with the cam by {1 - self._gain.min():.4g} rad for each rad of cam angle; "
+                "it must stay below 1, or the face is touched nowhere"
+            )
+        if self._face_distance.min() <= 0:
+            raise ValueError(
+                f"the face comes down to {self._face_distance.min() / mm:.4g} mm from the cam axis; "
+                "it must stay above 0 mm"
+            )
+        raise ValueError(
+            f"the face is touched up to {self._contact_length.max() / mm:.4g} mm from the arm's pivot; "
+            f"the arm is {self.cam.arm_length / mm:.4g} mm long and must reach that far"
+        )
+
+    @cached_property
+    def arm_angle(self) -> np.ndarray:
+        """``psi``: the arm's angle from the line pivot -> cam axis, rad."""
+        return np.where(self.buildable, self._swing, np.nan)
+
+    @cached_property
+    def contact_length(self) -> np.ndarray:
+        """``q``: from the pivot along the arm to where its face is touched, m."""
+        return np.where(self.buildable, self._contact_length, np.nan)
+
+    @cached_property
+    def offset_free_radius(self) -> np.ndarray:
+        """``rho - b``: radius of curvature that the cam would have without an offset of the face, m."""
+        v, gain = self.cam.rotation * self.velocity, self._gain
+        bent = gain * (1 + 2 * v) * np.sin(self._swing) + self.acceleration * np.cos(self._swing)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return self.cam.centre_distance * bent / gain**3
+
+    @cached_property
+    def profile_radius(self) -> np.ndarray:
+        """``rho``: radius of curvature of the cam, convex > 0, m."""
+        return np.where(self.buildable, self.cam.face_offset + self.offset_free_radius, np.nan)
+
+    @cached_property
+    def pressure_angle(self) -> np.ndarray:
+        """``alpha``, signed: ``tan alpha = b / q``, rad."""
+        return np.arctan2(self.cam.face_offset, self.contact_length)
+
+    @cached_property
+    def normal(self) -> np.ndarray:
+        """The contact normal: square to the face, to the side of a growing arm angle."""
+        return np.stack([np.sin(self.arm_angle), np.cos(self.arm_angle)])
+
+    def _on_face(self, along: Any) -> np.ndarray:
+        """Points of the face ``along`` the arm from the pivot, machine's frame, m."""
+        sin, cos = self.normal
+        b = self.cam.face_offset
+        return np.stack([self.cam.centre_distance - along * cos + b * sin, along * sin + b * cos])
+
+    def contact_point(self, flank: Any = 1) -> np.ndarray:
+        """Where face and cam touch, machine's frame, m; ``nan`` for an outer flank."""
+        return self._on_face(np.where(np.greater(flank, 0), self.contact_length, np.nan))
+
+    @cached_property
+    def face_reach(self) -> tuple[Any, Any]:
+        """Where along the arm the face must begin and end: least and largest distance from the pivot, m."""
+        return self.lowest(lambda at: at.contact_length).value, self.highest(lambda at: at.contact_length).value
+
+    @property
+    def face(self) -> np.ndarray:
+        """Both ends of the narrowest face in the frame of the machine, ``(2, 2, ...)``: x, y of each end, m."""
+        return np.stack([self._on_face(np.expand_dims(x, -1)) for x in self.face_reach], axis=1)
+
+    @property
+    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """The arm: its pivot ``(2,)`` and where its face is touched ``(2, n)``, machine's frame, m."""
+        return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.contact_point())}
+
+    @property
+    def bearing(self) -> Pivot:
+        """The pivot about which the arm rocks."""
+        return Pivot(self.cam.centre_distance, self.velocity, self.cam.friction.arm_pivot)
+
+    @property
+    def lever(self) -> np.ndarray:
+        """``q``, m."""
+        return self.contact_length
+
+    @property
+    def inertia(self) -> Any:
+        """Of the arm about its pivot, kg m^2."""
+        return self.cam.load.inertia(self.cam.arm_length)
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Torque about the arm's pivot besides inertia, N m."""
+        return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self._travel, self.cam_angle)
+
+    @cached_property
+    def resistance(self) -> np.ndarray:
+        """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
+        load, l = self.cam.load, self.cam.arm_length
+        return load.resisting_torque(l, self.arm_angle, self._travel, self.acceleration, self.cam_angle)
+
+    @property
+    def _travel(self) -> np.ndarray:
+        return np.where(self.buildable, self.motion.s, np.nan)
+
+
+OscillatingFlatCam.measures = FLAT_CURVE

@@ -1,0 +1,76 @@
+"""How large a cam has to be: the sizes that keep a limit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..study import Study
+from ..units import deg, mm
+
+STEPS, HALVINGS = 48, 40
+
+
+def refuse_pressure_angle(limit: Any) -> None:
+    """``ValueError`` for a limit of the pressure angle that no cam or every cam keeps."""
+    if not 0 < limit < np.pi / 2:
+        raise ValueError(f"the pressure angle wanted is {limit / deg:.4g} deg; it must lie between 0 and 90 deg")
+
+
+def refuse_radius(limit: Any) -> None:
+    """``ValueError`` for a least radius of curvature that is no length."""
+    if not (np.isfinite(limit) and limit >= 0):
+        raise ValueError(f"the least radius wanted is {limit / mm:.4g} mm; it must be a finite number of at least 0 mm")
+
+
+def least_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:
+    """The least size from which on up to ``ample`` every size keeps a limit, element by element.
+
+    ``keeps`` says which sizes of an array do.  From ``ample`` downwards the largest that fails is found, then the
+    place where that ends; 0 if none fails.
+
+    >>> round(float(least_from_which_on(lambda x: (x - 1) * (x - 2) >= 0, np.array(5.0))), 9)
+    2.0
+    """
+    low = 0.0 * ample
+    for share in np.arange(1, STEPS) / STEPS:
+        low = np.where(keeps(share * ample), low, share * ample)
+    high = low + ample / STEPS
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        good = keeps(middle)
+        low, high = np.where(good, low, middle), np.where(good, middle, high)
+    return high
+
+
+def feasible(study: Study, n: int = 241) -> np.ndarray:
+    """The intervals ``(k, 2)`` of the one free quantity of ``study`` in which it keeps every limit, SI.
+
+    They are seen if they, and the gaps between them, are wider than the range over ``n``; their ends are then
+    found to rounding.
+
+    >>> from camkit.cam.measures import steepest
+    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> study = Study(TranslatingRollerCam(), ["base_radius"], [steepest], at_most={steepest: 20 * deg}, angles=721)
+    >>> (feasible(study) / mm).round(2).tolist()
+    [[35.24, 100.0]]
+
+    Raises ``ValueError`` for a study with more than one free quantity.
+    """
+    if len(study.free) != 1:
+        raise ValueError(f"the study frees {', '.join(study.free)}; intervals are found for one free quantity")
+    unconstrained = replace(study, minimise=study.minimise[:1])
+    low, high = study.bounds[:, 0]
+    x = np.linspace(low, high, n)
+    good = np.concatenate([[False], unconstrained.evaluate(x[:, None]).feasible, [False]])
+    starts, ends = np.flatnonzero(~good[:-1] & good[1:]), np.flatnonzero(good[:-1] & ~good[1:])
+    inside = np.concatenate([x[starts], x[ends - 1]])
+    outside = np.concatenate([x[np.maximum(starts - 1, 0)], x[np.minimum(ends, n - 1)]])
+    for _ in range(HALVINGS if len(inside) else 0):
+        middle = (inside + outside) / 2
+        keeps = unconstrained.evaluate(middle[:, None]).feasible
+        inside, outside = np.where(keeps, middle, inside), np.where(keeps, outside, middle)
+    return inside.reshape(2, -1).T

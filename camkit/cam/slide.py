@@ -1,0 +1,75 @@
+"""What a sliding follower resists with, and what rubs at its cam and in its guide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..quantities import Design, quantity
+from .load import Table, opposite_table, refuse_table, tabulated
+
+
+@dataclass(frozen=True)
+class SlideLoad(Design):
+    """The force that a cam must put into a sliding follower, positive where it resists the rise.
+
+    ``Q = m omega^2 s'' + F + F_0 + c s + m g cos(u)`` and what the tables add.
+
+    >>> load = SlideLoad(mass=2, force=100, preload=50, spring_rate=5e3, gravity=9.81, speed=10)
+    >>> print(f"{load.resisting_force(travel=0.01, acceleration=-0.2):.2f} N")
+    179.62 N
+    """
+
+    mass: float = quantity("m", 0.5, 0, 10, "kg", "follower and all that moves with it", at_least=0)
+    speed: float = quantity("omega", 300, 0, 3000, "rpm", "speed of the cam", at_least=0)
+    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None)
+    spring_rate: float = quantity("c", 5, 0, 50, "N/mm", "closing spring", at_least=0)
+    preload: float = quantity("F_0", 50, 0, 1000, "N", "force of the spring at the follower's start", at_least=0)
+    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the follower; 0: it travels level", at_least=0)
+    up_angle: float = quantity("u", 0, -180, 180, "deg", "from the direction of the rise to straight up", above=None)
+    force_table: Table = ()
+    """Pairs of travel [m] and resisting force [N], in order of travel; straight lines between."""
+    cam_angle_table: Table = ()
+    """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_table("force table", "travel", "force", self.force_table)
+        refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
+
+    def static_force(self, travel: Any, cam_angle: Any = 0.0) -> Any:
+        """Force along the travel without inertia, N (``travel`` from the start, m)."""
+        weight = self.mass * self.gravity * np.cos(self.up_angle)
+        static = self.force + self.preload + self.spring_rate * travel + weight
+        return static + tabulated(self.force_table, travel) + tabulated(self.cam_angle_table, cam_angle)
+
+    def resisting_force(self, travel: Any, acceleration: Any, cam_angle: Any = 0.0) -> Any:
+        """Force along the travel, N."""
+        return self.mass * self.speed**2 * acceleration + self.static_force(travel, cam_angle)
+
+    def opposite(self) -> SlideLoad:
+        """The same load as a second cam on the other side of the follower feels it."""
+        return self.replace(
+            force=-(self.force + self.preload),
+            preload=0.0,
+            up_angle=self.up_angle + np.pi,
+            force_table=opposite_table(self.force_table, -1),
+            cam_angle_table=opposite_table(self.cam_angle_table, 1),
+        )
+
+
+@dataclass(frozen=True)
+class SlideFriction(Design):
+    """Coulomb friction of a sliding follower: at the cam, in the pins and at both ends of its guide.
+
+    A friction circle has the radius ``pin radius * coefficient``: the force in the pin touches it.
+    """
+
+    coefficient: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and follower", at_least=0)
+    cam_axis: float = quantity("rho_1", 1.5, 0, 5, "mm", "friction circle of the cam axis", at_least=0)
+    roller_pin: float = quantity("rho_2", 0.5, 0, 5, "mm", "friction circle of the roller pin", at_least=0)
+    guide: float = quantity("mu", 0.1, 0, 0.3, "", "friction in the guide", at_least=0)
+    overhang: float = quantity("A", 20, 0, 100, "mm", "follower at its highest to the guide", at_least=0)
+    guide_length: float = quantity("B", 60, 20, 200, "mm", "between the two ends of the guide")

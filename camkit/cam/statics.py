@@ -1,0 +1,121 @@
+"""Forces between cam and follower with Coulomb friction, as vectors in the machine's frame.
+
+The cam pushes the follower in the contact point ``K`` with a force that leans from the contact normal to the side
+to which the cam's surface runs past the follower.  What the follower's bearing leaves of it is compared with
+the load.  All follows for a force of 1 N and is scaled afterwards, as everything is linear in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+Vector = tuple[Any, Any]
+
+
+class Bearing(Protocol):
+    """What leads a follower."""
+
+    def velocity_at(self, point: Vector) -> Vector:
+        """Velocity of the follower's point at ``point``, per speed of the cam, m."""
+
+    def share(self, point: Vector, force: Vector) -> Any:
+        """What ``force`` in ``point`` does along the follower's motion after the bearing's friction."""
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """A rocking arm's pivot on the x axis; the arm's angle grows clockwise; its force touches a friction circle."""
+
+    distance: Any
+    velocity: Any
+    friction_circle: Any
+
+    def velocity_at(self, point: Vector) -> Vector:
+        """A clockwise turn about the pivot."""
+        return self.velocity * point[1], -self.velocity * (point[0] - self.distance)
+
+    def share(self, point: Vector, force: Vector) -> Any:
+        """Moment about the pivot, m."""
+        moment = point[1] * force[0] - (point[0] - self.distance) * force[1]
+        return moment - np.sign(self.velocity) * self.friction_circle
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A straight guide along +y, borne at both ends: at the height ``mouth`` and ``length`` above it."""
+
+    axis: Any
+    mouth: Any
+    length: Any
+    velocity: Any
+    coefficient: Any
+
+    def velocity_at(self, point: Vector) -> Vector:
+        """Along the guide."""
+        return 0.0 * self.velocity, self.velocity
+
+    def share(self, point: Vector, force: Vector) -> Any:
+        """Force along the guide less the friction at its ends, which share the side force like a beam's supports."""
+        below = self.mouth - point[1]
+        top = ((point[0] - self.axis) * force[1] + below * force[0]) / self.length
+        rubbing = self.coefficient * (abs(top) + abs(force[0] + top))
+        return force[1] - np.sign(self.velocity) * rubbing
+
+
+class Push(NamedTuple):
+    """What a force of 1 N between cam and follower does."""
+
+    follower: Any
+    """Along the follower's motion, N per N, or N m per N for an arm."""
+    cam: Any
+    """Torque that turns the cam against it, N m per N."""
+    normal: Any
+    """Its part along the contact normal."""
+
+
+def push(analysis: Any, flank: Any) -> Push:
+    """A push by the inner flank (``flank`` +1) or by a groove's outer flank (-1), element by element."""
+    x, y = point = analysis.contact_point(flank)
+    (nx, ny), sigma = analysis.normal, analysis.cam.rotation
+    vx, vy = analysis.bearing.velocity_at(point)
+    past_x, past_y = -sigma * y - vx, sigma * x - vy  # velocity of the cam's surface past the follower
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along = np.sin(analysis.lean) / np.hypot(past_x, past_y)
+    normal = flank * np.cos(analysis.lean)
+    force = normal * nx + along * past_x, normal * ny + along * past_y
+    torque = sigma * (x * force[1] - y * force[0]) + analysis.cam.friction.cam_axis
+    return Push(analysis.bearing.share(point, force), torque, normal)
+
+
+def efficiency(analysis: Any, flank: Any) -> Any:
+    """Power out over power in with ``flank`` pushing; 0 where the follower rests or friction jams it.
+
+    Where the follower moves with the push, the cam drives it; where it moves against the push, it drives the cam.
+    """
+    v, pushed = analysis.velocity, push(analysis, flank)
+    out = v * pushed.follower
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(out > 0, out / pushed.cam, pushed.cam / out)
+    return np.where(v == 0, 0.0 * out, np.maximum(ratio, 0.0))
+
+
+class Rubbing(NamedTuple):
+    """Forces with friction; ``inf`` where friction jams the follower."""
+
+    contact_force: Any
+    """Along the contact normal, N; < 0 at a groove's outer flank."""
+    cam_torque: Any
+    """N m."""
+
+
+def rubbing(analysis: Any) -> Rubbing:
+    """The forces that the load on the follower calls for: by the inner flank, or the outer one where it pulls."""
+    Q = analysis.resistance
+    flank = np.where(Q < 0, -1.0, 1.0)
+    pushed = push(analysis, flank)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        force = np.where(flank * pushed.follower > 0, Q / pushed.follower, np.inf + 0.0 * pushed.follower)
+    return Rubbing(force * pushed.normal, force * pushed.cam)

@@ -1,0 +1,197 @@
+"""Disk cam with a flat face on a sliding follower.
+
+The follower slides along +y; its face is square to that and stands at the height ``r_0 + s`` above the cam axis.
+That height is the cam's support function, so the face is touched at ``x = sigma v`` and the radius of curvature
+is ``rho = r_0 + s + w``.
+
+Source: Norton, Cam Design and Manufacturing Handbook (flat-faced followers); checked against brute-force geometry.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..motion import MotionProgram
+from ..quantities import Design, fails, quantity
+from ..units import mm
+from .analysis import FlatAnalysis, lowest
+from .conjugate import opposite
+from .follower_measures import FLAT_CURVE
+from .sizing import refuse_radius
+from .slide import SlideFriction, SlideLoad
+from .statics import Guide
+from .translating_roller import rise_and_return, top_level
+
+
+@dataclass(frozen=True)
+class TranslatingFlatCam(Design):
+    """A disk cam that lifts a sliding follower through a flat face.
+
+    ``motion`` gives the follower's travel from its start, where the face stands ``base_radius`` above the cam
+    axis; ``rotation`` is +1 counter-clockwise, -1 clockwise.  An ``offset`` of the follower's axis does not change
+    the cam: it moves the contact on the face, and so what rubs in the guide.
+
+    >>> cam = TranslatingFlatCam().analyse()
+    >>> print(f"{cam.face_width / mm:.4f} mm, {cam.profile_margin.value / mm:.4f} mm")
+    38.1972 mm, 19.3360 mm
+
+    Raises ``ValueError`` for a size that cannot be built; `analyse` does for a face that would pass the cam axis.
+    """
+
+    motion: MotionProgram = field(default_factory=rise_and_return)
+    base_radius: float = quantity("r_0", 30, 10, 100, "mm", "cam axis to face at the follower's start")
+    offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
+    rotation: int = 1
+    load: SlideLoad = field(default_factory=SlideLoad)
+    friction: SlideFriction = field(default_factory=SlideFriction)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.rotation not in (1, -1):
+            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+
+    @property
+    def roller_radius(self) -> float:
+        """0: there is no roller."""
+        return 0.0
+
+    def analyse(self, n: int = 721) -> TranslatingFlatAnalysis:
+        """Geometry and forces at ``n`` cam angles over the motion's whole span."""
+        turn = np.linspace(0, 1, n) * self.motion.span
+        analysis = TranslatingFlatAnalysis(self, turn)
+        analysis.refuse_impossible()
+        return analysis
+
+    def base_radius_for(self, *, least_radius: Any, n: int = 721) -> Any:
+        """Least base radius with which no radius of curvature is below ``least_radius``: ``rho - s - w``, m.
+
+        >>> cam = TranslatingFlatCam()
+        >>> cam.replace(base_radius=cam.base_radius_for(least_radius=4 * mm)).analyse().profile_margin.value.round(9)
+        np.float64(0.004)
+        """
+        refuse_radius(least_radius)
+        analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        return least_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
+
+    def conjugate(self, distance: Any) -> TranslatingFlatCam:
+        """The second cam of a pair: it carries a second face below the cam axis, ``distance`` from the first.
+
+        Given in the machine's frame turned by half a turn, so its follower again slides along +y.
+        """
+        if fails(distance > self.base_radius):
+            raise ValueError(
+                f"the faces are {distance / mm:.4g} mm apart; the first stands {self.base_radius / mm:.4g} mm above "
+                "the cam axis, and the second must stand below it"
+            )
+        return self.replace(
+            motion=opposite(self.motion),
+            base_radius=distance - self.base_radius,
+            offset=-self.offset,
+            load=self.load.opposite(),
+        )
+
+
+@dataclass(frozen=True)
+class TranslatingFlatAnalysis(FlatAnalysis):
+    """What follows from a `TranslatingFlatCam` at the given cam angles."""
+
+    cam: TranslatingFlatCam
+
+    @cached_property
+    def buildable(self) -> Any:
+        """Whether the design can be built, ``(..., 1)``: the face stays above the cam axis."""
+        return (self.cam.base_radius + self.motion.s > 0).all(-1, keepdims=True)
+
+    def refuse_impossible(self) -> None:
+        """``ValueError`` in a sentence if this is one design and it cannot be built."""
+        if fails(self.buildable[..., 0]):
+            least = (self.cam.base_radius + self.motion.s).min()
+            raise ValueError(f"the face comes down to {least / mm:.4g} mm above the cam axis; it must stay above 0 mm")
+
+    @cached_property
+    def travel(self) -> np.ndarray:
+        """``s``, m."""
+        return np.where(self.buildable, self.motion.s, np.nan)
+
+    @cached_property
+    def height(self) -> np.ndarray:
+        """``r_0 + s``: of the face above the cam axis, m."""
+        return self.cam.base_radius + self.travel
+
+    @cached_property
+    def profile_radius(self) -> np.ndarray:
+        """``rho = r_0 + s + w``: radius of curvature of the cam, convex > 0, m."""
+        return self.height + self.acceleration
+
+    @property
+    def pressure_angle(self) -> np.ndarray:
+        """0: the face is square to the travel, rad."""
+        return 0.0 * self.height
+
+    @cached_property
+    def normal(self) -> np.ndarray:
+        """The contact normal: along the travel."""
+        return np.stack([0.0 * self.height, 1.0 + 0.0 * self.height])
+
+    def contact_point(self, flank: Any = 1) -> np.ndarray:
+        """Where face and cam touch, machine's frame, m: ``(sigma v, r_0 + s)``; ``nan`` for an outer flank."""
+        return np.stack(np.broadcast_arrays(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank)))
+
+    def _on(self, flank: Any) -> Any:
+        return np.where(np.greater(flank, 0), self.height, np.nan)
+
+    @cached_property
+    def contact_offset(self) -> np.ndarray:
+        """``sigma v - e``: from the follower's axis to where its face is touched, m."""
+        return self.contact_point()[0] - self.cam.offset
+
+    @cached_property
+    def face_reach(self) -> tuple[Any, Any]:
+        """How far the face has to reach to either side of the follower's axis: least and largest offset, m."""
+        return self.lowest(lambda at: at.contact_offset).value, self.highest(lambda at: at.contact_offset).value
+
+    @property
+    def face(self) -> np.ndarray:
+        """Both ends of the narrowest face in the frame of the machine, ``(2, 2, ...)``: x, y of each end, m."""
+        ends = (self.cam.offset + np.expand_dims(x, -1) for x in self.face_reach)
+        return np.stack([np.stack(np.broadcast_arrays(x, self.height)) for x in ends], axis=1)
+
+    @property
+    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """The follower: the mouth of its guide ``(2,)`` and its axis at the face ``(2, n)``, machine's frame, m."""
+        foot = np.stack(np.broadcast_arrays(self.cam.offset, self.height))
+        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), foot)}
+
+    @property
+    def bearing(self) -> Guide:
+        """The guide in which the follower slides."""
+        friction = self.cam.friction
+        mouth = self.cam.base_radius + top_level(self.cam.motion) + friction.overhang
+        return Guide(self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide)
+
+    @property
+    def lever(self) -> np.ndarray:
+        """1: the contact force goes along the travel."""
+        return 1.0 + 0.0 * self.height
+
+    @property
+    def inertia(self) -> Any:
+        """Of the follower, kg."""
+        return self.cam.load.mass
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Force along the travel besides inertia, N."""
+        return self.cam.load.static_force(self.travel, self.cam_angle)
+
+    @cached_property
+    def resistance(self) -> np.ndarray:
+        """Force along the travel that the cam has to overcome, N, positive against the rise."""
+        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
+
+
+TranslatingFlatCam.measures = FLAT_CURVE

@@ -1,0 +1,267 @@
+"""Disk cam with a roller on a sliding follower.
+
+The cam axis O is the origin.  The follower slides along +y, its axis at ``x = e``, the offset.  The roller's centre
+stands at the height ``h = h_0 + s``, ``h_0 = sqrt((r_b + r_T)^2 - e^2)``.  ``sigma = +1``: the cam turns
+counter-clockwise, its top runs to -x, and an offset ``e > 0`` eases the rise; ``sigma = -1``: clockwise.
+
+Source: Norton, Cam Design and Manufacturing Handbook (cam size determination); VDI 2143 part 1; with the offset's
+sign and both senses of rotation checked against brute-force geometry.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property, reduce
+from typing import Any
+
+import numpy as np
+
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..quantities import Design, fails, quantity
+from ..units import deg, mm
+from .analysis import RollerAnalysis, highest
+from .conjugate import opposite
+from .follower_measures import ROLLER_CURVE
+from .sizing import least_from_which_on, refuse_pressure_angle, refuse_radius
+from .slide import SlideFriction, SlideLoad
+from .statics import Guide
+
+
+def rise_and_return() -> MotionProgram:
+    """20 mm up and down, with dwells."""
+    law = Cycloidal()
+    return MotionProgram(
+        (Rise(120 * deg, 20 * mm, law), Dwell(60 * deg), Return(120 * deg, 20 * mm, law), Dwell(60 * deg))
+    )
+
+
+def top_level(motion: MotionProgram) -> Any:
+    """The highest level at which a segment of ``motion`` begins or ends, m."""
+    return reduce(np.maximum, motion.levels)
+
+
+@dataclass(frozen=True)
+class TranslatingRollerCam(Design):
+    """A disk cam that lifts a sliding follower through a roller, as a plate (inner flank) or a groove (both).
+
+    ``motion`` gives the follower's travel from its start, where the profile has the ``base_radius``;
+    ``rotation`` is ``sigma``: +1 counter-clockwise, -1 clockwise.  A roller of radius 0 is a knife edge.
+
+    >>> rise = MotionProgram((Rise(120 * deg, 20 * mm, Cycloidal()),))
+    >>> for offset in (0, 5 * mm):
+    ...     alpha = TranslatingRollerCam(rise, 30 * mm, 8 * mm, offset).analyse(2001).pressure_angle
+    ...     print(f"{np.degrees(alpha.max()):.4f} deg")
+    22.0528 deg
+    16.6857 deg
+
+    Raises ``ValueError`` for a size that cannot be built; `analyse` does for a follower that would pass beside
+    the cam, or a roller that would cover the cam axis.
+    """
+
+    motion: MotionProgram = field(default_factory=rise_and_return)
+    base_radius: float = quantity("r_b", 30, 10, 100, "mm", "cam axis to profile at the follower's start")
+    roller_radius: float = quantity("r_T", 8, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
+    offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
+    rotation: int = 1
+    load: SlideLoad = field(default_factory=SlideLoad)
+    friction: SlideFriction = field(default_factory=SlideFriction)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.rotation not in (1, -1):
+            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+        if fails(abs(self.offset) < self.prime_radius):
+            raise ValueError(
+                f"the offset of the follower is {self.offset / mm:.4g} mm; base circle and roller make "
+                f"{self.prime_radius / mm:.4g} mm, and it must stay below that"
+            )
+        self.keep(abs(self.offset) < self.prime_radius)
+
+    @property
+    def prime_radius(self) -> Any:
+        """Cam axis to roller centre at the follower's start, m."""
+        return self.base_radius + self.roller_radius
+
+    @property
+    def start_height(self) -> Any:
+        """``h_0``: height of the roller's centre at the follower's start, m."""
+        return np.sqrt(self.prime_radius**2 - self.offset**2)
+
+    def analyse(self, n: int = 721) -> TranslatingRollerAnalysis:
+        """Geometry and forces at ``n`` cam angles over the motion's whole span."""
+        turn = np.linspace(0, 1, n) * self.motion.span
+        analysis = TranslatingRollerAnalysis(self, turn)
+        analysis.refuse_impossible()
+        return analysis
+
+    def base_radius_for(self, *, pressure_angle: Any = None, least_radius: Any = None, n: int = 721) -> Any:
+        """Least base radius from which on every larger one keeps the limits that are given, m.
+
+        ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
+        ``least_radius``: of curvature of the profile where it is convex, m.  Everything else stays as it is.  Where
+        the limits leave that open, the least is where the roller just touches the cam axis; a cam must be larger.
+
+        >>> cam = TranslatingRollerCam()
+        >>> wide = cam.replace(base_radius=cam.base_radius_for(pressure_angle=20 * deg))
+        >>> print(f"{wide.base_radius / mm:.2f} mm, {abs(wide.analyse().pressure_angle).max() / deg:.3f} deg")
+        35.24 mm, 20.000 deg
+        """
+        if pressure_angle is not None:
+            refuse_pressure_angle(pressure_angle)
+        if least_radius is not None:
+            refuse_radius(least_radius)
+
+        def start_height(at: TranslatingRollerAnalysis) -> Any:
+            steep = 0.0 if pressure_angle is None else abs(at.across) / np.tan(pressure_angle)
+            tight = 0.0 if least_radius is None else at.height_for(least_radius)
+            clear = np.sqrt(np.maximum(self.roller_radius**2 - self.offset**2, 0.0))
+            return reduce(np.maximum, (steep, tight, clear)) - at.motion.s
+
+        analysis = TranslatingRollerAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        height = highest(analysis, start_height).value
+        e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
+        return np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
+
+    def conjugate(self, distance: Any, roller_radius: Any = None) -> TranslatingRollerCam:
+        """The second cam of a pair: it carries a roller below the cam axis, ``distance`` from the first one's centre.
+
+        Given in the machine's frame turned by half a turn, so its follower again slides along +y.
+        """
+        r = self.roller_radius if roller_radius is None else roller_radius
+        height = distance - self.start_height
+        if fails(height > 0):
+            raise ValueError(
+                f"the rollers' centres are {distance / mm:.4g} mm apart; the first stands "
+                f"{self.start_height / mm:.4g} mm above the cam axis, and the second must stand below it"
+            )
+        return self.replace(
+            motion=opposite(self.motion),
+            base_radius=np.where(height > 0, np.hypot(height, self.offset) - r, np.nan)[()],
+            roller_radius=r,
+            offset=-self.offset,
+            load=self.load.opposite(),
+        )
+
+
+@dataclass(frozen=True)
+class TranslatingRollerAnalysis(RollerAnalysis):
+    """What follows from a `TranslatingRollerCam` at the given cam angles."""
+
+    cam: TranslatingRollerCam
+
+    @cached_property
+    def buildable(self) -> Any:
+        """Whether the design can be built, ``(..., 1)``: roller above the cam axis's level and clear of the axis."""
+        h = self.cam.start_height + self.motion.s
+        clear = (h > 0) & (np.hypot(self.cam.offset, h) > self.cam.roller_radius)
+        return clear.all(-1, keepdims=True)
+
+    def refuse_impossible(self) -> None:
+        """``ValueError`` in a sentence if this is one design and it cannot be built."""
+        if not fails(self.buildable[..., 0]):
+            return
+        h = self.cam.start_height + self.motion.s
+        if h.min() <= 0:
+            raise ValueError(
+                f"the roller's centre comes down to {h.min() / mm:.4g} mm above the cam axis; it must stay above 0 mm"
+            )
+        raise ValueError(
+            f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
+            f"{np.hypot(self.cam.offset, h).min() / mm:.4g} mm of the cam axis; it must stay outside it"
+        )
+
+    @cached_property
+    def travel(self) -> np.ndarray:
+        """``s``, m."""
+        return np.where(self.buildable, self.motion.s, np.nan)
+
+    @cached_property
+    def height(self) -> np.ndarray:
+        """``h``: of the roller's centre above the cam axis, m."""
+        return self.cam.start_height + self.travel
+
+    @cached_property
+    def pitch_radius(self) -> np.ndarray:
+        """``R``: cam axis to roller centre, m."""
+        return np.hypot(self.cam.offset, self.height)
+
+    @cached_property
+    def across(self) -> np.ndarray:
+        """``v - sigma e``: the contact normal's component across the travel, to where the cam's surface runs."""
+        return self.velocity - self.cam.rotation * self.cam.offset
+
+    @cached_property
+    def pressure_angle(self) -> np.ndarray:
+        """``alpha``: ``tan alpha = (v - sigma e) / h``, > 0 where the normal leans as the cam's surface runs, rad."""
+        return np.arctan2(self.across, self.height)
+
+    @cached_property
+    def curvature(self) -> np.ndarray:
+        """Curvature of the pitch curve, convex > 0, 1/m.
+
+        ``kappa = [h^2 - h w + (v - sigma e)(2 v - sigma e)] / [h^2 + (v - sigma e)^2]^1.5``
+        """
+        h, g = self.height, self.across
+        return (h**2 - h * self.acceleration + g * (g + self.velocity)) / (h**2 + g**2) ** 1.5
+
+    def height_for(self, least_radius: Any) -> np.ndarray:
+        """Height ``h`` from which on the profile is nowhere more convex than ``least_radius``, angle by angle, m.
+
+        ``kappa <= (h^2 + h |w| + |c|) / h^3`` with ``c = (v - sigma e)(2 v - sigma e)``; from the ``ample`` height on
+        each of the three is at most a third of what is allowed.
+        """
+        g, w, rho = self.across, self.acceleration, least_radius + self.cam.roller_radius
+        c = g * (g + self.velocity)
+        ample = reduce(np.maximum, (3 * rho, np.sqrt(3 * abs(w) * rho), np.cbrt(3 * abs(c) * rho)))
+        return least_from_which_on(lambda h: rho * (h**2 - h * w + c) <= (h**2 + g**2) ** 1.5, ample)
+
+    @cached_property
+    def roller_centre(self) -> np.ndarray:
+        """The roller's centre in the frame of the machine, m."""
+        return np.stack(np.broadcast_arrays(self.cam.offset, self.height))
+
+    @cached_property
+    def normal(self) -> np.ndarray:
+        """The contact normal, a unit vector from cam to roller in the frame of the machine."""
+        direction = np.stack(np.broadcast_arrays(-self.cam.rotation * self.across, self.height))
+        return direction / np.hypot(self.across, self.height)
+
+    @property
+    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """The follower: the mouth of its guide ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
+        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), self.roller_centre)}
+
+    @property
+    def bearing(self) -> Guide:
+        """The guide in which the follower slides."""
+        friction = self.cam.friction
+        mouth = self.cam.start_height + top_level(self.cam.motion) + friction.overhang
+        return Guide(self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide)
+
+    @property
+    def lever(self) -> np.ndarray:
+        """``cos alpha``."""
+        return np.cos(self.pressure_angle)
+
+    @property
+    def inertia(self) -> Any:
+        """Of the follower, kg."""
+        return self.cam.load.mass
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Force along the travel besides inertia, N."""
+        return self.cam.load.static_force(self.travel, self.cam_angle)
+
+    @cached_property
+    def resistance(self) -> np.ndarray:
+        """Force along the travel that the cam has to overcome, N, positive against the rise."""
+        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
+
+    @property
+    def efficiency(self) -> np.ndarray:
+        """Power out over power in against a resisting force, from the free-body diagram."""
+        return self.free_body_efficiency
+
+
+TranslatingRollerCam.measures = ROLLER_CURVE

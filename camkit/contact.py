@@ -1,0 +1,74 @@
+"""Stress where two cylinders touch along a line: Hertz.
+
+Source: Johnson, Contact Mechanics (1985), sections 4.2(c) and 4.1(b).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+GOLDEN = (np.sqrt(5) - 1) / 2
+"""``(z/a)^2`` where the shear below the middle of a line contact is largest: the root of ``t^2 + t = 1``."""
+
+
+class LineContact(NamedTuple):
+    """What two cylinders do to each other; unpacks as pressure, half width, shear, depth of the shear (SI)."""
+
+    pressure: Any
+    """``p_0``: largest pressure, in the middle, Pa."""
+    half_width: Any
+    """``a``: half the width of the contact, m."""
+    shear: Any
+    """Largest shear stress, below the middle of the contact, Pa."""
+    shear_depth: Any
+    """How deep that is, m."""
+
+
+def contact_modulus(first: Any, second: Any, first_poisson: Any = 0.3, second_poisson: Any = 0.3) -> Any:
+    """``E*`` of two bodies in contact, Pa: ``1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2``.
+
+    >>> print(f"{contact_modulus(210e9, 210e9) / 1e9:.3f} GPa")
+    115.385 GPa
+
+    Raises ``ValueError`` for a modulus that is not above 0 or a Poisson's ratio outside 0 to 0.5; in an array
+    such a member is ``nan``.
+    """
+    moduli, ratios = (first, second), (first_poisson, second_poisson)
+    for modulus in moduli:
+        if np.ndim(modulus) == 0 and not (np.isfinite(modulus) and modulus > 0):
+            raise ValueError(f"the elastic modulus is {modulus / 1e9:.6g} GPa; it must be a finite number above 0 GPa")
+    for ratio in ratios:
+        if np.ndim(ratio) == 0 and not 0 <= ratio <= 0.5:
+            raise ValueError(f"Poisson's ratio is {ratio:.6g}; it must lie between 0 and 0.5")
+    possible = np.logical_and.reduce(
+        np.broadcast_arrays(*(E > 0 for E in moduli), *((nu >= 0) & (nu <= 0.5) for nu in ratios))
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        compliance = sum((1 - nu**2) / E for E, nu in zip(moduli, ratios, strict=True))
+        return np.where(possible, 1 / compliance, np.nan)[()]
+
+
+def hertz_line(force_per_length: Any, curvature: Any, modulus: Any) -> LineContact:
+    """Pressure and shear where two parallel cylinders are pressed together, element by element.
+
+    ``force_per_length``: ``w``, N/m; ``curvature``: ``kappa``, the sum of both curvatures, 1/m (a flat face
+    adds 0, a hollow one counts negative); ``modulus``: ``E*`` of `contact_modulus`, Pa.
+
+        p_0 = sqrt(w E* kappa / pi),  a = sqrt(4 w / (pi E* kappa))
+
+    The shear on the axis, ``tau / p_0 = z/a - (z/a)^2 / sqrt(1 + (z/a)^2)``, is largest at ``z = 0.786 a``
+    with ``0.300 p_0``.  ``nan`` where the surfaces do not fit (``kappa <= 0``) or are pulled (``w < 0``).
+
+    >>> w, kappa = 4e3, 1 / 0.005 + 1 / 0.020
+    >>> contact = hertz_line(w, kappa, contact_modulus(210e9, 210e9))
+    >>> print(f"{contact.pressure / 1e6:.3f} MPa, {contact.half_width * 1e6:.3f} um")
+    191.646 MPa, 13.287 um
+    """
+    w, kappa, E = (np.asarray(x, dtype=float) for x in (force_per_length, curvature, modulus))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        fitting = np.where((w >= 0) & (kappa > 0), kappa, np.nan)
+        p0 = np.sqrt(w * E * fitting / np.pi)[()]
+        a = np.sqrt(4 * w / (np.pi * E * fitting))[()]
+    return LineContact(p0, a, GOLDEN**2.5 * p0, np.sqrt(GOLDEN) * a)

@@ -1,0 +1,118 @@
+"""How a motion law shakes a follower that is one mass on a spring: the classical reason to choose a law.
+
+The cam moves one end of a spring after the law ``s(u)``, the mass on the other end follows with ``x(u)``:
+
+    x'' + 2 zeta W (x' - s') + W^2 (x - s) = 0,   W = 2 pi tau,   tau = rise time / natural period
+
+so a slow cam has a large ``tau``.  The deviation ``z = x - s`` is the convolution of the velocity with the
+derivative of the impulse response,
+
+    z(u) = -Re [c y(u)],   y(u) = int_0^u s'(t) e^{m (u - t)} dt,   m = -zeta W + i W sqrt(1 - zeta^2),
+    c = 1 + i zeta / sqrt(1 - zeta^2)
+
+taken by Gauss's rule between the law's kinks, exact to rounding.  After the rise ``z`` rings on as ``e^{m t}``.
+
+Source: Norton, Cam Design and Manufacturing Handbook (dynamics of cam systems); Koster, Vibrations of Cam Mechanisms.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .law import Law
+
+GAUSS = np.polynomial.legendre.leggauss(5)
+LEAST, PER_PERIOD = 24, 48
+"""Panels of the integration: at least in each smooth piece of the law, and in a natural period."""
+
+
+class Vibration(NamedTuple):
+    """How far the mass strays from the law, for a rise of 1 over a time of 1; all of the shape of ``tau``."""
+
+    residual: Any
+    """Largest deviation after the rise, a share of the lift."""
+    during: Any
+    """Largest deviation during the rise, a share of the lift."""
+    acceleration: Any
+    """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
+
+
+def period_ratio(angle: Any, speed: Any, natural_frequency: Any) -> Any:
+    """``tau`` of a rise over the cam ``angle`` (rad) at a shaft ``speed`` (rad/s); natural frequency in rad/s.
+
+    >>> from camkit.units import rpm
+    >>> round(period_ratio(np.pi / 2, 600 * rpm, 2 * np.pi * 100), 6)
+    2.5
+    """
+    return angle * natural_frequency / (2 * np.pi * speed)
+
+
+def residual_vibration(law: Law, tau: Any, damping: float = 0.0) -> Vibration:
+    """Vibration of a follower that is one mass on a spring, at each ``tau`` ``(r,)`` (or one number).
+
+    ``damping`` is the ratio ``zeta`` to critical damping, at least 0 and below 1.  A population of ``p`` laws gives
+    ``(p, r)``.  ``during`` and ``acceleration`` are looked for at 48 instants of a natural period or more; their
+    error is below 0.3 %, that of ``residual`` is rounding.
+
+    >>> from camkit.motion import Cycloidal, SimpleHarmonic
+    >>> [round(float(residual_vibration(law, 3.5).residual), 6) for law in (SimpleHarmonic(), Cycloidal())]
+    [0.0, 0.008084]
+
+    Raises ``ValueError`` for a ``tau`` that is not above 0 and for a damping ratio out of its range.
+    """
+    ratio = np.atleast_1d(np.asarray(tau, dtype=float))
+    if not (np.isfinite(ratio).all() and (ratio > 0).all()):
+        raise ValueError("the period ratio tau holds a value that is not a finite number above 0; it must be that")
+    if not 0 <= damping < 1:
+        raise ValueError(f"the damping ratio is {damping:g}; it must be at least 0 and below 1")
+    W = 2 * np.pi * ratio[:, None]
+    m, c = _root(W, damping), 1 + 1j * damping / np.sqrt(1 - damping**2)
+    panels = _panels(law, float(ratio.max()))
+    y = _convolved(law, panels, m)
+    z, end = -(c * y).real, -c * y[..., -1:]
+    relative = -(c * (law(panels).v[..., None, :] + m * y)).real
+    pull = abs(W**2 * z + 2 * damping * W * relative).max(-1)
+    after = _ringing((W**2 + 2 * damping * W * m) * end, m)
+    parts = _ringing(end, m), abs(z).max(-1), np.maximum(pull, after)
+    return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
+
+
+def _root(W: Any, damping: float) -> Any:
+    """``m``: the free vibration goes as ``e^{m t}``."""
+    return W * (-damping + 1j * np.sqrt(1 - damping**2))
+
+
+def _panels(law: Law, tau: float) -> Any:
+    """Ends of the panels of integration from 0 to 1: no kink inside any, none longer than a part of a period."""
+    edges = np.broadcast_arrays(*(np.atleast_1d(edge) for edge in (0.0, *law.kinks, 1.0)))
+    pieces = []
+    for low, high in pairwise(edges):
+        count = LEAST + int(np.ceil(PER_PERIOD * tau * np.max(high - low)))
+        pieces.append(low + (high - low) * np.arange(count) / count)
+    return np.concatenate([*pieces, edges[-1]], axis=-1)
+
+
+def _convolved(law: Law, panels: Any, m: Any) -> Any:
+    """``y`` at the end of each panel, ``(..., r, k + 1)``, for the roots ``m`` ``(r, 1)``."""
+    x, weight = GAUSS
+    width = np.diff(panels, axis=-1)
+    at = panels[..., :-1, None] + width[..., None] * (x + 1) / 2
+    v = law(at.reshape(*at.shape[:-2], -1)).v.reshape(at.shape)
+    fading = np.exp(m[..., None] * (width[..., None] * (1 - x) / 2)[..., None, :, :])
+    inside = (weight / 2 * width[..., None] * v)[..., None, :, :] * fading
+    step = inside.sum(-1)
+    carried = np.exp(m * width[..., None, :])
+    y = np.zeros((*step.shape[:-1], step.shape[-1] + 1), dtype=complex)
+    for k in range(step.shape[-1]):
+        y[..., k + 1] = carried[..., k] * y[..., k] + step[..., k]
+    return y
+
+
+def _ringing(amplitude: Any, m: Any) -> Any:
+    """The largest ``|Re(amplitude e^{m t})|`` over ``t >= 0``: at once, or where its slope first vanishes."""
+    turn = (np.pi / 2 - np.angle(amplitude * m)) % np.pi
+    later = amplitude * np.exp(m * turn / m.imag)
+    return np.maximum(abs(amplitude.real), abs(later.real))[..., 0]

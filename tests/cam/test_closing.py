@@ -1,0 +1,258 @@
+"""What keeps a follower on its cam: springs against brute force over fine tables, torque as work, Hertz's formulas."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from camkit import OscillatingRollerCam
+from camkit.cam.closing import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
+from camkit.cam.follower_measures import jump_margin, least_force, mean_torque, peak_pressure
+from camkit.cam.load import ArmLoad
+from camkit.cam.oscillating_flat import OscillatingFlatCam
+from camkit.cam.slide import SlideFriction, SlideLoad
+from camkit.cam.translating_flat import TranslatingFlatCam
+from camkit.cam.translating_roller import TranslatingRollerCam
+from camkit.cam.valve_train import ValveTrain
+from camkit.contact import contact_modulus, hertz_line
+from camkit.motion import Cycloidal, Dwell, HalfHarmonicStart, ModifiedTrapezoid, MotionProgram, Return, Rise
+from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
+
+
+def program(lift, law=ModifiedTrapezoid()):  # noqa: B008
+    return MotionProgram((Rise(100 * deg, lift, law), Dwell(40 * deg), Return(120 * deg, lift, law), Dwell(100 * deg)))
+
+
+SLIDE = SlideLoad(
+    mass=1.5 * kg, speed=500 * rpm, force=20 * N, spring_rate=9e3, preload=80 * N, gravity=9.81, up_angle=30 * deg
+)
+ARM = ArmLoad(mass=1.5 * kg, speed=500 * rpm, torque=1, spring_rate=20, preload=6, gravity=9.81, up_angle=20 * deg)
+CAMS = [
+    TranslatingRollerCam(program(20 * mm), offset=6 * mm, load=SLIDE),
+    TranslatingFlatCam(program(20 * mm), 40 * mm, load=SLIDE),
+    OscillatingFlatCam(program(12 * deg), load=ARM),
+    OscillatingRollerCam(program(30 * deg), load=ARM),
+]
+every_cam = pytest.mark.parametrize("cam", CAMS, ids=lambda cam: type(cam).__name__)
+
+
+def at_speed(cam, speed, **load):
+    return cam.replace(load=cam.load.replace(speed=speed, **load)).analyse(20001)
+
+
+# ---------------------------------------------------------------- loads
+
+
+def test_the_load_of_a_slide_is_inertia_spring_weight_and_force():
+    """Inertia: rate of change of the kinetic energy; spring and weight: of the potential energy."""
+    motion, phi, h = program(20 * mm, Cycloidal()), np.linspace(0.01, 4.5, 200), 1e-5
+
+    def energy(x):
+        s, v = motion(x).s, motion(x).v * SLIDE.speed
+        kinetic, spring = SLIDE.mass * v**2 / 2, SLIDE.preload * s + SLIDE.spring_rate * s**2 / 2
+        return kinetic + spring + SLIDE.mass * 9.81 * s * np.cos(30 * deg) + SLIDE.force * s
+
+    s, v, a, _ = motion(phi)
+    power = (energy(phi + h) - energy(phi - h)) / (2 * h)
+    assert_allclose(SLIDE.resisting_force(s, a) * v, power, atol=1e-6 * abs(power).max())
+
+
+def test_tables_over_travel_and_cam_angle_add_to_a_load():
+    tables = {"cam_angle_table": ((1.0, 10.0), (2.0, 30.0))}
+    slide = SlideLoad(force_table=((0.0, 5.0), (10 * mm, 25.0)), preload=0, spring_rate=0, **tables)
+    at = np.array([0.0, 1.0, 1.5, 2.0, 6.0])
+    assert_allclose(slide.static_force(5 * mm, at), 15 + np.array([10, 10, 20, 30, 30]))
+    arm = ArmLoad(torque_table=((0.0, 5.0), (0.2, 25.0)), preload=2, **tables)
+    assert_allclose(arm.static_torque(0.1 * m, 0.5, 0.1, at), 17 + np.array([10, 10, 20, 30, 30]))
+
+
+@pytest.mark.parametrize("kind", [SlideLoad, ArmLoad])
+def test_a_table_out_of_order_is_refused(kind):
+    with pytest.raises(
+        ValueError, match=r"^the cam angle table's cam angle must grow from entry to entry; it does not$"
+    ):
+        kind(cam_angle_table=((1.0, 5.0), (1.0, 6.0)))
+    with pytest.raises(ValueError, match=r"^the cam angle table has an entry that is not a finite number; it holds"):
+        kind(cam_angle_table=((1.0, np.nan),))
+    with pytest.raises(ValueError, match=r"^the force table's travel must grow from entry to entry; it does not$"):
+        SlideLoad(force_table=((2.0, 5.0), (1.0, 6.0)))
+
+
+# ---------------------------------------------------------------- jump and preload
+
+
+@every_cam
+def test_a_follower_jumps_just_above_its_jump_speed(cam):
+    """Contact force over a fine table: positive everywhere below that speed, negative somewhere above it."""
+    fastest = jump_speed(cam.analyse())
+    assert least_force(at_speed(cam, fastest * 0.999)) > 0
+    assert least_force(at_speed(cam, fastest * 1.001)) < 0
+    assert jump_margin(cam.analyse()) == pytest.approx(fastest / cam.load.speed - 1)
+
+
+@every_cam
+@pytest.mark.parametrize("speed", [1000 * rpm, 2000 * rpm])
+def test_the_least_preload_just_keeps_contact(cam, speed):
+    least = preload_needed(cam.analyse(), speed)
+    closed = at_speed(cam, speed, preload=least)
+    size = closed.contact_force.max()
+    assert least > 0
+    assert_allclose(least_force(closed), 0, atol=1e-5 * size)
+    assert least_force(at_speed(cam, speed, preload=1.01 * least)) > 0
+    assert jump_speed(closed) == pytest.approx(speed, rel=1e-5)
+
+
+@every_cam
+def test_a_slow_follower_needs_no_preload_and_a_loose_one_jumps_at_once(cam):
+    heavy = {"torque": 50} if isinstance(cam.load, ArmLoad) else {"force": 1e3}
+    assert preload_needed(at_speed(cam, 0, **heavy), 1 * rpm) == 0
+    pulled = {name: -2 * size for name, size in heavy.items()}
+    assert jump_speed(at_speed(cam, 0, **pulled)) == 0
+
+
+def test_a_follower_that_never_slows_down_never_jumps():
+    """Only the first half of a rise: the cam speeds the follower up all the time."""
+    rise = MotionProgram((Rise(90 * deg, 10 * mm, HalfHarmonicStart()),))
+    assert jump_speed(TranslatingRollerCam(rise).analyse()) == np.inf
+
+
+def test_jump_and_preload_agree_with_the_valve_train():
+    """The valve train counts mass, rate and preload alone, which are a slide's without force and weight."""
+    cam = CAMS[1].replace(load=SLIDE.replace(force=0, gravity=0))
+    train = ValveTrain(SLIDE.mass, SLIDE.spring_rate, SLIDE.preload)
+    angle = cam.analyse().cam_angle
+    assert jump_speed(cam.analyse()) == pytest.approx(train.jump_speed(cam.motion, angle), rel=1e-12)
+    expected = train.preload_needed(cam.motion, angle, 1200 * rpm)
+    assert preload_needed(cam.analyse(), 1200 * rpm) == pytest.approx(expected, rel=1e-12)
+
+
+@every_cam
+def test_jump_and_preload_of_a_population(cam):
+    rates = np.array([[0.5], [1.0], [3.0]]) * cam.load.spring_rate
+    singles = [cam.replace(load=cam.load.replace(spring_rate=float(rate))).analyse() for rate in rates[:, 0]]
+    many = cam.replace(load=cam.load.replace(spring_rate=rates)).analyse()
+    assert_allclose(jump_speed(many), [jump_speed(one) for one in singles], rtol=1e-13)
+    needed = [preload_needed(one, 900 * rpm) for one in singles]
+    assert_allclose(preload_needed(many, 900 * rpm), needed, rtol=1e-13)
+    assert_allclose(jump_margin(many), [jump_margin(one) for one in singles], rtol=1e-13)
+
+
+@pytest.mark.parametrize(("speed", "said"), [(-1 * rpm, "-1"), (np.nan, "nan"), (np.inf, "inf")])
+def test_a_speed_that_cannot_be_is_refused(speed, said):
+    sentence = f"the speed of the cam is {said} rpm; it must be a finite number of at least 0 rpm"
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        preload_needed(CAMS[0].analyse(), speed)
+
+
+# ---------------------------------------------------------------- torque
+
+
+def test_balance_of_a_torque():
+    phi = np.linspace(0, 2 * np.pi, 3601)
+    balance = torque_balance(phi, 3 + 5 * np.cos(2 * phi))
+    assert balance.mean == pytest.approx(3, rel=1e-12)
+    assert_allclose(balance.surplus, 2.5 * np.sin(2 * phi), atol=1e-5)
+    assert balance.swing == pytest.approx(5, rel=1e-5)
+
+
+def test_a_flywheel_evens_the_speed_out():
+    """The kinetic energy between slowest and fastest is the swing: ``J (w_1^2 - w_2^2) / 2``."""
+    phi = np.linspace(0, 2 * np.pi, 721)
+    balance = torque_balance(phi, 40 * np.sin(phi))
+    speed, unevenness = 300 * rpm, 0.02
+    fast, slow = speed * (1 + unevenness / 2), speed * (1 - unevenness / 2)
+    J = balance.flywheel(speed, unevenness)
+    assert J * (fast**2 - slow**2) / 2 == pytest.approx(balance.swing, rel=1e-12)
+
+
+@every_cam
+def test_mass_spring_and_weight_give_back_what_they_take(cam):
+    analysis = cam.analyse(7201)
+    balance = torque_balance(analysis.cam_angle, analysis.cam_torque)
+    assert abs(balance.mean) < 1e-6 * abs(analysis.cam_torque).max()
+    assert abs(balance.surplus[-1]) < 1e-12
+
+
+@every_cam
+def test_the_mean_torque_is_the_work_of_the_machine(cam):
+    """A force that resists the rise only: its work over the lift, divided by a turn."""
+    work = {"cam_angle_table": ((0.0, 80.0), (100 * deg, 80.0), (120 * deg, 0.0))}
+    analysis = cam.replace(load=cam.load.replace(**work)).analyse(7201)
+    lift = analysis.motion.s.max()
+    mean = torque_balance(analysis.cam_angle, analysis.cam_torque).mean
+    assert mean == pytest.approx(80 * lift / (2 * np.pi), rel=1e-5)
+    assert mean_torque(analysis) > mean
+
+
+def test_friction_alone_takes_the_mean_torque_of_an_idle_cam():
+    """A resting follower under a constant force: the cam's own pin and the face that it slides under."""
+    friction = SlideFriction(coefficient=0.1, cam_axis=2 * mm, guide=0.2)
+    load = SlideLoad(mass=0, force=100 * N, preload=0, spring_rate=0)
+    cam = TranslatingFlatCam(MotionProgram((Dwell(360 * deg),)), 30 * mm, load=load, friction=friction)
+    slides = np.arctan(0.1)
+    expected = 100 / np.cos(slides) * (30 * mm * np.sin(slides) + 2 * mm)
+    assert mean_torque(cam.analyse()) == pytest.approx(expected, rel=1e-12)
+
+
+# ---------------------------------------------------------------- Hertz
+
+
+PAIR = ContactPair(12 * mm, 210 * GPa, 70 * GPa, 0.3, 0.33)
+
+
+@every_cam
+def test_pressure_along_the_cam(cam):
+    """Hertz's formula with the radii of both bodies at the contact, of points of the profile."""
+    analysis = cam.replace(load=cam.load.replace(preload=40.0 if isinstance(cam.load, ArmLoad) else 400.0)).analyse()
+    E = 1 / ((1 - 0.3**2) / (210 * GPa) + (1 - 0.33**2) / (70 * GPa))
+    assert PAIR.modulus == pytest.approx(E)
+    roller = 1 / cam.roller_radius if cam.roller_radius else 0.0
+    together = analysis.profile_curvature + roller
+    p = np.sqrt(analysis.contact_force / (12 * mm) * E * together / np.pi)
+    found = contact_along(analysis, PAIR)
+    assert_allclose(found.pressure, p, rtol=1e-12)
+    half = np.sqrt(4 * analysis.contact_force / (12 * mm) / (np.pi * E * together))
+    assert_allclose(found.half_width, half, rtol=1e-12)
+    assert_allclose(found.shear / found.pressure, 0.3003, rtol=1e-4)
+    assert_allclose(found.shear_depth / found.half_width, 0.7862, rtol=1e-4)
+    assert peak_pressure(PAIR)(analysis) == found.pressure.max()
+
+
+def test_a_published_contact():
+    """Case V11 (slippy 0.5.2, solve_hertz_line): steel on steel, radii 5 and 20 mm, 4 N/mm."""
+    rest = MotionProgram((Dwell(360 * deg),))
+    load = SlideLoad(mass=0, force=0, spring_rate=0, preload=60 * N)
+    cam = TranslatingRollerCam(rest, 20 * mm, 5 * mm, load=load)
+    found = contact_along(cam.analyse(), ContactPair(15 * mm))
+    assert_allclose(found.pressure / MPa, 191.645673, rtol=1e-8)
+    assert_allclose(found.half_width / mm, 0.013287433, rtol=1e-7)
+
+
+def test_the_flank_that_gives_the_force_bears_it():
+    """Without a spring a fast groove cam pushes by its outer flank, hollow to the roller, and the pressure is lower."""
+    cam = CAMS[0].replace(load=SlideLoad(speed=900 * rpm, preload=0, spring_rate=0))
+    analysis = cam.analyse()
+    pulls = analysis.contact_force < 0
+    assert 50 < pulls.sum() < 400
+    p = contact_along(analysis, PAIR).pressure
+    hollow = 1 / cam.roller_radius - analysis.outer_profile_curvature
+    outer = hertz_line(-analysis.contact_force / PAIR.width, hollow, contact_modulus(210e9, 70e9, 0.3, 0.33)).pressure
+    assert_allclose(p[pulls], outer[pulls], rtol=1e-12)
+
+
+def test_no_pressure_where_a_face_lifts_off_or_a_roller_undercuts():
+    loose = CAMS[1].replace(load=SlideLoad(speed=900 * rpm, preload=0, spring_rate=0)).analyse()
+    assert_array_equal(np.isnan(contact_along(loose, PAIR).pressure), loose.contact_force < 0)
+    steep = MotionProgram((Rise(50 * deg, 20 * mm, Cycloidal()), Dwell(60 * deg)))
+    tight = TranslatingRollerCam(steep, 20 * mm, 25 * mm, load=SLIDE.replace(preload=1e4)).analyse()
+    assert tight.undercut.any()
+    assert np.isnan(contact_along(tight, PAIR).pressure[tight.undercut]).all()
+
+
+def test_pressures_of_a_population():
+    bases = np.array([[30.0], [-4.0], [60.0]]) * mm
+    many = CAMS[0].replace(base_radius=bases).analyse(91)
+    found = peak_pressure(PAIR)(many)
+    assert np.isnan(found[1])
+    for i in (0, 2):
+        single = CAMS[0].replace(base_radius=float(bases[i, 0])).analyse(91)
+        assert found[i] == pytest.approx(peak_pressure(PAIR)(single), rel=1e-12)
