@@ -1,4 +1,4 @@
-"""Printed against computed: a published table beside what the package gives, with a verdict for each number."""
+"""Tables to read: any rows under a heading, and printed against computed with a verdict for each number."""
 
 from __future__ import annotations
 
@@ -6,6 +6,41 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under a heading; numbers are shown with ``digits`` digits.
+
+    >>> Table(("law", "Cv"), [("cycloidal", 2.0), ("3-4-5", 1.875)], digits=3)
+    law        Cv
+    cycloidal  2
+    3-4-5      1.88
+    """
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[object]]
+    title: str = ""
+    digits: int = 5
+
+    def _cells(self) -> list[list[str]]:
+        shown = [[self._text(cell) for cell in row] for row in self.rows]
+        return [list(self.head), *shown]
+
+    def _text(self, cell: object) -> str:
+        return f"{cell:.{self.digits}g}" if isinstance(cell, (float, np.floating)) else str(cell)
+
+    def __repr__(self) -> str:
+        widths = [max(map(len, column)) for column in zip(*self._cells(), strict=True)]
+        lines = ("  ".join(c.ljust(n) for c, n in zip(row, widths, strict=True)).rstrip() for row in self._cells())
+        return "\n".join([*([self.title] if self.title else []), *lines])
+
+    def _repr_html_(self) -> str:
+        head, *rows = self._cells()
+        cells = "".join(f"<th style='text-align:left'>{word}</th>" for word in head)
+        body = "".join(f"<tr>{''.join(f'<td style=text-align:left>{c}</td>' for c in row)}</tr>" for row in rows)
+        return f"<table><caption><b>{self.title}</b></caption><tr>{cells}</tr>{body}</table>"
+
 
 AGREES = 0.1
 """A gap of at most this (percent) that rounded inputs explain still counts as agreement."""

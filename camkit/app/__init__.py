@@ -2,7 +2,18 @@
 
 from .explore import Explorer, explore
 from .judge import Judgements, judge
+from .program import ProgramEditor, edit_program
 from .search import Search, search
 from .trial import try_everything
 
-__all__ = ["Explorer", "Judgements", "Search", "explore", "judge", "search", "try_everything"]
+__all__ = [
+    "Explorer",
+    "Judgements",
+    "ProgramEditor",
+    "Search",
+    "edit_program",
+    "explore",
+    "judge",
+    "search",
+    "try_everything",
+]

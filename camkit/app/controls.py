@@ -24,6 +24,9 @@ GREEK = {
     "lambda": "&lambda;",
     "alpha": "&alpha;",
     "beta": "&beta;",
+    "gamma": "&gamma;",
+    "delta": "&delta;",
+    "epsilon": "&epsilon;",
     "theta": "&theta;",
 }
 
@@ -71,6 +74,19 @@ class Knob:
         shown = in_unit(self.value, self.declared.unit)
         self._put(self.box, _six_digits(shown))
         self._put(self.slider, shown)
+
+    def between(self, low: float, high: float) -> None:
+        """Other ends of the slider (SI); the value is moved between them."""
+        ends = low / self.declared.factor, high / self.declared.factor
+        if ends == (self.slider.min, self.slider.max):
+            return
+        self._silent = True
+        try:
+            with self.slider.hold_trait_notifications():
+                self.slider.min, self.slider.max = ends
+        finally:
+            self._silent = False
+        self.set(min(max(self.value, low), high))
 
     def _put(self, widget: Any, shown: float) -> None:
         self._silent = True

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from operator import attrgetter
 from typing import Any
 
 import ipywidgets as w
@@ -10,9 +12,10 @@ import numpy as np
 
 from .. import export
 from ..plot.picture import View, positions_of
-from ..quantities import Measure, Quantity, declarations
+from ..quantities import Design, Measure, Quantity, declarations
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tell
+from .orbit import Orbit
 from .panel import Panel
 from .picture import LivePicture
 
@@ -20,6 +23,24 @@ VIEWPOINT = {
     "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
     "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
 }
+
+
+def declared_in(design: Any) -> dict[str, Any]:
+    """Declarations of a design and of the designs that it holds, such as ``load.mass``."""
+    parts = {f.name: getattr(design, f.name) for f in fields(design)}
+    held = {name: part for name, part in parts.items() if isinstance(part, Design)}
+    return declarations(design) | {
+        f"{name}.{inner}": declared for name, part in held.items() for inner, declared in declarations(part).items()
+    }
+
+
+def changed(design: Any, values: Mapping[str, Any]) -> Any:
+    """``design`` with other values, also of designs that it holds."""
+    changes = {name: value for name, value in values.items() if "." not in name}
+    for part in dict.fromkeys(name.partition(".")[0] for name in values.keys() - changes.keys()):
+        inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
+        changes[part] = getattr(design, part).replace(**inner)
+    return design.replace(**changes)
 
 
 class Explorer(Panel):
@@ -55,26 +76,34 @@ class Explorer(Panel):
         self.controls = self._make_controls(free or tuple(declarations(design)))
         wanted = dict.fromkeys(name for view in views for name in positions_of(view))
         self.positions = {name: self._position(name, position.get(name)) for name in wanted}
+        if {"azimuth", "elevation"} <= self.positions.keys():
+            self._orbit = Orbit(self.picture, self.positions, self._show)
         self._table = w.HTML()
         super().__init__([self._grid(), self._buttons(), self._banner, self.picture.widget, self._table])
         self._show()
 
     def _make_controls(self, free: Sequence[str]) -> dict[str, Knob | Menu]:
-        declared = declarations(self.design)
+        declared = declared_in(self.design)
         unknown = [name for name in free if name not in declared]
         if unknown:
             raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
-        return {name: control(name, declared[name], getattr(self.design, name), self._changed) for name in free}
+        values = {name: attrgetter(name)(self.design) for name in free}
+        return {name: control(name, declared[name], value, self._changed) for name, value in values.items()}
 
     def _position(self, name: str, value: float | None) -> Knob:
         """The control that turns the mechanism or the view of it."""
         if name == "turn":
-            angle = next(a for a in ("cam_angle", "crank_angle") if hasattr(self.analysis, a))
-            low, high = (float(f(getattr(self.analysis, angle))) / deg for f in (np.min, np.max))
-            declared = Quantity("phi", low, low, high, "deg", "turns the mechanism", above=None)
-            return Knob(f"{angle}_shown", declared, declared.low * deg if value is None else value, self._show)
+            angle, low, high = self._turn_range()
+            declared = Quantity("phi", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
+            return Knob(f"{angle}_shown", declared, low if value is None else value, self._show)
         declared = VIEWPOINT[name]
         return Knob(name, declared, declared.default * deg if value is None else value, self._show)
+
+    def _turn_range(self) -> tuple[str, float, float]:
+        """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
+        angle = next(a for a in ("cam_angle", "crank_angle") if hasattr(self.analysis, a))
+        values = getattr(self.analysis, "turn_range", getattr(self.analysis, angle))
+        return angle, float(np.min(values)), float(np.max(values))
 
     def _grid(self) -> w.Widget:
         rows = [c.row for c in (*self.controls.values(), *self.positions.values())]
@@ -105,7 +134,7 @@ class Explorer(Panel):
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value."""
         for name, knob in self.controls.items():
-            knob.set(getattr(design, name))
+            knob.set(attrgetter(name)(design))
         self._try(design)
 
     def on_change(self, act: Callable[[Any], None]) -> None:
@@ -114,7 +143,7 @@ class Explorer(Panel):
 
     def _changed(self) -> None:
         try:
-            design = self.design.replace(**{name: knob.value for name, knob in self.controls.items()})
+            design = changed(self.design, {name: knob.value for name, knob in self.controls.items()})
         except ValueError as refusal:
             self._refuse(str(refusal))
         else:
@@ -138,6 +167,8 @@ class Explorer(Panel):
 
     def _show(self) -> None:
         tell(self._banner, "")
+        if "turn" in self.positions:
+            self.positions["turn"].between(*self._turn_range()[1:])
         self.picture.widget.layout.display = self._table.layout.display = ""
         self.picture.show(self.analysis, **{name: knob.value for name, knob in self.positions.items()})
         self._table.value = self._table_html()
@@ -175,6 +206,7 @@ class Explorer(Panel):
 def explore(design: Any, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
     """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
 
+    ``free`` may also name quantities of a design that it holds: ``"load.mass"``.
     ``measures`` are listed with their value now, at the start and the change; ``at_most`` and ``at_least`` map
     measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first, ``azimuth`` and
     ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the next cell.

@@ -26,8 +26,12 @@ SETTLE = 0.25
 """Seconds after the last move until everything is drawn again."""
 
 
+DRAWING = threading.RLock()
+"""Held while anything is drawn: figures share matplotlib's fonts, which two threads must not use at once."""
+
+
 class ImageWidget(anywidget.AnyWidget):
-    """An image on the page; ``on_click(f)`` calls ``f(x, y)`` with shares of its width and height."""
+    """An image on the page that tells what the pointer does on it."""
 
     _esm = Path(__file__).with_name("image.js")
     _css = ".camkit-image { display: block; width: 100%; height: auto; }"
@@ -35,9 +39,13 @@ class ImageWidget(anywidget.AnyWidget):
     mime = traitlets.Unicode("image/png").tag(sync=True)
     description = traitlets.Unicode("").tag(sync=True)
 
+    def on_pointer(self, act: Callable[[str, float, float], None]) -> None:
+        """Call ``act(kind, x, y)``: "press", "drag", "release", "click"; x and y are shares of width and height."""
+        self.on_msg(lambda _, message, __: act(message["kind"], message["x"], message["y"]))
+
     def on_click(self, act: Callable[[float, float], None]) -> None:
         """Call ``act(x, y)`` at every click."""
-        self.on_msg(lambda _, message, __: act(message["x"], message["y"]))
+        self.on_pointer(lambda kind, x, y: act(x, y) if kind == "click" else None)
 
     def put(self, data: bytes, mime: str) -> None:
         """Show another image."""
@@ -52,13 +60,12 @@ class LivePicture:
         self.views = views
         self.figure, self.axes = layout(views, **size)
         self.widget = ImageWidget(description=description)
-        self._lock = threading.RLock()
         self._background: Any = None
         self._later: threading.Timer | None = None
 
     def show(self, analysis: Any, **position: float) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit."""
-        with self._lock:
+        with DRAWING:
             draw(analysis, self.axes, self.views, **position)
             if self._background is None:
                 self.settle()
@@ -69,7 +76,7 @@ class LivePicture:
 
     def settle(self) -> None:
         """Draw everything anew, axes fitted to the curves."""
-        with self._lock:
+        with DRAWING:
             if self._later:
                 self._later.cancel()
                 self._later = None
@@ -87,7 +94,7 @@ class LivePicture:
 
     def png(self) -> bytes:
         """The picture as a PNG file, settled."""
-        with self._lock:
+        with DRAWING:
             if self._later:
                 self.settle()
             return small_png(self.figure)
@@ -95,8 +102,12 @@ class LivePicture:
     def _settle_later(self) -> None:
         if self._later:
             self._later.cancel()
-        self._later = threading.Timer(SETTLE, self.settle)
+        self._later = threading.Timer(SETTLE, self._settle_if_alive)
         self._later.start()
+
+    def _settle_if_alive(self) -> None:
+        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
+            self.settle()
 
     def _blit(self) -> None:
         self.figure.canvas.restore_region(self._background)  # type: ignore[attr-defined]

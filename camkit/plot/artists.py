@@ -100,7 +100,8 @@ def text(ax: Axes, key: str, x: float, y: float, words: str, **style: Any) -> An
 
 def frame(ax: Axes, title: str, xlabel: str, ylabel: str) -> None:
     """Title and axis labels, and few ticks: text takes three quarters of a drawing's time."""
-    ax.locator_params(nbins=5)
+    if ax.get_xscale() == ax.get_yscale() == "linear":
+        ax.locator_params(nbins=5)
     ax.set_title(title)
     ax.set_xlabel(xlabel)
     ax.set_ylabel(ylabel)

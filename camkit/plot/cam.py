@@ -34,7 +34,7 @@ LIMIT = 45 * deg
 
 
 def cam_mechanism(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
-    """The cam as it is cut, its rollers and cranks, with the cam turned by ``turn`` (rad).
+    """The cam as it is cut, its rollers, faces and cranks, with the cam turned by ``turn`` (rad).
 
     Grey band: the groove between its two flanks; vermilion: stretches that the roller undercuts.
     """
@@ -44,18 +44,22 @@ def cam_mechanism(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
         rotated(getattr(analysis, k), on_machine) / mm for k in ("pitch", "profile", "outer_profile")
     )
     if new(ax):
-        frame(ax, "Cam and cranks", "x  [mm]", "y  [mm]")
+        frame(ax, "Cam and follower", "x  [mm]", "y  [mm]")
         ax.set_aspect("equal", adjustable="datalim")
         ax.plot(0, 0, "+", color=INK, markersize=12)
     area(ax, "groove", np.hstack([inner, outer[:, ::-1]]), facecolor=PALE, edgecolor="none", zorder=1)
     line(ax, "pitch", *pitch, color=GREY, linestyle="--", linewidth=1, zorder=2, label="pitch curve")
     line(ax, "profile", *inner, color=BLUE, linewidth=2.4, zorder=3, label="profile")
-    line(ax, "outer flank", *outer, color=SKY, linewidth=1.4, zorder=3, label="groove's outer flank")
+    groove = "groove's outer flank" if np.isfinite(outer).any() else "_"
+    line(ax, "outer flank", *outer, color=SKY, linewidth=1.4, zorder=3, label=groove)
     cut = (*gaps(inner, analysis.undercut), *gaps(outer, analysis.outer_undercut))
     line(ax, "undercut", cut[0], cut[1], color=WARNING, linewidth=4.5, zorder=4, label="undercut")
     line(ax, "outer undercut", cut[2], cut[3], color=WARNING, linewidth=4.5, zorder=4)
     for (name, (pivot, centre)), colour in zip(analysis.cranks.items(), COLOURS, strict=False):
         _crank(ax, name, pivot / mm, centre[:, i] / mm, analysis.cam.roller_radius / mm, colour)
+    if hasattr(analysis, "face"):
+        face = analysis.face[..., i] / mm
+        line(ax, "face", *face, color=COLOURS[0], linewidth=6, solid_capstyle="butt", zorder=6)
     if ax.get_legend() is None:
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=4, columnspacing=1.2)
     return ax

@@ -29,10 +29,10 @@ class Picture(Figure):
 
 
 def small_png(figure: Figure) -> bytes:
-    """The pixels of a drawn figure as a PNG file of few colours: a third of the usual size."""
+    """The pixels of a drawn figure as a PNG file of 256 colours: a third of the usual size."""
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3])  # type: ignore[attr-defined]
     out = io.BytesIO()
-    image.quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
     return out.getvalue()
 
 
@@ -44,7 +44,7 @@ def layout(
         figure = Picture(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(figure)
         rest = len(views) - 1
-        columns = 2 if rest > 2 else 1
+        columns = 2 if rest > 3 else 1
         rows = max(1, -(-rest // columns))
         grid = figure.add_gridspec(rows, (2 + columns) if rest else 1)
         axes = [figure.add_subplot(grid[:, :2] if rest else grid[:, :])]

@@ -1,0 +1,85 @@
+"""`offer`: menus and buttons that put other designs into the sliders."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ipywidgets as w
+
+from .controls import banner, tell
+from .explore import Explorer
+from .panel import Panel
+
+Change = Callable[[Any], Any]
+"""From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
+
+
+class Offers(Panel):
+    """An `Explorer` under a row of menus and buttons, each of which changes its design.
+
+    ``menus`` maps a menu's name to its options, ``buttons`` a button's words to what it does: a function from the
+    design in the sliders to another.  A menu shows which of its options the design already is, and nothing if it is none.  An
+    offer that cannot be made is refused in a sentence, and the design stays.
+    """
+
+    def __init__(
+        self, explorer: Explorer, menus: Mapping[str, Mapping[str, Change]], buttons: Mapping[str, Change]
+    ) -> None:
+        self.explorer, self.picture = explorer, explorer.picture
+        self._silent = False
+        self._banner = banner()
+        self.menus = {name: self._menu(name, options) for name, options in menus.items()}
+        self.buttons = {words: self._button(words, change) for words, change in buttons.items()}
+        row = w.HBox([*self.menus.values(), *self.buttons.values()], layout=w.Layout(flex_flow="row wrap"))
+        super().__init__([row, self._banner, explorer])
+        explorer.on_change(self._follow)
+        self._follow(explorer.design)
+
+    def _menu(self, name: str, options: Mapping[str, Change]) -> w.Dropdown:
+        menu = w.Dropdown(
+            options=list(options.items()), value=None, description=name, layout=w.Layout(width="230px"),
+            style={"description_width": "initial"},
+        )  # fmt: skip
+        menu.observe(lambda change: self._chosen(change.new), "value")
+        return menu
+
+    def _chosen(self, change: Change | None) -> None:
+        if change and not self._silent:
+            self._make(change)
+
+    def _button(self, words: str, change: Change) -> w.Button:
+        button = w.Button(description=words, layout=w.Layout(width="auto"))
+        button.on_click(lambda _: self._make(change))
+        return button
+
+    def _make(self, change: Change) -> None:
+        try:
+            design = change(self.explorer.design)
+        except ValueError as refusal:
+            tell(self._banner, f"This cannot be offered: {refusal}.")
+        else:
+            self.explorer.load(design)
+
+    def _follow(self, design: Any) -> None:
+        """Every menu shows which of its options the design is."""
+        tell(self._banner, "")
+        self._silent = True
+        try:
+            for menu in self.menus.values():
+                menu.value = next((change for _, change in menu.options if change(design) == design), None)
+        finally:
+            self._silent = False
+
+    def summary(self) -> str:
+        """The explorer's numbers."""
+        return self.explorer.summary()
+
+
+def offer(
+    explorer: Explorer,
+    menus: Mapping[str, Mapping[str, Change]] | None = None,
+    buttons: Mapping[str, Change] | None = None,
+) -> Offers:
+    """Menus and buttons above ``explorer`` that put other designs into its sliders (see `Offers`)."""
+    return Offers(explorer, menus or {}, buttons or {})

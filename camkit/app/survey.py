@@ -1,0 +1,175 @@
+"""`survey`: the objective of a study over its two free quantities, and its optimum while weights and design move."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..plane import Plane
+from ..plot.survey import ShownPlane, objective_plane
+from ..quantities import Measure, Quantity, words
+from ..study import Study, WeightedSum
+from ..units import factor
+from .controls import Knob, banner, tell
+from .explore import Explorer
+from .panel import Panel
+from .picture import SETTLE, LivePicture
+
+MakeStudy = Callable[..., Study]
+
+
+class Survey(Panel):
+    """The objective over two quantities of the design of an `Explorer`, where limits are missed, and the optimum.
+
+    ``studies`` maps a name in the menu to a function ``make(start, weights)`` that gives a `Study` with two free
+    quantities; ``weights`` names the parts of its weighted objective, a slider each (they are shared out so as to add
+    to 1).  The optimum is looked for a moment after the last move.  A click loads the design under it.
+    """
+
+    def __init__(
+        self, explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], steps: int = 41
+    ) -> None:
+        self.explorer, self.studies, self.steps = explorer, studies, steps
+        self.menu = w.Dropdown(
+            options=list(studies),
+            description="problem",
+            layout=w.Layout(width="auto"),
+            style={"description_width": "66px"},
+        )
+        self.menu.observe(lambda _: self._changed(), "value")
+        self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
+        self.optimum: np.ndarray | None = None
+        self._key: Any = None
+        self._later: threading.Timer | None = None
+        self.verdict, self._banner = w.HTML(), banner()
+        self.take = w.Button(description="Load the optimum", icon="star", disabled=True)
+        self.take.on_click(lambda _: self.load(self.optimum))
+        self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=5.6)
+        self.picture.widget.on_click(self._clicked)
+        super().__init__([self._body()])
+        self._changed()
+        self.settle()
+        explorer.on_change(lambda _: self._changed())
+
+    def _knob(self, i: int, name: str, value: float) -> Knob:
+        declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
+        return Knob(name, declared, value, self._changed)
+
+    def _body(self) -> w.Widget:
+        left = [self.menu, *(knob.row for knob in self.knobs), self.take, self._banner, self.verdict]
+        return w.HBox(
+            [
+                w.VBox(left, layout=w.Layout(flex="1 1 340px", max_width="560px")),
+                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 480px", max_width="740px")),
+            ],
+            layout=w.Layout(flex_flow="row wrap"),
+        )
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """The weights, as shares of their sum."""
+        values = [knob.value for knob in self.knobs]
+        if not sum(values) > 0:
+            raise ValueError("all weights are 0; one must be more")
+        return tuple(value / sum(values) for value in values)
+
+    @property
+    def study(self) -> Study:
+        """The problem of the menu under these weights, around the design in the sliders."""
+        make, first = self.studies[self.menu.value], self.explorer.start
+        free = make(first, weights=self.weights).free
+        return make(self.explorer.design.replace(**{n: getattr(first, n) for n in free}), weights=self.weights)
+
+    def _changed(self) -> None:
+        """Another problem, other weights, another design: another plane, unless only the free quantities moved."""
+        try:
+            study = self.study
+        except ValueError as refusal:
+            tell(self._banner, f"This cannot be surveyed: {refusal}.")
+            return
+        tell(self._banner, "")
+        key = self.menu.value, self.weights, study.start
+        if key != self._key:
+            self._key, self.plane, self.optimum = key, Plane(study, n=self.steps), None
+            self._search_later()
+        self._show()
+
+    def _search_later(self) -> None:
+        if self._later:
+            self._later.cancel()
+        self._later = threading.Timer(SETTLE, self._settle_if_alive)
+        self._later.start()
+
+    def _settle_if_alive(self) -> None:
+        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
+            self.settle()
+
+    def settle(self) -> None:
+        """Look for the optimum, if that is still to be done."""
+        if not self._later:
+            return
+        self._later.cancel()
+        self._later, plane = None, self.plane
+        best = plane.best
+        if plane is self.plane:  # nobody has moved anything since
+            self.optimum = best if np.isfinite(best).all() else None
+            self._show()
+
+    def _show(self) -> None:
+        here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
+        self.take.disabled = self.optimum is None
+        self.verdict.value = "<br>".join(self._lines())
+        self.picture.show(ShownPlane(self.plane, here, self.optimum))
+
+    def _lines(self) -> list[str]:
+        """The optimum in words: free quantities, parts of the objective, limits."""
+        if self._later:
+            return ["looking for the optimum"]
+        if self.optimum is None:
+            return ["no design between the bounds keeps every limit"]
+        study = self.plane.study
+        analysis = study.design(self.optimum).analyse(study.angles)
+        free = zip(study.free, self.plane.declared, self.optimum, strict=True)
+        where = ", ".join(f"{words(n)} {v / q.factor:.4g} {q.unit}".rstrip() for n, q, v in free)
+        objective = study.minimise[0]
+        parts = objective.parts if isinstance(objective, WeightedSum) else (objective,)
+        told = [f"{m.name}: {_text(m, analysis)}" for m in (*parts, *(m for m, _, _ in study.limits))]
+        return [f"<b>optimum: {where}</b>", *told]
+
+    def load(self, x: Any) -> None:
+        """Put free values into the sliders."""
+        free = dict(zip(self.plane.study.free, map(float, x), strict=True))
+        self.explorer.load(self.explorer.design.replace(**free))
+
+    def _clicked(self, x: float, y: float) -> None:
+        width, height = self.picture.figure.canvas.get_width_height()
+        point = self.picture.axes[0].transData.inverted().transform((x * width, (1 - y) * height))
+        low, high = self.plane.study.bounds
+        shown = point * [factor(q.unit) for q in self.plane.declared]
+        if (low <= shown).all() and (shown <= high).all():
+            self.load(shown)
+
+    def summary(self) -> str:
+        """The problem, its weights and its optimum."""
+        weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(self.weights, start=1))
+        lines = [line.replace("<b>", "").replace("</b>", "") for line in self._lines()]
+        return "\n".join([f"{self.menu.value}: {weights}", *lines])
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
+        self.settle()
+        return super()._repr_mimebundle_(**kwargs)
+
+
+def _text(measure: Measure, analysis: Any) -> str:
+    return measure.text(float(measure.sign * measure(analysis)))
+
+
+def survey(
+    explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], **options: Any
+) -> Survey:
+    """A panel that shows an objective over two quantities of the design in ``explorer`` (see `Survey`)."""
+    return Survey(explorer, studies, weights, **options)

@@ -1,0 +1,109 @@
+"""The program editor: rows and handles say the same, what is impossible is told, nothing is lost."""
+
+import numpy as np
+import pytest
+
+from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, edit_program, mm, try_everything
+
+PROGRAM = MotionProgram(
+    (
+        Dwell(45 * deg),
+        Rise(90 * deg, 20 * mm, Cycloidal()),
+        Dwell(45 * deg),
+        Return(120 * deg, 20 * mm, SimpleHarmonic()),
+        Dwell(60 * deg),
+    )
+)
+
+
+@pytest.fixture
+def editor():
+    return edit_program(PROGRAM)
+
+
+def rows(editor):
+    return [(row.kind.value, row.angle.value, row.lift.value) for row in editor.rows]
+
+
+def share(editor, angle, lift):
+    """Where on the image (shares of width and height) a cam angle (deg) and a lift (mm) are."""
+    width, height = editor.picture.figure.canvas.get_width_height()
+    x, y = editor.picture.axes[0].transData.transform((angle, lift))
+    return x / width, 1 - y / height
+
+
+def drag(editor, start, end):
+    editor._pointer("press", *share(editor, *start))
+    editor._pointer("drag", *share(editor, *end))
+    editor._pointer("release", *share(editor, *end))
+
+
+def test_rows_show_the_program(editor):
+    assert rows(editor) == [("dwell", 45, 0), ("rise", 90, 20), ("dwell", 45, 0), ("return", 120, 20), ("dwell", 60, 0)]
+    assert editor.program == PROGRAM
+
+
+def test_a_typed_angle_changes_the_program(editor):
+    editor.rows[1].angle.value, editor.rows[2].angle.value = 80, 55
+    assert editor.program.edges == pytest.approx(np.array([0, 45, 125, 180, 300, 360]) * deg)
+
+
+def test_dragging_a_handle_sideways_moves_the_joint_and_nothing_else(editor):
+    drag(editor, (135, 20), (150, 20))
+    assert editor.program.edges == pytest.approx(np.array([0, 45, 150, 180, 300, 360]) * deg)
+    assert editor.program.levels == pytest.approx(PROGRAM.levels)
+
+
+def test_dragging_a_handle_up_lifts_the_whole_dwell(editor):
+    drag(editor, (135, 20), (135, 26))
+    assert editor.program.levels == pytest.approx(np.array([0, 0, 26, 26, 0, 0]) * mm)
+    assert editor.program.edges == pytest.approx(PROGRAM.edges)
+
+
+def test_the_level_at_the_start_of_the_turn_stays(editor):
+    drag(editor, (45, 0), (50, 8))
+    assert editor.program.levels == pytest.approx(PROGRAM.levels)
+    assert editor.program.edges[1] == pytest.approx(50 * deg)
+
+
+def test_a_joint_stops_at_its_neighbours(editor):
+    drag(editor, (45, 0), (300, 0))
+    assert editor.program.edges[1] == pytest.approx(134 * deg)
+
+
+def test_a_drag_beside_the_handles_moves_nothing(editor):
+    drag(editor, (250, 3), (260, 9))
+    assert editor.program == PROGRAM
+
+
+def test_an_impossible_program_is_told_and_the_last_one_kept(editor):
+    editor.rows[1].angle.value = 200
+    assert "the program spans 470 deg; it can span at most 360 deg" in editor._banner.value
+    assert editor.program == PROGRAM
+    editor.rows[1].angle.value = 90
+    assert editor._banner.value == ""
+
+
+def test_followers_hear_of_every_possible_program(editor):
+    heard = []
+    editor.on_change(heard.append)
+    editor.rows[3].law.value = Cycloidal()
+    assert [p.segments[3].law for p in heard] == [Cycloidal()]
+
+
+def test_the_verdict_names_a_broken_joint(editor):
+    assert "at 180 deg the acceleration jumps by -0.0225 m/rad^2: infinite jerk" in editor.summary()
+    editor.rows[3].law.value = Cycloidal()
+    assert "acceleration" not in editor.summary()
+
+
+def test_segments_are_added_and_removed(editor):
+    editor._remove(editor.rows[-1])
+    assert editor.program.span == pytest.approx(300 * deg)
+    editor._add()
+    assert rows(editor)[-1] == ("dwell", pytest.approx(60), 0)
+
+
+def test_every_control_can_be_moved(editor):
+    assert try_everything(editor).endswith("controls moved")
+    assert editor.program == PROGRAM
