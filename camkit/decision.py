@@ -116,7 +116,10 @@ def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
 
 
 def _objectives(front: Any) -> np.ndarray:
-    f = np.asarray(getattr(front, "f", front), dtype=float)
+    try:
+        f = np.asarray(getattr(front, "f", front), dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError("the front must be a table of numbers, a row for each design") from None
     if f.ndim != 2 or not f.size:
         raise ValueError("the front is empty; there is no design to choose")
     if not np.isfinite(f).all():
@@ -125,7 +128,10 @@ def _objectives(front: Any) -> np.ndarray:
 
 
 def _weights(weights: Any, k: int) -> np.ndarray:
-    w = np.full(k, 1 / k) if weights is None else np.asarray(weights, dtype=float)
+    try:
+        w = np.full(k, 1 / k) if weights is None else np.asarray(weights, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"the weights are {weights!r}; they must be numbers") from None
     if w.shape != (k,):
         raise ValueError(f"there are {w.size} weights for {k} objectives")
     if not (np.isfinite(w).all() and (w >= 0).all() and w.sum() > 0):

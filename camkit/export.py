@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from . import motion
+from .decision import judgement_matrix
 from .quantities import Choice, Design, Measure, Quantity, declarations
 from .study import Study, WeightedSum, weighted
 from .units import in_unit
@@ -32,8 +33,8 @@ class Work:
     design: Any
     judgements: Mapping[str, Any] = field(default_factory=dict)
     """Upper triangles of judgement matrices by name."""
-    search: Mapping[str, int] = field(default_factory=dict)
-    """Population, generations and seed of the search that found ``x``."""
+    search: Mapping[str, Any] = field(default_factory=dict)
+    """Population, generations, seed and mode (the menu's entry) of the search that found ``x``."""
     x: Any = ()
     """Free values of the front's designs, ``(p, n_free)``, SI."""
 
@@ -55,8 +56,17 @@ def to_json(thing: Any) -> str:
     >>> from_json(to_json(DoorHandleCam(lift_arm=0.048))).lift_arm
     0.048
     """
+    if not isinstance(thing, (Work, Design)):
+        raise ValueError(f"this is a {type(thing).__name__}; a design or a Work can be saved")
+    if not isinstance(thing, Work) and any(
+        np.ndim(getattr(thing, n)) for n, d in declarations(thing).items() if isinstance(d, Quantity)
+    ):
+        raise ValueError("this is a population; one design can be saved")
     content = {"work": _work_out(thing)} if isinstance(thing, Work) else {"design": _out(thing)}
-    return json.dumps({"schema": SCHEMA, **content}, indent=1, allow_nan=False)
+    try:
+        return json.dumps({"schema": SCHEMA, **content}, indent=1, allow_nan=False)
+    except TypeError:
+        raise ValueError("a motion law that is a function of one's own cannot be saved") from None
 
 
 def from_json(text: str, kind: type | None = None) -> Any:
@@ -69,14 +79,18 @@ def from_json(text: str, kind: type | None = None) -> Any:
         content = json.loads(text)
     except json.JSONDecodeError as error:
         raise ValueError(f"the file is damaged: it is no JSON at line {error.lineno} ({error.msg})") from None
+    except RecursionError:
+        raise ValueError("the file is damaged: it is nested too deeply") from None
     if not isinstance(content, dict) or not isinstance(content.get("schema"), str):
         raise ValueError("the file is damaged: it does not say which camkit schema it follows")
     if content["schema"] != SCHEMA:
         raise ValueError(f"the file follows the schema {content['schema']!r}; this camkit reads {SCHEMA!r}")
     try:
         thing = _work_in(content["work"]) if "work" in content else _in(content["design"])
-    except (KeyError, TypeError, AttributeError, IndexError) as error:
+    except KeyError as error:
         raise ValueError(f"the file is damaged: it lacks or garbles {error}") from None
+    except (TypeError, AttributeError, IndexError, OverflowError):
+        raise ValueError("the file is damaged: an entry is not of the kind that belongs there") from None
     if not isinstance(thing, Design if kind is None and "work" not in content else kind or Work):
         wanted = kind.__name__ if kind else "design"
         raise ValueError(f"the file holds a {type(thing).__name__}; a {wanted} is wanted here")
@@ -183,6 +197,9 @@ def _work_in(entry: Mapping[str, Any]) -> Work:
     start = _in(entry["start"])
     declared: Any = declarations(start)
     keys = {_key(n, q): n for n, q in declared.items()}
+    for k, bounds in entry["free"].items():
+        if len(bounds) != 2:
+            raise ValueError(f"the file is damaged: it does not give two bounds for {k!r}")
     free = {keys[k]: tuple(declared[keys[k]].factor * b for b in bounds) for k, bounds in entry["free"].items()}
     named = {_measure_key(m): m for m in type(start).measures}
     study = Study(
@@ -191,12 +208,28 @@ def _work_in(entry: Mapping[str, Any]) -> Work:
         minimise=tuple(_measure_in(m, named) for m in entry["minimise"]),
         at_most={named[k]: v * _si(named[k]) for k, v in entry["at_most"].items()},
         at_least={named[k]: v * _si(named[k]) for k, v in entry["at_least"].items()},
-        angles=int(entry["angles"]),
+        angles=_whole(entry["angles"]),
     )
-    x = np.array(entry["front"], dtype=float).reshape(-1, len(free)) * [declared[n].factor for n in free]
+    rows = entry["front"]
+    if not isinstance(rows, list) or not all(isinstance(r, list) and len(r) == len(free) for r in rows):
+        raise ValueError(f"the file is damaged: its front does not have {len(free)} values for each design")
+    if not isinstance(_in(entry["design"]), type(start)):
+        raise ValueError("the file is damaged: its design is of another kind than its start")
+    for name, v in dict(entry["search"]).items():
+        if name not in ("population", "generations", "seed", "mode") or (name != "mode" and not isinstance(v, int)):
+            raise ValueError(f"the file says {v!r} for {name!r}, which is no setting of a search")
+    for matrix in entry["judgements"].values():
+        judgement_matrix(_in(matrix))
+    x = np.array(rows, dtype=float).reshape(-1, len(free)) * [declared[n].factor for n in free]
     if not np.isfinite(x).all():
         raise ValueError("the file is damaged: its front has a value that is not a finite number")
     return Work(study, _in(entry["design"]), _matrices(entry["judgements"]), dict(entry["search"]), x)
+
+
+def _whole(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 2:
+        raise ValueError(f"the file says {value!r} for 'angles'; it must be a whole number of at least 2")
+    return value
 
 
 def _matrices(entry: Mapping[str, Any]) -> dict[str, Any]:
@@ -216,15 +249,34 @@ def _measure_out(measure: Measure) -> Any:
         return _measure_key(measure) if measure.sign > 0 else f"-{_measure_key(measure)}"
     parts = {_measure_key(p): w for p, w in zip(measure.parts, measure.weights, strict=True)}
     reference = [in_unit(r, p.unit) for p, r in zip(measure.parts, measure.reference, strict=True)]
-    return {"name": measure.name, "weights": parts, "reference": reference}
+    return {"name": measure.name, "weights": parts, "reference": reference, "sign": measure.sign}
 
 
 def _measure_in(entry: Any, named: Mapping[str, Measure]) -> Measure:
     if isinstance(entry, str):
         return -named[entry.removeprefix("-")] if entry.startswith("-") else named[entry]
     parts = {named[k]: w for k, w in entry["weights"].items()}
+    if not parts or len(parts) != len(entry["reference"]):
+        raise ValueError("the file is damaged: its weighted sum does not have a reference for each part")
     reference = [r * _si(m) for m, r in zip(parts, entry["reference"], strict=True)]
-    return weighted(entry["name"], parts, reference)
+    total = weighted(entry["name"], parts, reference)
+    return -total if entry.get("sign", 1) < 0 else total
+
+
+def table_csv(columns: Mapping[str, Any]) -> str:
+    """Columns of numbers (in the units that their headings name) or words as CSV text, numbers with six decimals.
+
+    >>> print(table_csv({"cam angle [deg]": [0, 1], "lift [mm]": [0.0, 1 / 3]}), end="")
+    cam angle [deg],lift [mm]
+    0.000000,0.000000
+    1.000000,0.333333
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    words = ([v if isinstance(v, str) else f"{v:.6f}" for v in column] for column in columns.values())
+    writer.writerows(zip(*words, strict=True))
+    return out.getvalue()
 
 
 def profile_csv(analysis: Any) -> str:
@@ -234,21 +286,14 @@ def profile_csv(analysis: Any) -> str:
     >>> print(profile_csv(DoorHandleCam().analyse(361)).splitlines()[0])
     stretch,cam_angle_deg,pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,outer_profile_x_mm,outer_profile_y_mm
     """
-    columns = _profile_columns(analysis)
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    return out.getvalue()
+    if np.ndim(analysis.cam_angle) > 1 or np.ndim(analysis.pitch) > 2:
+        raise ValueError("this is a population; the profile of one design can be written")
+    return table_csv(_profile_columns(analysis))
 
 
-def _profile_columns(analysis: Any) -> dict[str, list[str]]:
-    def numbers(values: Any, unit: str) -> list[str]:
-        return [f"{v:.6f}" for v in in_unit(np.asarray(values), unit)]
-
-    columns: dict[str, list[str]] = {"stretch": list(analysis.stretch)}
-    columns["cam_angle_deg"] = numbers(analysis.profile_angle, "deg")
+def _profile_columns(analysis: Any) -> dict[str, Any]:
+    columns = {"stretch": list(analysis.stretch), "cam_angle_deg": in_unit(analysis.profile_angle, "deg")}
     for name in ("pitch", "profile", "outer_profile"):
         for axis, values in zip("xy", getattr(analysis, name), strict=True):
-            columns[f"{name}_{axis}_mm"] = numbers(values, "mm")
+            columns[f"{name}_{axis}_mm"] = in_unit(values, "mm")
     return columns

@@ -117,6 +117,13 @@ def fails(ok: Any) -> bool:
     return np.ndim(ok) == 0 and not ok
 
 
+def counted(n: Any, what: str, least: int = 2) -> int:
+    """``n`` if it is a whole number of at least ``least``; a ``ValueError`` in a sentence otherwise."""
+    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < least:
+        raise ValueError(f"the number of {what} is {n!r}; it must be a whole number of at least {least}")
+    return int(n)
+
+
 def words(name: str) -> str:
     """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.mass`` -> ``load mass``."""
     return name.replace("_", " ").replace(".", " ")
@@ -130,8 +137,12 @@ class Design:
 
     def __post_init__(self) -> None:
         for name, declared in declarations(self).items():
+            value = getattr(self, name)
             if isinstance(declared, Quantity):
-                self._check(name, declared, getattr(self, name))
+                self._check(name, declared, value)
+            elif not hasattr(value, "name"):
+                options = ", ".join(option.name for option in declared.options)
+                raise ValueError(f"the {words(name)} is {value!r}; it must be one of {options} or another like them")
 
     def _check(self, name: str, declared: Quantity, value: Any) -> None:
         """Refuse one number that cannot be built; drop the members of a population that cannot."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import Measure, Quantity, declarations, words
+from .quantities import Measure, Quantity, counted, declarations, words
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,8 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
     1.75
     """
+    if not weights or len(weights) != len(reference):
+        raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
     for measure, value in zip(weights, reference, strict=True):
         if not np.isfinite(value) or value == 0:
             raise ValueError(f"the {measure.name} at the reference design is {value:g}; it must be finite and not 0")
@@ -48,6 +50,10 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     return WeightedSum(
         name, "", total, 1, tuple(weights), tuple(map(float, weights.values())), tuple(map(float, reference))
     )
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True)
@@ -100,16 +106,23 @@ class Study:
                 k: (declared[k].low * declared[k].factor, declared[k].high * declared[k].factor) for k in self.free
             }
             object.__setattr__(self, "free", ranges)
-        if not self.minimise:
-            raise ValueError("a study needs one or more measures to minimise")
+        if not isinstance(self.minimise, (tuple, list)) or not self.minimise:
+            raise ValueError("a study needs a tuple of one or more measures to minimise")
         object.__setattr__(self, "minimise", tuple(self.minimise))
+        counted(self.angles, "cam angles of a study")
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
-        for name, (low, high) in self.free.items():
-            self._check_bounds(name, declared[name], low, high)
-        for measure, limit in (*self.at_most.items(), *self.at_least.items()):  # type: ignore[union-attr]
-            if not np.isfinite(limit):
-                raise ValueError(f"the limit of the {measure.name} is {limit}; it must be a finite number")
+        for name, bounds in self.free.items():
+            if np.shape(bounds) != (2,) or not all(_number(bound) for bound in bounds):
+                raise ValueError(f"the bounds of the {words(name)} are {bounds!r}; they must be two numbers")
+            self._check_bounds(name, declared[name], *bounds)
+        limits = (*self.at_most.items(), *self.at_least.items())  # type: ignore[union-attr]
+        for measure in (*self.minimise, *(measure for measure, _ in limits)):
+            if not isinstance(measure, Measure):
+                raise ValueError(f"the study has {measure!r} where a Measure belongs")
+        for measure, limit in limits:
+            if not _number(limit) or not np.isfinite(limit):
+                raise ValueError(f"the limit of the {measure.name} is {limit!r}; it must be a finite number")
 
     def _check_bounds(self, name: str, declared: Quantity, low: float, high: float) -> None:
         if not (np.isfinite([low, high]).all() and low < high):
@@ -144,6 +157,8 @@ class Study:
 
     def design(self, x: Any) -> Any:
         """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
+        if np.shape(x)[-1:] != (len(self.free),):
+            raise ValueError(f"the design has {np.size(x)} values; this study has {len(self.free)} free quantities")
         columns = (
             [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
         )

@@ -159,7 +159,7 @@ def control(name: str, declared: Quantity | Choice, value: Any, changed: Callabl
 class Download(anywidget.AnyWidget):
     """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``."""
 
-    _esm = Path(__file__).with_name("download.js")
+    _esm = Path(__file__).with_name("download.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
 
     def __init__(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> None:
@@ -171,7 +171,7 @@ class Download(anywidget.AnyWidget):
 class Upload(anywidget.AnyWidget):
     """A button; ``use(text)`` is called with the text of the file that a person chooses."""
 
-    _esm = Path(__file__).with_name("upload.js")
+    _esm = Path(__file__).with_name("upload.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
     accept = traitlets.Unicode(".json").tag(sync=True)
 

@@ -95,9 +95,9 @@ class Explorer(Panel):
         if name == "turn":
             angle, low, high = self._turn_range()
             declared = Quantity("phi", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
-            return Knob(f"{angle}_shown", declared, low if value is None else value, self._show)
+            return Knob(f"{angle}_shown", declared, low if value is None else value, self._turned)
         declared = VIEWPOINT[name]
-        return Knob(name, declared, declared.default * deg if value is None else value, self._show)
+        return Knob(name, declared, declared.default * deg if value is None else value, self._turned)
 
     def _turn_range(self) -> tuple[str, float, float]:
         """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
@@ -164,6 +164,10 @@ class Explorer(Panel):
         """The sentence in place of the picture and the numbers, which would belong to another design."""
         tell(self._banner, f"This cannot be built: {sentence}.")
         self.picture.widget.layout.display = self._table.layout.display = "none"
+
+    def _turned(self) -> None:
+        if self.picture.widget.layout.display != "none":
+            self._show()
 
     def _show(self) -> None:
         tell(self._banner, "")

@@ -72,6 +72,10 @@ class Judgements(Panel):
     def load(self, judgements: Any) -> None:
         """Show other judgements (matrix or upper triangle)."""
         matrix = judgement_matrix(judgements)
+        if len(matrix) != len(self.names):
+            raise ValueError(
+                f"there are judgements for {len(matrix)} criteria; this panel has {len(self.names)} criteria"
+            )
         self._silent = True
         try:
             for (i, j), slider in self.sliders.items():

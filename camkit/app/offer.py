@@ -19,8 +19,8 @@ class Offers(Panel):
     """An `Explorer` under a row of menus and buttons, each of which changes its design.
 
     ``menus`` maps a menu's name to its options, ``buttons`` a button's words to what it does: a function from the
-    design in the sliders to another.  A menu shows which of its options the design already is, and nothing if it is none.  An
-    offer that cannot be made is refused in a sentence, and the design stays.
+    design in the sliders to another.  A menu shows which of its options the design already is, and nothing if it
+    is none.  An offer that cannot be made is refused in a sentence, and the design stays.
     """
 
     def __init__(

@@ -33,7 +33,7 @@ DRAWING = threading.RLock()
 class ImageWidget(anywidget.AnyWidget):
     """An image on the page that tells what the pointer does on it."""
 
-    _esm = Path(__file__).with_name("image.js")
+    _esm = Path(__file__).with_name("image.js").read_text(encoding="utf-8")
     _css = ".camkit-image { display: block; width: 100%; height: auto; }"
     data = traitlets.Bytes(b"").tag(sync=True)
     mime = traitlets.Unicode("image/png").tag(sync=True)

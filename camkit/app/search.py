@@ -11,7 +11,7 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..decision import CHOOSERS
+from ..decision import CHOOSERS, judgement_matrix
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
 from ..quantities import Quantity, declarations, words
@@ -98,6 +98,7 @@ class Search(Panel):
         for panel in self._judges().values():
             panel.on_change(self._judged)
         self._show_front()
+        explorer.on_change(lambda _: self._show_front() if self._selected() != self._marked else None)
 
     def _make_widgets(self, population: int, generations: int) -> None:
         narrow = w.Layout(width="190px")
@@ -127,7 +128,8 @@ class Search(Panel):
         self.stop_button.on_click(lambda _: self.stop())
         self.take.on_click(lambda _: self.select(self.winner))
         self.rule.observe(lambda _: self._show_front(), "value")
-        self.pick.observe(lambda change: self.select(change.new), "value")
+        self._silent = False
+        self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
 
     def _body(self) -> w.Widget:
         save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()))
@@ -205,7 +207,7 @@ class Search(Panel):
 
     def _report(self, generation: Generation, reference: Any, last: bool) -> None:
         self._x = generation.front.x
-        self.front = generation.front
+        self.front = generation.front if self.study is generation.study else generation.front.judged_by(self.study)
         self.progress.value = generation.number
         stopped = last and generation.number < generation.of
         self.status.value = (
@@ -226,7 +228,10 @@ class Search(Panel):
     def _show_front(self) -> None:
         weights = self.importance.weights if self.importance else None
         self.winner = CHOOSERS[self.rule.value](self.front, weights) if len(self.front) else None
+        self._silent = True
         self.pick.max, self.pick.disabled = max(len(self.front) - 1, 0), not len(self.front)
+        self._silent = False
+        self._marked = self._selected()
         self.take.disabled = self.winner is None
         self.verdict.value = self._verdict()
         analysis = self.explorer.start.analyse(self.study.angles)
@@ -272,13 +277,32 @@ class Search(Panel):
     def work(self) -> export.Work:
         """Everything on the page, to be saved."""
         judgements = {name: panel.upper for name, panel in self._judges().items()}
-        search = {"population": self.population.value, "generations": self.generations.value, "seed": self.seed.value}
+        search = {
+            "population": self.population.value,
+            "generations": self.generations.value,
+            "seed": self.seed.value,
+            "mode": self.mode.value,
+        }
         return export.Work(self.study, self.explorer.design, judgements, search, self.front.x)
 
     def load(self, work: export.Work) -> None:
         """Show a saved study: judgements, bounds, front, and the design in the sliders."""
+        if type(work.study.start) is not type(self.explorer.start) or type(work.design) is not type(
+            self.explorer.start
+        ):
+            raise ValueError(
+                f"the file holds a {type(work.study.start).__name__}; "
+                f"a {type(self.explorer.start).__name__} is wanted here"
+            )
+        for name, value in work.search.items():
+            if name not in ("population", "generations", "seed", "mode") or (name == "mode") != isinstance(value, str):
+                raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of a search")
+        for name, panel in self._judges().items():
+            if name in work.judgements and len(judgement_matrix(work.judgements[name])) != len(panel.names):
+                raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
         self.study, self._x = work.study, np.asarray(work.x)
-        self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else self.front
+        empty = Front(work.study, self._x, np.zeros((0, len(work.study.minimise))))
+        self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else empty
         for name, bounds in self.bounds.items():
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():

@@ -16,10 +16,10 @@ import numpy as np
 
 from ..geometry import angle_opposite, rotated
 from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, choice, fails, quantity
+from ..quantities import Design, choice, counted, fails, quantity
 from ..study import Study, weighted
 from ..units import deg, mm
-from .load import ArmLoad, Friction
+from .load import ArmLoad, Friction, refuse_table
 from .measures import (
     CURVE,
     base_radius,
@@ -79,6 +79,7 @@ class DoorHandleCam(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        refuse_table("torque table", "travel", "torque", self.door_torque_table)
         shares = self.relief_cam_angle < self.handle_angle
         if fails(shares):
             raise ValueError(
@@ -197,7 +198,7 @@ class DoorHandleCam(Design):
 
         A hair, so that a law that stops with a jolt is seen before the dwell that follows it.
         """
-        k = n // 3
+        k = counted(n, "handle angles", least=6) // 3
         before = np.linspace(0, 1, k) * self.relief_cam_angle * (1 - 1e-9)
         after = self.relief_cam_angle + np.linspace(0, 1, n - k) * self.lift_cam_angle
         return _behind(before, after), k
@@ -363,6 +364,10 @@ def door_handle_study(
     start = start or DoorHandleCam()
     of = WORSE_CURVE if whole else LIFT_CURVE
     efforts = [of[steepest], of[peak_force], of[peak_torque]]
+    if len(weights) != len(efforts):
+        raise ValueError(
+            f"the effort has {len(efforts)} parts (angle, force, torque); there are {len(weights)} weights"
+        )
     analysis = (reference or start).analyse(STUDY_ANGLES)
     effort = weighted("effort", dict(zip(efforts, weights, strict=True)), [float(m(analysis)) for m in efforts])
     groove = {of[undercut_margin]: 0.1} if whole else {}

@@ -75,11 +75,16 @@ Table = tuple[tuple[float, float], ...]
 
 
 def refuse_table(name: str, first: str, second: str, table: Table) -> None:
-    """``ValueError`` if a table has an entry that is no finite number or is out of order."""
-    entries = np.asarray(table, dtype=float).reshape(-1, 2)
+    """``ValueError`` if a table is not one of pairs, has an entry that is no finite number or is out of order."""
+    try:
+        entries = np.asarray(table, dtype=float)
+    except (TypeError, ValueError):
+        entries = np.zeros(1)
+    if entries.size and (entries.ndim != 2 or entries.shape[1] != 2):
+        raise ValueError(f"the {name} is {table!r}; it must hold pairs of numbers ({first}, {second})")
     if not np.isfinite(entries).all():
         raise ValueError(f"the {name} has an entry that is not a finite number; it holds ({first}, {second})")
-    if (np.diff(entries[:, 0]) <= 0).any():
+    if entries.size and (np.diff(entries[:, 0]) <= 0).any():
         raise ValueError(f"the {name}'s {first} must grow from entry to entry; it does not")
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..motion import MotionProgram
-from ..quantities import Design, fails, quantity
+from ..quantities import Design, counted, fails, quantity
 from ..units import mm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
@@ -51,7 +51,7 @@ class TranslatingFlatCam(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.rotation not in (1, -1):
+        if np.ndim(self.rotation) or self.rotation not in (1, -1):
             raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
 
     @property
@@ -61,7 +61,7 @@ class TranslatingFlatCam(Design):
 
     def analyse(self, n: int = 721) -> TranslatingFlatAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
-        turn = np.linspace(0, 1, n) * self.motion.span
+        turn = np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span
         analysis = TranslatingFlatAnalysis(self, turn)
         analysis.refuse_impossible()
         return analysis

@@ -110,6 +110,15 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
     return Study(start, PAPER_BOX, (objective,), at_least={least_radius: PAPER_LEAST_RADIUS}, angles=STUDY_ANGLES)
 
 
+def keeping_least_radius(cam: ValveCam, least: float = PAPER_LEAST_RADIUS) -> ValveCam:
+    """The same cam on the base circle on which its ``least`` radius under a flat face is the paper's limit anywhere.
+
+    >>> print(f"{keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
+    24.341 mm
+    """
+    return cam.replace(base_radius=float(cam.analyse().base_radius_for(least)))
+
+
 def valve_front_study(
     start: ValveCam | None = None,
     limited: Measure = nose_radius,

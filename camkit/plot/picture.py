@@ -71,6 +71,8 @@ def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **position:
 
 def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, **position: float) -> Picture:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take."""
+    if not views:
+        raise ValueError("the picture needs one or more views")
     figure, axes = layout(views, width, height)
     draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **position)
     return figure

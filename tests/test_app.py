@@ -1,0 +1,846 @@
+"""The panels without a page: what a person moves, types, presses and loads, against the package's own numbers."""
+
+import base64
+import gc
+import io
+import json
+import sys
+import threading
+import time
+import tracemalloc
+import weakref
+from functools import partial
+
+import ipywidgets as w
+import matplotlib.figure
+import numpy as np
+import pytest
+from matplotlib import _pylab_helpers
+from numpy.testing import assert_allclose, assert_array_equal
+from PIL import Image
+
+from camkit import (
+    DoorHandleCam,
+    OscillatingRollerCam,
+    ahp,
+    crowding,
+    door_handle_study,
+    explore,
+    judge,
+    nsga2,
+    search,
+    try_everything,
+)
+from camkit.app import picture as live
+from camkit.app.controls import Download, Upload
+from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
+from camkit.decision import CHOOSERS
+from camkit.export import from_json, profile_csv, to_json
+from camkit.motion import Cycloidal, Poly345
+from camkit.optimise import Front
+from camkit.plot.artists import _find
+from camkit.plot.cam import cam_mechanism, curvature, pressure_angle
+from camkit.plot.front import shown_objectives
+from camkit.units import deg, mm
+
+SMALL = {"width": 4.0, "height": 2.6}
+SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction")
+STUDIES = {"lift curve alone": door_handle_study, "whole cam": partial(door_handle_study, whole=True)}
+
+
+def inside(panel, kind):
+    children = getattr(panel, "children", ())
+    return [child for child in children if isinstance(child, kind)] + [x for c in children for x in inside(c, kind)]
+
+
+def close(*panels):
+    for panel in panels:
+        for widget in [*inside(panel, w.Widget), panel]:
+            widget.close()
+
+
+@pytest.fixture(autouse=True)
+def _no_drawing_goes_on():
+    yield
+    for thread in threading.enumerate():
+        if isinstance(thread, threading.Timer):
+            thread.cancel()
+            thread.join()
+
+
+def an_explorer():
+    study = door_handle_study()
+    return explore(DoorHandleCam(), pressure_angle, free=SLIDERS, measures=CURVE_TABLE[:5], at_most=study.at_most,
+                   at_least=study.at_least, **SMALL)  # fmt: skip
+
+
+def a_search(app, population=24, generations=12):
+    criteria = judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
+    importance = judge(["effort", "least radius"], [1])
+    return search(app, STUDIES, space=EXPANDED_SPACE, free=list(PAPER_SPACE), criteria=criteria, importance=importance,
+                  population=population, generations=generations)  # fmt: skip
+
+
+def run(finder, **settings):
+    for name, value in settings.items():
+        getattr(finder, name).value = value
+    press(finder, "Optimise")
+    finder.wait(60)
+
+
+@pytest.fixture
+def app():
+    panel = an_explorer()
+    yield panel
+    close(panel)
+
+
+@pytest.fixture(scope="module")
+def workshop():
+    panel = a_search(an_explorer())
+    yield panel
+    close(panel, panel.criteria, panel.importance, panel.explorer)
+
+
+@pytest.fixture
+def finder(workshop):
+    """A search panel as it is when it has just been opened, but quicker than opening one."""
+    yield workshop
+    workshop.stop()
+    workshop.wait(10)
+    workshop.explorer.load(DoorHandleCam())
+    for name, bounds in workshop.bounds.items():
+        bounds.set(EXPANDED_SPACE[name])
+        bounds.free.value = name in PAPER_SPACE
+    workshop.mode.value, workshop.rule.value = next(iter(STUDIES)), next(iter(CHOOSERS))
+    workshop.population.value, workshop.generations.value, workshop.seed.value = 24, 12, 1
+    workshop.study = workshop._study()
+    workshop._x = np.zeros((0, len(PAPER_SPACE)))
+    workshop.front = Front(workshop.study, workshop._x, np.zeros((0, 2)))
+    workshop.importance.load([1])
+    workshop.criteria.load(PAPER_JUDGEMENTS)
+
+
+@pytest.fixture(scope="module")
+def found():
+    """A search that has been run, for tests that only look and select."""
+    panel = a_search(an_explorer(), population=40, generations=30)
+    run(panel)
+    yield panel
+    close(panel, panel.criteria, panel.importance, panel.explorer)
+
+
+def press(panel, description):
+    next(b for b in inside(panel, w.Button) if b.description == description).click()
+
+
+def downloaded(panel, description):
+    """What the button's message to the page holds."""
+    button = next(d for d in inside(panel, Download) if d.description == description)
+    sent = []
+    button.send = sent.append
+    button._handle_custom_msg({"wanted": True}, [])
+    return sent[0]
+
+
+def upload(panel, description, text):
+    """As the page does it when a person has chosen a file."""
+    next(u for u in inside(panel, Upload) if u.description == description)._handle_custom_msg({"text": text}, [])
+
+
+def alert(panel):
+    """The sentence in the panel's banner, empty if none is shown."""
+    box = panel._banner
+    return "" if box.layout.display == "none" else box.value.removeprefix("<div role='alert'>").removesuffix("</div>")
+
+
+# ---------------------------------------------------------------- sliders
+
+
+def test_a_moved_slider_changes_everything_at_once(app):
+    pixels, table, analysis = app.picture.widget.data, app._table.value, app.analysis
+    seen = []
+    app.on_change(seen.append)
+    app.controls["lift_arm"].slider.value = 48.1
+    assert app.design == DoorHandleCam(lift_arm=48.1 * mm)
+    assert app.controls["lift_arm"].box.value == 48.1
+    assert app.analysis is not analysis
+    assert_array_equal(app.analysis.lift.pressure_angle, app.design.analyse().lift.pressure_angle)
+    assert app.picture.widget.data != pixels
+    assert app._table.value != table
+    assert seen == [app.design]
+
+
+def test_the_table_holds_now_start_change_and_whether_a_limit_is_met(app):
+    app.controls["lift_arm"].slider.value = 45.0
+    cells = app._table.value
+    for measure, now, first in app.rows():
+        assert now == measure(app.design.analyse())
+        assert first == measure(DoorHandleCam().analyse())
+        change = f"{100 * (now - first) / abs(first):+.1f} %"
+        assert f"<td>{measure.name}</td><td>{measure.text(now)}</td><td>{measure.text(first)}</td><td>{change}" in cells
+    assert "&le; 45 deg" in cells
+    assert cells.count(">met<") + cells.count("not met") == 3
+    app.controls["lift_start_angle"].slider.value = 18.0
+    assert app.rows()[0][1] > 45 * deg
+    assert app._table.value.count("not met") == 1
+
+
+def test_a_typed_number_counts_to_its_last_digit(app):
+    app.controls["lift_arm"].box.value = 51.23456789
+    assert app.design.lift_arm == 51.23456789 * mm
+    app.controls["lift_arm"].slider.value = 51.23  # the page snaps its slider to a step: that is no move
+    assert app.design.lift_arm == 51.23456789 * mm
+
+
+def test_a_typed_number_may_lie_outside_the_slider(app):
+    knob = app.controls["relief_arm"]
+    knob.box.value = 96.5
+    assert app.design.relief_arm == 96.5 * mm
+    assert knob.slider.value <= knob.slider.max
+    knob.slider.value = 80.0
+    assert app.design.relief_arm == 80 * mm
+
+
+def test_a_menu_changes_the_law(app):
+    app.controls["motion_law"].menu.value = Poly345()
+    assert app.design.motion_law == Poly345()
+    assert app.design.replace(motion_law=Cycloidal()) == DoorHandleCam()
+
+
+@pytest.mark.parametrize(
+    ("name", "typed", "sentence"),
+    [
+        ("lift_arm", -3.0,
+         "the lift arm l_1 (lift arm: pivot to roller centre) is -3 mm; it must be a finite number above 0 mm"),
+        ("lift_arm", np.nan,
+         "the lift arm l_1 (lift arm: pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
+        ("lift_arm", np.inf,
+         "the lift arm l_1 (lift arm: pivot to roller centre) is inf mm; it must be a finite number above 0 mm"),
+        ("roller_radius", 40.0,
+         "the roller of radius 40 mm comes within 33.59 mm of the cam axis; it must stay outside it"),
+        ("relief_arm", 20.0,
+         "the relief roller has to rest on the lift curve's base circle of 33.59 mm; an arm of 20 mm at 100 mm "
+         "reaches 80 to 120 mm"),
+    ],
+)  # fmt: skip
+def test_what_is_impossible_is_said_in_place_of_the_picture(app, name, typed, sentence):
+    app.controls["friction"].box.value = 0.08
+    good, seen = app.design, []
+    app.on_change(seen.append)
+    app.controls[name].box.value = typed
+    assert alert(app) == f"This cannot be built: {sentence}."
+    assert app.picture.widget.layout.display == app._table.layout.display == "none"
+    assert app.design is good
+    assert seen == []
+    app.controls[name].box.value = {"lift_arm": 50.0, "roller_radius": 5.0, "relief_arm": 75.0}[name]
+    assert alert(app) == ""
+    assert app.picture.widget.layout.display == app._table.layout.display == ""
+    assert app.design == good
+
+
+def test_turning_the_mechanism_does_not_hide_that_the_sliders_are_impossible():
+    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], **SMALL)
+    app.controls["lift_arm"].box.value = -3.0
+    next(iter(app.positions.values())).slider.value = 90.0
+    assert alert(app).startswith("This cannot be built: the lift arm")
+    assert app.picture.widget.layout.display == "none"
+
+
+def test_reset_goes_back_to_the_start(app):
+    app.controls["lift_arm"].slider.value = 47.0
+    app.controls["motion_law"].menu.value = Poly345()
+    app.controls["relief_arm"].box.value = 20.0  # impossible
+    press(app, "Reset")
+    assert app.design == app.start == DoorHandleCam()
+    assert alert(app) == ""
+    assert app.controls["relief_arm"].box.value == app.controls["relief_arm"].slider.value == 75.0
+
+
+def test_a_loaded_design_moves_every_slider_and_calls_followers_once(app):
+    seen = []
+    app.on_change(seen.append)
+    wanted = DoorHandleCam(lift_arm=47.123456789 * mm, motion_law=Poly345(), door_torque=3.0)
+    app.load(wanted)
+    assert app.design is wanted
+    assert seen == [wanted]
+    assert app.controls["lift_arm"].slider.value == pytest.approx(47.123456789)
+    assert app.controls["motion_law"].menu.value == Poly345()
+    app.controls["friction"].slider.value = 0.1
+    assert app.design == wanted.replace(friction=0.1)  # what has no slider is kept, and every digit
+
+
+def test_the_angle_shown_turns_the_mechanism_only():
+    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
+    pixels, analysis = app.picture.widget.data, app.analysis
+    (knob,) = app.positions.values()
+    assert knob.value == pytest.approx(75 * deg)
+    assert (knob.slider.min, knob.slider.max) == pytest.approx((0, 180))
+    knob.slider.value = 120.0
+    assert app.picture.widget.data != pixels
+    assert app.analysis is analysis
+
+
+def test_a_picture_is_blitted_at_once_and_redrawn_when_all_is_quiet(app, monkeypatch):
+    monkeypatch.setattr(live, "SETTLE", 0.05)
+    app.controls["roller_radius"].slider.value = 6.0
+    app.controls["lift_arm"].slider.value = 44.0
+    assert app.picture.widget.mime == "image/jpeg"
+    size = Image.open(io.BytesIO(app.picture.widget.data)).size
+    deadline = time.monotonic() + 5
+    while app.picture.widget.mime != "image/png" and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert app.picture.widget.mime == "image/png"
+    assert Image.open(io.BytesIO(app.picture.widget.data)).size == size
+    x, y = app.picture.axes[0].get_ylim()
+    highest = np.abs(app.analysis.lift.pressure_angle / deg).max()
+    assert max(abs(x), abs(y)) >= highest  # the axes fit again
+
+
+def test_the_picture_shows_the_numbers_of_the_analysis(app):
+    app.controls["lift_arm"].slider.value = 46.0
+    for name in ("lift", "relief"):
+        curve = getattr(app.analysis, name)
+        x, y = _find(app.picture.axes[0], name).get_data()
+        assert_allclose(x, curve.cam_angle / deg)
+        assert_allclose(y, curve.pressure_angle / deg)
+
+
+# ---------------------------------------------------------------- files
+
+
+def test_a_design_goes_to_a_file_and_back(app):
+    app.controls["lift_arm"].box.value = 48.75
+    app.controls["motion_law"].menu.value = Poly345()
+    saved, design = downloaded(app, "Save design"), app.design
+    assert (saved["name"], saved["mime"]) == ("DoorHandleCam.json", "application/json")
+    assert from_json(saved["text"]) == design
+    press(app, "Reset")
+    upload(app, "Load design", saved["text"])
+    assert app.design == design
+    assert alert(app) == ""
+
+
+def test_the_profile_that_is_downloaded_is_the_one_that_is_shown(app):
+    app.controls["lift_arm"].slider.value = 48.0
+    table = downloaded(app, "Profile as CSV")
+    assert (table["name"], table["mime"]) == ("DoorHandleCam.csv", "text/csv")
+    assert table["text"] == profile_csv(app.design.analyse())
+
+
+FILE = to_json(DoorHandleCam())
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (FILE[:99], "the file is damaged: it is no JSON at line"),
+        (FILE.replace("camkit/1", "camkit/9"), "the file follows the schema 'camkit/9'"),
+        (FILE.replace("75.0", "-75.0"), "the relief arm l_2 (relief arm: pivot to roller centre) is -75 mm"),
+        (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
+        (FILE.replace("50.0", "9" * 400, 1), "the "),
+        ("[" * 100000, "the file is damaged"),
+        (FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'), "the torque table"),
+        (to_json(OscillatingRollerCam()), "the file holds a"),
+    ],
+    ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],
+)
+def test_a_file_that_cannot_be_used_is_refused_and_changes_nothing(app, text, sentence):
+    app.controls["lift_arm"].slider.value = 48.0
+    good, pixels = app.design, app.picture.widget.data
+    upload(app, "Load design", text)
+    assert alert(app).startswith(f"This file cannot be used: {sentence}")
+    assert app.design is good
+    assert app.controls["lift_arm"].box.value == 48.0
+    assert app.controls["relief_arm"].box.value == 75.0
+    assert app.picture.widget.data == pixels
+
+
+# ---------------------------------------------------------------- judgements
+
+
+def test_a_moved_judgement_changes_weights_ratio_and_picture():
+    panel = judge(["angle", "force", "torque"], PAPER_JUDGEMENTS, "effort")
+    pixels, seen = panel.picture.widget.data, []
+    panel.on_change(lambda: seen.append(panel.weights))
+    panel.sliders[(0, 2)].value = 1 / 3
+    expected = ahp([5, 1 / 3, 1])
+    assert_array_equal(panel.weights, expected.weights)
+    assert_array_equal(seen[0], expected.weights)
+    assert panel.upper == [5, 1 / 3, 1]
+    assert panel.picture.widget.data != pixels
+    for text in (f"{expected.weights[0]:.4f}", f"consistency ratio: {expected.consistency_ratio:.4f}"):
+        assert text in panel.summary()
+    assert f"<b>{expected.weights[1]:.4f}</b>" in panel._matrix.value
+
+
+def test_judgements_that_contradict_each_other_are_pointed_at():
+    panel = judge(["angle", "force", "torque"], [1, 1, 1])
+    assert alert(panel) == ""
+    panel.load([5, 1 / 5, 5])
+    ratio = ahp([5, 1 / 5, 5]).consistency_ratio
+    assert alert(panel).startswith(f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10).")
+    i, j = ahp([5, 1 / 5, 5]).worst
+    assert f"Look again at {panel.names[i]} against {panel.names[j]}: " in alert(panel)
+    press(panel, "Reset")
+    assert alert(panel) == ""
+    assert panel.upper == [1, 1, 1]
+
+
+def test_a_judgement_off_saatys_scale_has_a_place_on_its_slider():
+    panel = judge(["a", "b"], [2.5])
+    assert panel.upper == [2.5]
+    panel.load([1 / 7.5])
+    assert panel.upper == pytest.approx([1 / 7.5])
+    assert_allclose(panel.weights, [1 / 8.5, 7.5 / 8.5])
+
+
+def test_judgements_for_another_number_of_criteria_are_refused():
+    panel = judge(["a", "b", "c"], [1, 2, 3])
+    with pytest.raises(ValueError, match="3 criteria"):
+        panel.load([1, 2, 3, 4, 5, 6])
+    assert panel.upper == [1, 2, 3]
+
+
+# ---------------------------------------------------------------- search
+
+
+@pytest.mark.parametrize("mode", STUDIES)
+def test_a_search_finds_what_the_package_finds(finder, mode):
+    finder.mode.value = mode
+    run(finder, seed=3)
+    space = {name: EXPANDED_SPACE[name] for name in PAPER_SPACE}
+    front = nsga2(STUDIES[mode](DoorHandleCam(), space=space), 24, 12, 3)
+    assert_array_equal(finder.front.x, front.x)
+    assert_allclose(finder.front.f, front.f, rtol=1e-12)
+    assert finder.progress.value == finder.progress.max == 12
+    assert finder.status.value.startswith("generation 12 of 12: ")
+    assert f"{len(front)} on the front" in finder.status.value
+    assert (finder.run_button.disabled, finder.stop_button.disabled) == (False, True)
+    assert alert(finder) == front.message
+
+
+def test_a_search_starts_from_the_design_in_the_sliders(finder):
+    app = finder.explorer
+    app.controls["roller_radius"].slider.value = 4.0
+    app.controls["motion_law"].menu.value = Poly345()
+    run(finder)
+    assert finder.study.start == app.design
+    assert finder.front[0].roller_radius == 4 * mm
+    effort = finder.study.minimise[0]
+    assert effort(DoorHandleCam().analyse(finder.study.angles)) == pytest.approx(1, rel=1e-3)  # the panel's start
+
+
+def test_what_is_ticked_is_free_between_the_bounds_that_are_typed(finder):
+    assert not finder.bounds["roller_radius"].free.value
+    finder.bounds["roller_radius"].free.value = True
+    finder.bounds["roller_radius"].low.value = 3.5
+    finder.bounds["lift_arm"].free.value = False
+    run(finder)
+    assert list(finder.study.free) == ["lift_start_angle", "relief_arm", "roller_radius"]
+    assert finder.study.free["roller_radius"] == pytest.approx((3.5 * mm, 6 * mm))
+    assert finder.study.free["lift_start_angle"] == EXPANDED_SPACE["lift_start_angle"]  # exact while nobody edits it
+    assert (finder.front.x[:, 2] >= 3.5 * mm).all()
+
+
+def test_a_search_that_cannot_be_is_refused_in_a_sentence(finder):
+    before = finder.front
+    finder.bounds["lift_arm"].low.value = 60.0
+    run(finder)
+    expected = "the bounds of the lift arm are 60 mm and 55 mm; they must be finite, the first below the second"
+    assert alert(finder) == f"This cannot be searched: {expected}."
+    for bounds in finder.bounds.values():
+        bounds.free.value = False
+    run(finder)
+    assert alert(finder) == "This cannot be searched: no quantity is free; tick one or more."
+    assert finder.front is before
+    assert not finder.run_button.disabled
+
+
+def test_any_one_quantity_can_be_searched_for_the_whole_cam(finder):
+    finder.mode.value = "whole cam"
+    ended = {}
+    for name in EXPANDED_SPACE:
+        for key, bounds in finder.bounds.items():
+            bounds.free.value = key == name
+        run(finder, population=8, generations=1)
+        ended[name] = (finder.status.value.startswith("generation 1 of 1: "), alert(finder))
+    assert {name for name, (done, said) in ended.items() if not done or "ended early" in said} == set()
+
+
+def test_an_empty_front_says_why(finder):
+    finder.mode.value = "whole cam"
+    run(finder, population=8, generations=2)
+    assert len(finder.front) == 0
+    assert alert(finder) == finder.front.message != ""
+    assert finder.winner is None
+    assert finder.take.disabled
+    assert finder.pick.disabled
+    finder.select(0)
+    press(finder, "Load the winner")
+    assert finder.explorer.design == DoorHandleCam()
+    assert finder.summary().startswith("no front yet")
+
+
+def test_stop_takes_effect_within_half_a_second_and_keeps_the_front(finder):
+    finder.population.value, finder.generations.value = 100, 10000
+    press(finder, "Optimise")
+    assert (finder.run_button.disabled, finder.stop_button.disabled) == (True, False)
+    deadline = time.monotonic() + 30
+    while finder.progress.value < 3 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    shown = finder.progress.value
+    began = time.monotonic()
+    press(finder, "Stop")
+    finder.wait(10)
+    assert time.monotonic() - began < 0.5
+    assert len(finder.front) > 0
+    assert finder.progress.value >= shown > 0
+    assert "(stopped)" in finder.status.value
+    assert finder.progress.value < 10000
+    assert (finder.run_button.disabled, finder.stop_button.disabled) == (False, True)
+    assert finder.winner is not None
+    run(finder, population=12, generations=3)  # and another can be run
+    assert finder.status.value.startswith("generation 3 of 3: ")
+
+
+def test_a_second_press_does_not_start_a_second_search(finder):
+    finder.generations.value = 10000
+    press(finder, "Optimise")
+    thread = finder._thread
+    finder.run()
+    assert finder._thread is thread
+    finder.stop()
+    finder.wait(10)
+    assert not thread.is_alive()
+
+
+def test_a_search_that_breaks_says_so(finder, monkeypatch):
+    monkeypatch.setattr(sys.modules["camkit.app.search"], "reference_point", lambda study: 1 / 0)
+    run(finder)
+    assert alert(finder) == "The search ended early: division by zero."
+    assert not finder.run_button.disabled
+
+
+def test_a_judgement_weighs_the_front_anew_and_the_winner_with_it(finder):
+    run(finder, population=40, generations=30)
+    finder.rule.value = "weighted sum"
+    x, f, pixels = finder.front.x, finder.front.f, finder.picture.widget.data
+    finder.criteria.sliders[(0, 1)].value = 1 / 9
+    finder.criteria.sliders[(0, 2)].value = 1 / 9
+    assert_allclose(finder.study.minimise[0].weights, finder.criteria.weights)
+    assert {tuple(row) for row in finder.front.x} <= {tuple(row) for row in x}
+    assert_array_equal(finder.front.f, finder.study.evaluate(finder.front.x).f)
+    assert not np.array_equal(finder.front.f[:, 0].min(), f[:, 0].min())
+    assert finder.picture.widget.data != pixels
+    winners = set()
+    for value in (1 / 9, 1.0, 9.0):
+        finder.importance.sliders[(0, 1)].value = value
+        assert finder.winner == CHOOSERS["weighted sum"](finder.front, finder.importance.weights)
+        winners.add(finder.winner)
+    assert len(winners) > 1
+    assert f"winner: design {finder.winner}" in finder.verdict.value
+
+
+def test_a_judgement_that_is_taken_back_brings_the_whole_front_back(finder):
+    run(finder, population=40, generations=30)
+    x, f = finder.front.x, finder.front.f
+    finder.criteria.load([1 / 9, 1, 9])
+    finder.criteria.load(PAPER_JUDGEMENTS)
+    assert_array_equal(finder.front.x, x)
+    assert_allclose(finder.front.f, f, rtol=1e-9)
+
+
+def test_a_judgement_changed_during_a_search_counts_when_it_ends(finder):
+    finder.generations.value = 10000
+    press(finder, "Optimise")
+    deadline = time.monotonic() + 30
+    while finder.progress.value < 2 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    finder.criteria.load([1 / 9, 1 / 9, 1])
+    time.sleep(0.6)
+    press(finder, "Stop")
+    finder.wait(10)
+    assert_allclose(finder.front.study.minimise[0].weights, finder.criteria.weights)
+    assert_array_equal(finder.front.f, finder.study.evaluate(finder.front.x).f)
+
+
+def test_every_rule_chooses_its_winner(found):
+    for name, choose in CHOOSERS.items():
+        found.rule.value = name
+        assert found.winner == choose(found.front, found.importance.weights)
+    found.rule.value = "crowding distance"
+    press(found, "Load the winner")
+    index = crowding(found.front)
+    assert found.explorer.design == found.front[index]
+    assert found.pick.value == index
+
+
+def test_a_selected_design_goes_into_the_sliders(found):
+    app, last = found.explorer, len(found.front) - 1
+    found.pick.value = last
+    assert app.design == found.front[last]
+    assert found._selected() == last
+    found.select(2)
+    assert app.design == found.front[2]
+    assert found.pick.value == 2
+    shown = app.controls["lift_arm"]
+    assert shown.value == found.front.x[2, 0]
+    assert shown.box.value == pytest.approx(found.front.x[2, 0] / mm, rel=1e-5)
+
+
+def test_a_click_loads_the_nearest_point_of_the_front(found):
+    found.picture.settle()
+    axes = found.picture.axes[0]
+    width, height = found.picture.figure.canvas.get_width_height()
+    for index in (0, len(found.front) // 2, len(found.front) - 1):
+        x, y = axes.transData.transform(shown_objectives(found.front)[:, index])
+        click = {"kind": "click", "x": (x + 0.4) / width, "y": 1 - (y + 0.4) / height}
+        found.picture.widget._handle_custom_msg(click, [])
+        loaded = found._selected()
+        assert found.explorer.design == found.front[loaded]
+        at = axes.transData.transform(shown_objectives(found.front)[:, loaded])
+        assert np.hypot(*(at - (x, y))) < 1  # itself, or one in the same place
+
+
+def test_the_mark_on_the_front_leaves_a_design_that_is_moved_away(found):
+    found.select(3)
+    mark = _find(found.picture.axes[0], "in the sliders")
+    assert_allclose(np.ravel(mark.get_data()), shown_objectives(found.front)[:, 3])
+    found.explorer.controls["lift_arm"].slider.value = 61.0
+    assert np.size(mark.get_data()) == 0
+
+
+def test_a_click_before_there_is_a_front_does_nothing(finder):
+    app = finder.explorer
+    finder.picture.widget._handle_custom_msg({"kind": "click", "x": 0.5, "y": 0.5}, [])
+    assert app.design == DoorHandleCam()
+
+
+def test_a_smaller_front_does_not_move_the_sliders(finder):
+    """A new search, or new judgements, leave the design in hand alone."""
+    app = finder.explorer
+    run(finder, population=40, generations=30)
+    finder.pick.value = len(finder.front) - 1
+    mine = app.design
+    run(finder, population=4, generations=1)
+    assert len(finder.front) < 30
+    assert app.design is mine
+
+
+# ---------------------------------------------------------------- whole studies
+
+
+def fresh():
+    app = explore(DoorHandleCam(), pressure_angle, free=SLIDERS, **SMALL)
+    criteria = judge(["pressure angle", "contact force", "cam torque"], [1, 1, 1])
+    importance = judge(["effort", "least radius"], [1])
+    return search(app, STUDIES, space=EXPANDED_SPACE, free=["lift_arm"], criteria=criteria, importance=importance)
+
+
+@pytest.mark.parametrize("mode", STUDIES)
+def test_a_study_goes_to_a_file_and_back(finder, mode):
+    """Into panels that have just been opened: the same front, winner, judgements, bounds, settings and design."""
+    finder.mode.value = mode
+    finder.bounds["relief_cam_angle"].free.value = True
+    finder.bounds["relief_cam_angle"].low.value = 42.0
+    finder.importance.sliders[(0, 1)].value = 3.0
+    run(finder, population=40, generations=30, seed=9)
+    assert len(finder.front) > 5
+    finder.select(finder.winner)
+    saved = downloaded(finder, "Save study")
+    assert (saved["name"], saved["mime"]) == ("study.json", "application/json")
+
+    other = fresh()
+    upload(other, "Load study", saved["text"])
+    assert alert(other) == ""
+    assert_allclose(other.front.x, finder.front.x, rtol=1e-14)
+    assert_allclose(other.front.f, finder.front.f, rtol=1e-9)
+    assert other.winner == finder.winner
+    assert other.criteria.upper == finder.criteria.upper
+    assert other.importance.upper == finder.importance.upper
+    assert [b.free.value for b in other.bounds.values()] == [b.free.value for b in finder.bounds.values()]
+    assert other.bounds["relief_cam_angle"].value == pytest.approx(finder.bounds["relief_cam_angle"].value)
+    assert [getattr(other, k).value for k in ("population", "generations", "seed")] == [40, 30, 9]
+    assert_allclose(other.explorer.design.lift_arm, finder.explorer.design.lift_arm, rtol=1e-14)
+    assert other.explorer.controls["lift_arm"].value == other.explorer.design.lift_arm
+    assert other.mode.value == mode  # or Optimise would go on with another problem
+
+
+def test_a_study_without_a_front_replaces_the_front_that_was_there(finder):
+    saved = downloaded(finder, "Save study")["text"]
+    run(finder)
+    upload(finder, "Load study", saved)
+    assert len(finder.front) == 0
+    assert finder.winner is None
+    assert finder.pick.disabled
+    assert finder.front.study is finder.study or finder.front.study == finder.study
+
+
+OTHER = json.loads(to_json(OscillatingRollerCam()))["design"]
+BROKEN_STUDIES = {
+    "six judgements for three": {"judgements": {"criteria": [1, 2, 3, 4, 5, 6]}},
+    "a negative judgement": {"judgements": {"criteria": [1, -2, 3]}},
+    "judgements of text": {"judgements": {"criteria": "abc"}},
+    "a population of text": {"search": {"population": "many"}},
+    "an unknown setting": {"search": {"explorer": 5}},
+    "a front of two columns": {"front": [[1, 2]]},
+    "another mechanism": {
+        "start": OTHER, "design": OTHER, "free": {"arm_length [mm]": [50, 70]}, "minimise": ["peak contact force [N]"],
+        "at_most": {}, "at_least": {}, "front": [],
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("change", [None, "cut short", *BROKEN_STUDIES])
+def test_a_study_that_cannot_be_used_is_refused_and_changes_nothing(found, change):
+    found.select(1)
+    content = json.loads(downloaded(found, "Save study")["text"])
+    content["work"].update(BROKEN_STUDIES.get(change, {}))
+    text = json.dumps(content)[: 500 if change == "cut short" else None]
+
+    def state():
+        return (found.explorer.design, found.front, found.study, found.criteria.upper, found.bounds["lift_arm"].value,
+                found.population.value, found.winner, found.status.value)  # fmt: skip
+
+    before = state()
+    upload(found, "Load study", FILE if change is None else text)
+    after, said = state(), alert(found)
+    for bounds in found.bounds.values():  # for the tests that follow, should it have been used after all
+        bounds.set(PAPER_SPACE.get(bounds.name))
+    found.study, found.front, found._x = before[2], before[1], before[1].x
+    found.criteria.load(PAPER_JUDGEMENTS)
+    found.population.value = 40
+    found.explorer.load(before[0])
+
+    assert said.startswith("This file cannot be used: ")
+    assert not any(word in said for word in ("reshape", "object", "attribute", "literal", "trait"))
+    assert all(a is b or a == b for a, b in zip(after[3:], before[3:], strict=True))
+    assert all(a is b for a, b in zip(after[:3], before[:3], strict=True))
+
+
+# ---------------------------------------------------------------- the page without a kernel, and nothing left behind
+
+
+def test_every_panel_reads_without_a_kernel(found):
+    for panel in (found.explorer, found.criteria, found.importance, found):
+        bundle = panel._repr_mimebundle_()
+        still = Image.open(io.BytesIO(base64.b64decode(bundle["image/png"])))
+        assert still.format == "PNG"
+        assert still.size[0] > 300
+        assert bundle["text/plain"] == panel.summary() != ""
+        assert "application/vnd.jupyter.widget-view+json" in bundle
+        assert len(bundle["image/png"]) < 100_000
+
+
+def test_the_summaries_are_the_numbers(found):
+    app = found.explorer
+    for measure in app.measures:
+        assert f"{measure.name}: {measure.text(measure(app.design.analyse()))}" in app.summary()
+    f = found.front.f[found.winner]
+    for measure, value in zip(found.study.minimise, f, strict=True):
+        assert f"{measure.name}: {measure.text(measure.sign * value)}" in found.summary()
+
+
+def figures():
+    gc.collect()
+    return sum(isinstance(thing, matplotlib.figure.Figure) for thing in gc.get_objects())
+
+
+def test_two_hundred_moves_leave_nothing_behind():
+    app = explore(DoorHandleCam(), curvature, free=["lift_arm", "relief_arm"], **SMALL)
+    slider = app.controls["lift_arm"].slider
+
+    def move(times):
+        for i in range(times):
+            slider.value = 44.0 + (i % 40) / 5
+        app.picture.settle()
+        gc.collect()
+
+    move(10)
+    before, threads = figures(), threading.active_count()
+    artists = sum(len(ax.get_children()) for ax in app.picture.axes)
+    tracemalloc.start()
+    move(5)
+    start = tracemalloc.get_traced_memory()[0]
+    move(200)
+    grown = tracemalloc.get_traced_memory()[0] - start
+    tracemalloc.stop()
+    assert figures() == before
+    assert _pylab_helpers.Gcf.get_all_fig_managers() == []
+    assert sum(len(ax.get_children()) for ax in app.picture.axes) == artists
+    assert grown < 100_000
+    time.sleep(0.05)
+    assert threading.active_count() <= threads + 1
+    close(app)
+
+
+def test_a_panel_that_is_closed_takes_its_figure_with_it():
+    """Or every run of a notebook's cell would leave one behind."""
+    panel = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
+    figure = weakref.ref(panel.picture.figure)
+    close(panel)
+    del panel
+    gc.collect()
+    assert figure() is None
+
+
+# ---------------------------------------------------------------- try_everything
+
+
+def test_everything_can_be_tried(finder):
+    app = finder.explorer
+    run(finder)
+    design = app.design
+    for panel in (app, finder.criteria, finder.importance, finder):
+        moved = int(try_everything(panel).split()[0])
+        controls = (
+            w.FloatSlider,
+            w.FloatText,
+            w.Dropdown,
+            w.SelectionSlider,
+            w.BoundedIntText,
+            w.Checkbox,
+            w.IntSlider,
+        )
+        assert moved == len(inside(panel, controls))
+    assert app.design.replace(**{k: getattr(design, k) for k in PAPER_SPACE}) == design
+
+
+def test_try_everything_bites_when_a_callback_raises():
+    finder = a_search(an_explorer())
+    app = finder.explorer
+
+    def broken(*_):
+        raise RuntimeError("a broken callback")
+
+    assert try_everything(app)
+    app.on_change(broken)
+    with pytest.raises(RuntimeError, match="a broken callback"):
+        try_everything(app)
+    finder.importance.on_change(broken)
+    with pytest.raises(RuntimeError, match="a broken callback"):
+        try_everything(finder.importance)
+    finder.seed.observe(broken, "value")
+    with pytest.raises(RuntimeError, match="a broken callback"):
+        try_everything(finder)
+    close(finder, finder.criteria, finder.importance, app)
+
+
+def test_try_everything_bites_when_a_control_does_not_come_back():
+    sticky = w.FloatText(1.0, description="sticky")
+    sticky.observe(lambda change: setattr(sticky, "value", 7.0), "value")
+    with pytest.raises(AssertionError, match="sticky did not come back"):
+        try_everything(w.VBox([sticky]))
+
+
+def test_a_view_that_breaks_is_not_silent():
+    def view(analysis, ax):
+        ax.plot(analysis.lift.pressure_angle)
+        if analysis.cam.lift_arm > 51 * mm:
+            raise RuntimeError("a broken view")
+        return ax
+
+    app = explore(DoorHandleCam(lift_arm=50.9999 * mm), view, free=["lift_arm"], **SMALL)
+    with pytest.raises(RuntimeError, match="a broken view"):
+        try_everything(app)

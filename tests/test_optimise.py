@@ -1,0 +1,241 @@
+"""The search against problems whose fronts are known, against brute force and against chance."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.testing import assert_allclose, assert_array_equal
+
+from camkit import DoorHandleCam, Measure, Study, door_handle_study, nsga2
+from camkit.cam.door_handle import EXPANDED_SPACE
+from camkit.optimise import Front, dominated, front_of, nsga2_generations, reference_point
+from camkit.quantities import Design, quantity
+from camkit.units import mm
+
+
+@dataclass(frozen=True)
+class Ball(Design):
+    """A point of the plane; it cannot be built where y is above 3."""
+
+    x: float = quantity("x", 1, -5, 5, "", "across", above=None)
+    y: float = quantity("y", 1, 0, 4, "", "up", above=None)
+
+    def analyse(self, n=1):
+        buildable = np.where(np.asarray(self.y) <= 3, 1.0, np.nan)
+        return np.broadcast_arrays(self.x * buildable, self.y * buildable)
+
+
+def last(values):
+    return np.asarray(values)[..., 0] if np.ndim(values) else values
+
+
+near_0 = Measure("distance from 0", "", lambda p: last(p[0] ** 2 + p[1] ** 2))
+near_2 = Measure("distance from 2", "", lambda p: last((p[0] - 2) ** 2 + p[1] ** 2))
+right = Measure("place", "mm", lambda p: last(p[0]))
+SPACE = {"x": (-5.0, 5.0), "y": (0.0, 4.0)}
+
+
+def two_places(**limits):
+    """Schaffer's problem in the plane: near (0, 0) and near (2, 0); the front is sqrt(f1) + sqrt(f2) = 2."""
+    return Study(Ball(), SPACE, (near_0, near_2), **limits)
+
+
+# ---------------------------------------------------------------- a known front
+
+
+def test_the_front_of_schaffers_problem():
+    front = nsga2(two_places(), population=60, generations=80, seed=1)
+    assert len(front) > 50
+    assert_allclose(np.sqrt(front.f).sum(1), 2, atol=0.05)
+    assert_allclose(front.f[[0, -1], [0, 1]], 0, atol=0.01)
+    # Up to (4, 4) the front dominates 16 - 8/3: the integral of (sqrt(f1) - 2)^2 from 0 to 4 is 8/3.
+    assert 0.98 * (16 - 8 / 3) < front.hypervolume((4, 4)) < 16 - 8 / 3
+
+
+def test_a_limit_cuts_the_front():
+    """With x of at least 1 the front begins at f1 = f2 = 1."""
+    front = nsga2(two_places(at_least={right: 1.0}), population=60, generations=80, seed=2)
+    assert (front.x[:, 0] >= 1).all()
+    assert_allclose(front.f[0], [1, 1], atol=0.02)
+    # Up to (4, 4): from f1 = 1 to 4 the integral of 4 - (sqrt(f1) - 2)^2 is 12 - 5/6.
+    assert 0.98 * (12 - 5 / 6) < front.hypervolume((4, 4)) < 12 - 5 / 6
+
+
+def test_a_minus_sign_makes_large():
+    front = nsga2(Study(Ball(), SPACE, (-right, near_0)), population=40, generations=60, seed=1)
+    assert front.f[0, 0] == pytest.approx(-5, abs=0.05)
+    # The front is f2 = f1^2 from f1 = -5 to 0; up to (0, 25) it dominates 125 - 125/3.
+    assert 0.97 * (125 - 125 / 3) < front.hypervolume((0, 25)) < 125 - 125 / 3
+
+
+# ---------------------------------------------------------------- what every front is
+
+
+@pytest.fixture(scope="module")
+def lift():
+    return nsga2(door_handle_study(), population=40, generations=25, seed=3)
+
+
+def test_a_front_is_repeatable_by_its_seed(lift):
+    again = nsga2(door_handle_study(), population=40, generations=25, seed=3)
+    assert_array_equal(again.x, lift.x)
+    assert_array_equal(again.f, lift.f)
+    other = nsga2(door_handle_study(), population=40, generations=25, seed=4)
+    assert not np.array_equal(other.f, lift.f)
+
+
+def test_a_front_is_feasible_and_nondominated(lift):
+    evaluation = lift.study.evaluate(lift.x)
+    assert evaluation.feasible.all()
+    assert_array_equal(evaluation.f, lift.f)
+    assert not brute_dominated(lift.f).any()
+    low, high = lift.study.bounds
+    assert ((lift.x >= low) & (lift.x <= high)).all()
+    assert (np.diff(lift.f[:, 0]) >= 0).all()
+    assert lift.message == ""
+
+
+def test_a_member_of_a_front_is_a_design_again(lift):
+    for i in (0, len(lift) - 1, -1):
+        cam = lift[i]
+        assert isinstance(cam, DoorHandleCam)
+        assert_array_equal([getattr(cam, name) for name in lift.study.free], lift.x[i])
+        analysis = cam.analyse(lift.study.angles)
+        assert_array_equal([measure(analysis) for measure in lift.study.minimise], lift.f[i])
+    assert len(list(lift)) == len(lift)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("whole", [False, True])
+def test_a_search_beats_chance_with_the_same_budget(seed, whole):
+    study = door_handle_study(whole=whole, space=EXPANDED_SPACE if whole else None)
+    reference = reference_point(study)
+    front = nsga2(study, population=40, generations=25, seed=seed)
+    chance = np.random.default_rng(seed).uniform(*study.bounds, size=(1000, len(study.free)))
+    assert front.hypervolume(reference) > front_of(study.evaluate(chance), study).hypervolume(reference)
+
+
+def test_leaving_early_keeps_the_front_so_far():
+    study = two_places()
+    for generation in nsga2_generations(study, 20, 1000, 1):
+        assert generation.of == 1000
+        assert generation.feasible == generation.evaluation.feasible.sum() <= 20
+        if generation.number == 7:
+            break
+    assert_array_equal(generation.front.f, nsga2(study, 20, 7, 1).f)
+
+
+def test_a_generation_is_one_evaluation():
+    calls = []
+
+    class Counting(Study):
+        def evaluate(self, x):
+            calls.append(len(x))
+            return super().evaluate(x)
+
+    nsga2(Counting(Ball(), SPACE, (near_0, near_2)), population=30, generations=9, seed=1)
+    assert calls == [30] * 9
+
+
+# ---------------------------------------------------------------- domination and volume
+
+
+def brute_dominated(f):
+    return np.array([any((g <= h).all() and (g < h).any() for g in f) for h in f], dtype=bool)
+
+
+few = st.integers(0, 4).map(float)
+
+
+@given(arrays(float, st.tuples(st.integers(0, 12), st.integers(1, 3)), elements=few))
+@settings(deadline=None)
+def test_dominated_is_its_definition(f):
+    assert dominated(f).tolist() == brute_dominated(f).tolist()
+
+
+@given(arrays(float, st.tuples(st.integers(1, 8), st.just(2)), elements=few))
+@settings(deadline=None)
+def test_the_hypervolume_counts_the_cells_that_are_dominated(f):
+    """On a grid of whole numbers: cells below the reference point whose lower corner some member beats or equals."""
+    study = two_places()
+    corners = np.stack(np.meshgrid(np.arange(5), np.arange(5)), -1).reshape(-1, 2)
+    cells = sum((f <= corner).all(1).any() for corner in corners)
+    assert Front(study, f, f).hypervolume((5, 5)) == pytest.approx(cells)
+
+
+def test_the_reference_point_belongs_to_the_study_alone():
+    study = two_places(at_least={right: 1.0})
+    point = reference_point(study)
+    assert_array_equal(point, reference_point(two_places(at_least={right: 1.0})))
+    far = np.max([[25 + 9, 9 + 9], [1 + 9, 1 + 9]], axis=0)  # the corners of what is feasible
+    assert (point <= far).all()
+    assert (point > 0.7 * far).all()
+    front = nsga2(study, 20, 20, 1)
+    assert front.hypervolume() == front.hypervolume(point) > 0
+
+
+def test_the_reference_point_of_a_study_that_nothing_satisfies():
+    """Then of what can be built at least, so that a hypervolume still is a number."""
+    study = two_places(at_least={right: 9.0})
+    assert np.isfinite(reference_point(study)).all()
+    assert nsga2(study, 20, 5, 1).hypervolume() == 0
+    nothing = Study(Ball(), {"y": (3.5, 4.0)}, (near_0, near_2))
+    assert nsga2(nothing, 8, 2, 1).hypervolume() == 0
+    assert np.isfinite(reference_point(nothing)).all()
+
+
+# ---------------------------------------------------------------- fronts without a design
+
+
+def test_an_empty_front_says_which_limit_stood_in_the_way():
+    front = nsga2(two_places(at_least={right: 0.01}, at_most={near_2: 0.01, near_0: 2.0}), 60, 60, 1)
+    assert len(front) == 0
+    assert front.f.shape == (0, 2)
+    assert front.message == (
+        f"no design of the last generation keeps every limit; the nearest misses the distance from 0 of at most 2 by "
+        f"{float(front.message.split()[-4]):.3g} % of it"
+    )
+    # The nearest: x with the least (x^2/2 - 1) + ((x - 2)^2/0.01 - 1) where both are above 0 is x = 1.9: 80.5 %.
+    assert float(front.message.split()[-4]) == pytest.approx(80.5, abs=0.5)
+
+
+def test_an_empty_front_says_the_limit_in_its_unit():
+    front = nsga2(two_places(at_least={right: 8.0}), 40, 60, 1)
+    assert front.message == (
+        "no design of the last generation keeps every limit; the nearest misses the place of at least 8000 mm "
+        "by 37.5 % of it"
+    )
+
+
+def test_an_empty_front_says_that_nothing_can_be_built():
+    front = nsga2(Study(Ball(), {"y": (3.5, 4.0)}, (near_0,)), 8, 3, 1)
+    assert front.message == "no design of the last generation can be built; widen or move the bounds"
+
+
+# ---------------------------------------------------------------- a front under other objectives
+
+
+def test_new_weights_judge_the_same_designs(lift):
+    study = lift.study.weighing((0, 0, 1))
+    judged = lift.judged_by(study)
+    assert judged.study is study
+    assert set(map(tuple, judged.x)) <= set(map(tuple, lift.x))
+    assert_array_equal(judged.f, study.evaluate(judged.x).f)
+    dropped = {tuple(x) for x in lift.x} - {tuple(x) for x in judged.x}
+    everyone = study.evaluate(lift.x)
+    assert {tuple(x) for x in lift.x[brute_dominated(everyone.f)]} == dropped
+
+
+def test_an_empty_front_stays_empty_when_judged_anew():
+    empty = nsga2(two_places(at_least={right: 9.0}), 8, 2, 1)
+    again = empty.judged_by(Study(Ball(), SPACE, (near_0,)))
+    assert (len(again), again.f.shape, again.message) == (0, (0, 1), empty.message)
+
+
+def test_the_papers_problem_has_a_front_of_smaller_arms(lift):
+    """Objective values of the start are (1, -33.588 mm); the front does better in effort at no less radius."""
+    better = lift.f[lift.f[:, 1] <= -33.588 * mm]
+    assert better[:, 0].min() < 0.95
