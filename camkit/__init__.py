@@ -15,18 +15,33 @@ from .cam.oscillating_roller import OscillatingRollerCam
 from .cam.slide import SlideFriction, SlideLoad
 from .cam.translating_flat import TranslatingFlatCam
 from .cam.translating_roller import TranslatingRollerCam
+from .cam.valve import ValveCam
+from .cam.valve_study import corrected_valve_study, valve_front_study, valve_study
+from .contact import hertz_line
 from .decision import ahp, crowding, topsis, weighted_sum
 from .export import load, profile_csv, save
+from .linkage.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
+from .linkage.load import RockerLoad
+from .linkage.rssr import RSSR
+from .linkage.space import Box
 from .motion import *  # noqa: F403
 from .motion import __all__ as _motion_names
+from .plane import Plane
+from .polish import polish
 from .quantities import Measure, quantity
+from .shaft import UniversalJointShaft, lightest_shaft, shaft_study
 from .study import Study, weighted
+from .sweep import Sweep
 from .units import GPa, MPa, N, cm, deg, kg, kN, kW, m, mm, rad, rpm
+from .universal_joint import DoubleUniversalJoint, UniversalJoint
 
 __version__ = "0.1.0"
 
 _LATER = {
+    "CompetitiveAlgorithm": "competitive",
     "Front": "optimise",
+    "minimise": "minimise",
+    "offer": "app",
     "nsga2": "optimise",
     "explore": "app",
     "judge": "app",
@@ -38,6 +53,25 @@ _LATER = {
 """Names whose modules need more than numpy and scipy, and where they live."""
 
 __all__ = [
+    "CabinDoorLinkage",
+    "ninety_degree_study",
+    "rssr_study",
+    "RockerLoad",
+    "RSSR",
+    "Box",
+    "Plane",
+    "polish",
+    "UniversalJointShaft",
+    "lightest_shaft",
+    "shaft_study",
+    "Sweep",
+    "hertz_line",
+    "ValveCam",
+    "corrected_valve_study",
+    "valve_front_study",
+    "valve_study",
+    "DoubleUniversalJoint",
+    "UniversalJoint",
     "ArmLoad",
     "ContactPair",
     "DoorHandleCam",

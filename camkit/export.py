@@ -296,4 +296,4 @@ def _profile_columns(analysis: Any) -> dict[str, Any]:
     for name in ("pitch", "profile", "outer_profile"):
         for axis, values in zip("xy", getattr(analysis, name), strict=True):
             columns[f"{name}_{axis}_mm"] = in_unit(values, "mm")
-    return columns
+    return {name: column for name, column in columns.items() if name == "stretch" or np.isfinite(column).any()}

@@ -44,7 +44,8 @@ class Sweep:
     @cached_property
     def x(self) -> np.ndarray:
         """Values of the free quantity, ``(n,)``, SI."""
-        return np.linspace(*self.study.bounds[:, 0], self.n)
+        low, high = self.study.bounds[:, 0]
+        return np.linspace(low, high, self.n)
 
     @cached_property
     def evaluation(self) -> Evaluation:

@@ -40,6 +40,8 @@ FACTORS = {
     "mm/rad": mm,
     "mm/rad^2": mm,
     "mm/rad^3": mm,
+    "1/rad": 1 / rad,
+    "1/rad^2": 1 / rad**2,
     "1/m": 1 / m,
     "1/mm": 1 / mm,
     "mm^2": mm**2,

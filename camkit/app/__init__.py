@@ -2,6 +2,7 @@
 
 from .explore import Explorer, explore
 from .judge import Judgements, judge
+from .offer import offer
 from .program import ProgramEditor, edit_program
 from .search import Search, search
 from .trial import try_everything
@@ -14,6 +15,7 @@ __all__ = [
     "edit_program",
     "explore",
     "judge",
+    "offer",
     "search",
     "try_everything",
 ]

@@ -47,6 +47,7 @@ class Knob:
 
     def __init__(self, name: str, declared: Quantity, value: float, changed: Callable[[], None]) -> None:
         self.declared, self.value, self._changed, self._silent = declared, float(value), changed, False
+        self._told: list[float] = []  # to the page, which may still answer
         shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
         self.slider = w.FloatSlider(
             value=shown,
@@ -89,6 +90,8 @@ class Knob:
         self.set(min(max(self.value, low), high))
 
     def _put(self, widget: Any, shown: float) -> None:
+        if widget is self.slider:
+            self._told = [*self._told[-49:], widget.value]
         self._silent = True
         try:
             widget.value = shown
@@ -96,11 +99,20 @@ class Knob:
             self._silent = False
 
     def _moved(self, shown: float) -> None:
-        """The slider moved; that the page snaps a typed value to the slider's steps is no move."""
-        if not self._silent and abs(shown - self.value / self.declared.factor) > 0.501 * self.slider.step:
-            self.value = float(f"{shown:.10g}") * self.declared.factor
-            self._put(self.box, _six_digits(shown))
-            self._changed()
+        """The slider moved; that the page snaps a number to the slider's steps, and says so late, is no move."""
+        if self._silent or abs(shown - self.value / self.declared.factor) <= 0.501 * self.slider.step:
+            return
+        late = next(
+            (i for i, told in enumerate(self._told) if 1e-9 < abs(shown - told) / self.slider.step <= 0.501), None
+        )
+        if late is not None:
+            del self._told[late]
+            self._put(self.slider, in_unit(self.value, self.declared.unit))
+            return
+        self._told.clear()
+        self.value = float(f"{shown:.10g}") * self.declared.factor
+        self._put(self.box, _six_digits(shown))
+        self._changed()
 
     def _typed(self, shown: float) -> None:
         if not self._silent:

@@ -90,7 +90,7 @@ class ProgramEditor(Panel):
 
     def _changed(self) -> None:
         if not self._silent:
-            self._try(lambda: MotionProgram([row.segment() for row in self.rows], self.start.start))
+            self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
 
     def _try(self, make: Callable[[], MotionProgram]) -> None:
         try:

@@ -46,7 +46,7 @@ class Survey(Panel):
         self._key: Any = None
         self._later: threading.Timer | None = None
         self.verdict, self._banner = w.HTML(), banner()
-        self.take = w.Button(description="Load the optimum", icon="star", disabled=True)
+        self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load(self.optimum))
         self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=5.6)
         self.picture.widget.on_click(self._clicked)
@@ -60,7 +60,8 @@ class Survey(Panel):
         return Knob(name, declared, value, self._changed)
 
     def _body(self) -> w.Widget:
-        left = [self.menu, *(knob.row for knob in self.knobs), self.take, self._banner, self.verdict]
+        take = w.HBox([self.take])
+        left = [self.menu, *(knob.row for knob in self.knobs), take, self._banner, self.verdict]
         return w.HBox(
             [
                 w.VBox(left, layout=w.Layout(flex="1 1 340px", max_width="560px")),

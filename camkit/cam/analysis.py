@@ -227,8 +227,8 @@ class RollerAnalysis(CamAnalysis):
 
     @cached_property
     def outer_undercut(self) -> np.ndarray:
-        """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``."""
-        return -self.cam.roller_radius * self.curvature >= 1
+        """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``; nowhere on a plate."""
+        return (-self.cam.roller_radius * self.curvature >= 1) & self.cam.groove
 
     @cached_property
     def profile_margin(self) -> Extreme:
@@ -251,19 +251,19 @@ class RollerAnalysis(CamAnalysis):
 
     @property
     def driving_flank(self) -> Any:
-        """The inner flank where the follower goes out, the outer one where it comes back."""
-        return np.where(self.velocity < 0, -1.0, 1.0)
+        """The inner flank where the follower goes out; in a groove the outer one where it comes back."""
+        return np.where((self.velocity < 0) & self.cam.groove, -1.0, 1.0)
 
     @property
     def loaded_flank(self) -> Any:
-        """The inner flank, or the outer one where the follower pulls."""
-        return np.where(self.contact_force < 0, -1.0, 1.0)
+        """The inner flank; in a groove the outer one where the follower pulls."""
+        return np.where((self.contact_force < 0) & self.cam.groove, -1.0, 1.0)
 
     @property
     def lean(self) -> Any:
         """The roller slides (``arctan f``) or, if that is easier, turns on its pin (``arcsin(rho_2 / r_T)``)."""
         friction, r = self.cam.friction, self.cam.roller_radius
-        share = np.divide(friction.roller_pin, r, out=np.ones_like(1.0 * r), where=np.greater(r, 0))
+        share = np.where(np.greater(r, 0), friction.roller_pin / np.where(np.greater(r, 0), r, 1.0), 1.0)
         return np.minimum(np.arctan(friction.coefficient), np.arcsin(np.clip(share, 0, 1)))
 
     @cached_property
@@ -285,8 +285,9 @@ class RollerAnalysis(CamAnalysis):
 
     @cached_property
     def outer_profile(self) -> np.ndarray:
-        """Outer flank of a groove cam, m."""
-        return self.on_cam(self.contact_point(-1))
+        """Outer flank of a groove cam, m; ``nan`` on a plate cam, which has none."""
+        flank = self.on_cam(self.contact_point(-1))
+        return flank if self.cam.groove else np.full_like(flank, np.nan)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from ..units import deg, mm
 from .load import ArmLoad, Friction, refuse_table
 from .measures import (
     CURVE,
+    MOTION,
     base_radius,
     least_convex_radius,
     part,
@@ -330,7 +331,7 @@ EXPANDED_SPACE = PAPER_SPACE | {
 STUDY_ANGLES = 361
 """Handle angles of an analysis within a search."""
 
-CURVE_TABLE = tuple(part(measure, name) for name in BOTH for measure in CURVE)
+CURVE_TABLE = tuple(part(measure, name) for name in BOTH for measure in (*CURVE, *MOTION))
 """Every measure of both curves, for a table."""
 
 _LEAST = (base_radius, least_convex_radius, undercut_margin)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..quantities import Measure
@@ -15,9 +17,15 @@ least_force = Measure("least contact force", "N", lambda a: a.contact_force.min(
 mean_torque = Measure(
     "mean cam torque with friction", "N mm", lambda a: torque_balance(a.cam_angle, a.rubbing.cam_torque).mean
 )
-jump_margin = Measure(
-    "overspeed before the follower jumps", "%", lambda a: jump_speed(a) / np.atleast_1d(a.cam.load.speed)[..., 0] - 1
-)
+
+
+def _overspeed(analysis: Any) -> Any:
+    """How much faster the cam may run before the follower jumps, as a share; ``inf`` for a cam at rest."""
+    with np.errstate(divide="ignore"):
+        return jump_speed(analysis) / np.atleast_1d(analysis.cam.load.speed)[..., 0] - 1
+
+
+jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)
 
 
 def peak_pressure(pair: ContactPair) -> Measure:

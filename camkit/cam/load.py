@@ -166,7 +166,9 @@ class Friction(Design):
         without friction this is 1.
         """
         c, r = contact, contact.roller_radius
-        share = np.divide(self.roller_pin, r, out=np.ones_like(1.0 * r), where=np.greater(r, 0))  # a knife edge slides
+        share = np.where(
+            np.greater(r, 0), self.roller_pin / np.where(np.greater(r, 0), r, 1.0), 1.0
+        )  # a knife edge slides
         rolling = np.arcsin(np.clip(share, 0, 1))
         lam = np.minimum(np.arctan(self.coefficient), rolling)
         push = np.where(c.velocity < 0, -1.0, 1.0)

@@ -43,12 +43,21 @@ base_radius = Measure("base radius (pitch)", "mm", lambda a: a.pitch_radius.min(
 least_convex_radius = Measure("least convex radius (pitch)", "mm", lambda a: least_convex_radius_of(a.curvature))
 least_concave_radius = Measure("least concave radius (pitch)", "mm", lambda a: least_convex_radius_of(-a.curvature))
 undercut_margin = Measure(
-    "undercut margin of the groove", "", lambda a: 1 - (a.cam.roller_radius * abs(a.curvature)).max(-1)
+    "undercut margin of the groove",
+    "",
+    lambda a: 1 - (a.cam.roller_radius * (abs(a.curvature) if a.cam.groove else a.curvature)).max(-1),
 )
 peak_force = Measure("peak contact force", "N", lambda a: abs(a.contact_force).max(-1))
 peak_torque = Measure("peak cam torque", "N mm", lambda a: abs(a.cam_torque).max(-1))
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a.cam_angle, a.efficiency, a.velocity != 0))
 work_efficiency = Measure("work out / work in", "%", work_ratio)
+
+MOTION = (
+    Measure("peak velocity", "", lambda a: abs(a.velocity).max(-1)),
+    Measure("peak acceleration", "1/rad", lambda a: abs(a.acceleration).max(-1)),
+    Measure("peak jerk", "1/rad^2", lambda a: abs(a.jerk).max(-1)),
+)
+"""Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
 
 CURVE = (
     steepest,
@@ -74,5 +83,5 @@ def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Any] = np.
     return Measure(
         f"{measure.name}, worse curve",
         measure.unit,
-        lambda a: reduce(of, [measure(getattr(a, name)) for name in names]),  # type: ignore[attr-defined]
+        lambda a: reduce(of, [measure(getattr(a, name)) for name in names]),
     )

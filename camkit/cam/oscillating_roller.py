@@ -57,6 +57,8 @@ class OscillatingRollerCam(Design):
     rotation: int = 1
     load: ArmLoad = field(default_factory=ArmLoad)
     friction: Friction = field(default_factory=Friction)
+    groove: bool = True
+    """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

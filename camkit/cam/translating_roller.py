@@ -65,6 +65,8 @@ class TranslatingRollerCam(Design):
     rotation: int = 1
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
+    groove: bool = True
+    """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

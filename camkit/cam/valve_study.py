@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from ..quantities import Measure
 from ..study import Study, WeightedSum, weighted
 from ..units import deg, mm
-from .measures import peak_force, peak_torque
+from .measures import peak_force
 from .valve import ValveAnalysis, ValveCam
 
 fullness = Measure("fullness", "", lambda a: a.fullness)
@@ -22,6 +22,7 @@ least_radius = Measure("least radius anywhere (flat follower)", "mm", lambda a: 
 face_reach = Measure("reach of the contact on a flat face", "mm", lambda a: abs(a.velocity).max(-1))
 jump_margin = Measure("overspeed before the follower jumps", "%", lambda a: a.jump_margin)
 peak_stress = Measure("peak contact stress", "MPa", lambda a: a.contact_stress.max(-1))
+peak_camshaft_torque = Measure("peak camshaft torque", "N m", lambda a: abs(a.cam_torque).max(-1))
 
 VALVE_MEASURES = (
     fullness,
@@ -33,7 +34,7 @@ VALVE_MEASURES = (
     jump_margin,
     peak_force,
     peak_stress,
-    peak_torque,
+    peak_camshaft_torque,
 )
 """What a table of a valve cam shows; peaks are those of the opening flank, which the closing one mirrors."""
 

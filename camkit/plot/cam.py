@@ -130,7 +130,7 @@ def pressure_angle(analysis: Any, ax: Axes) -> Axes:
 
 
 def contact_force(analysis: Any, ax: Axes) -> Axes:
-    """Force between cam and roller, without friction."""
+    """Force between cam and follower, without friction."""
     first = new(ax)
     if first:
         frame(ax, "Contact force", "cam angle  [deg]", "F  [N]")

@@ -1,0 +1,1 @@
+"""Linkages: one module for each kind of linkage or machine."""

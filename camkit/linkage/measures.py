@@ -1,0 +1,101 @@
+"""Measures of an RSSR linkage over a sweep: a number per design, for tables, limits and objectives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..quantities import Measure, PeakMeasure
+from ..units import deg
+from .space import Box
+
+TARGET = 30 * deg
+"""The pressure angle that the paper aims at."""
+
+
+def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], np.ndarray]:
+    """Pressure angles less ``target``, times the weight of their position: a function of an analysis, ``(..., 2n)``.
+
+    The crank's come first, then the rocker's.  The paper's weights ``1 / f_j*`` divide by nothing where a position
+    is perfect; without ``weights`` each counts 1.
+    """
+    w = np.asarray(1.0 if weights is None else weights, dtype=float)
+    if not (np.isfinite(w).all() and (w >= 0).all()):
+        raise ValueError("the weights of the positions must be finite, none negative")
+
+    def of(analysis: Any) -> np.ndarray:
+        both = (analysis.crank_pressure_angle, analysis.rocker_pressure_angle)
+        return np.concatenate([w * (angle - target) for angle in both], axis=-1)
+
+    return of
+
+
+def departure(target: float = TARGET, weights: Any = None) -> Measure:
+    """The paper's objective ``sum_j w_j (|alpha_1j - target| + |alpha_2j - target|)``."""
+    of = departures(target, weights)
+    return Measure(_name("pressure angles off", target, weights), "deg", lambda a: abs(of(a)).sum(-1))
+
+
+def excess(target: float = TARGET, weights: Any = None) -> Measure:
+    """The same sum over the pressure angles above ``target`` only: a smaller one is no fault."""
+    of = departures(target, weights)
+    return Measure(_name("pressure angles above", target, weights), "deg", lambda a: np.maximum(of(a), 0).sum(-1))
+
+
+def largest_departure(target: float = TARGET, weights: Any = None) -> Measure:
+    """The largest ``w_j |alpha - target|``: minimax."""
+    of, name = departures(target, weights), _name("pressure angle farthest off", target, weights)
+    return PeakMeasure(name, "deg", lambda a: np.concatenate([of(a), -of(a)], axis=-1))
+
+
+def _name(what: str, target: float, weights: Any) -> str:
+    return f"{what} {target / deg:g} deg" + ("" if weights is None else ", weighted")
+
+
+def room_in(box: Box) -> Measure:
+    """How far all links stay within a box, from the nearest wall; < 0 where one leaves it."""
+    return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)))
+
+
+def clearance_from(box: Box) -> Measure:
+    """How far all links stay clear of a box; < 0 where one enters it."""
+    return Measure(
+        f"clearance from {box.name}", "mm", lambda a: box.clearance(a.chain[:, :-1], a.chain[:, 1:]).min((0, -1))
+    )
+
+
+steepest_crank = PeakMeasure(
+    "steepest pressure angle, crank", "deg", lambda a: a.crank_pressure_angle, angle=lambda a: a.crank_angle
+)
+steepest_rocker = PeakMeasure(
+    "steepest pressure angle, rocker", "deg", lambda a: a.rocker_pressure_angle, angle=lambda a: a.crank_angle
+)
+steepest = PeakMeasure(
+    "steepest pressure angle",
+    "deg",
+    lambda a: np.concatenate([a.crank_pressure_angle, a.rocker_pressure_angle], axis=-1),
+    angle=lambda a: np.concatenate([a.crank_angle, a.crank_angle], axis=-1),
+)
+swing = Measure("output swing", "deg", lambda a: np.ptp(a.rocker_angle, axis=-1))
+assembly_margin = Measure("least discriminant of the sweep", "", lambda a: a.least_discriminant[..., 0])
+peak_coupler_force = Measure("peak coupler force", "N", lambda a: abs(a.coupler_force).max(-1))
+peak_crank_torque = Measure("peak crank torque", "N m", lambda a: abs(a.crank_torque).max(-1))
+peak_hinge_force = Measure(
+    "peak force on the rocker's bearing", "N", lambda a: np.linalg.norm(a.rocker_bearing_force, axis=0).max(-1)
+)
+largest_ratio = Measure("largest velocity ratio", "", lambda a: abs(a.ratio).max(-1))
+
+SWEEP = (
+    departure(),
+    steepest_crank,
+    steepest_rocker,
+    swing,
+    assembly_margin,
+    largest_ratio,
+    peak_coupler_force,
+    peak_hinge_force,
+    peak_crank_torque,
+)
+"""What a table of one sweep shows."""

@@ -1,0 +1,59 @@
+"""Boxes: space that a linkage may use, or that it must leave free."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from ..units import mm
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box along the axes x, y, z, from corner ``low`` to corner ``high``, m.
+
+    >>> box = Box((0, 0, 0), (1, 1, 1))
+    >>> float(box.depth(np.array([0.5, 0.5, 0.9])).round(9)), float(box.depth(np.array([0.5, 0.5, 1.2])).round(9))
+    (0.1, -0.2)
+
+    Raises ``ValueError`` for corners that are not finite or that are in the wrong order.
+    """
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    name: str = "the box"
+    """What it is, for the names of its measures: "the wall"."""
+
+    def __post_init__(self) -> None:
+        for axis, low, high in zip("xyz", self.low, self.high, strict=True):
+            if not (np.isfinite([low, high]).all() and low < high):
+                raise ValueError(
+                    f"{self.name} goes from {low / mm:.5g} to {high / mm:.5g} mm along {axis}; "
+                    "both must be finite, the first below the second"
+                )
+
+    def _walls(self, points: Any) -> np.ndarray:
+        """How far ``points`` ``(3, ...)`` lie beyond each of the six walls, ``(6, ...)``."""
+        low, high = (np.reshape(corner, (3,) + (1,) * (np.ndim(points) - 1)) for corner in (self.low, self.high))
+        return np.concatenate([low - points, points - high])
+
+    def depth(self, points: Any) -> Any:
+        """How far each of ``points`` ``(3, ...)`` lies within the box, from the nearest wall, m; < 0 outside."""
+        return 0.0 - self._walls(points).max(0)
+
+    def clearance(self, start: Any, end: Any) -> Any:
+        """How far the box could grow on all sides before it touches the link ``start``-``end``, m; < 0 inside.
+
+        Along the link the distance from the box is the largest of six straight lines, one for each wall; it is
+        least at an end or where two of them cross.
+        """
+        ends = np.stack(np.broadcast_arrays(start, end))
+        first, last = self._walls(ends[0]), self._walls(ends[1])
+        i, j = np.transpose(list(combinations(range(6), 2)))
+        gap, growth = first[i] - first[j], (last - first)[j] - (last - first)[i]
+        crossing = np.divide(gap, growth, out=np.zeros_like(gap), where=growth != 0)
+        share = np.concatenate([np.clip(crossing, 0, 1), np.ones_like(gap[:1])])[:, None]
+        return (first + share * (last - first)).max(1).min(0)

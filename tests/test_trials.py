@@ -1,0 +1,166 @@
+"""Statistics of trials against loops and printed formulas; the measured data file; the script that measures it."""
+
+import importlib
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from camkit.reference import load
+from camkit.reference.problems import KNOWN_PROBLEMS
+from camkit.shaft import lightest_shaft
+from camkit.trials import Trials, measured_trials, sooner, trial_table
+
+INF = np.inf
+DATA = load("optimiser_comparison")
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+
+
+def trials(*needed: float, budget: int = 100) -> Trials:
+    return Trials("a problem", "a method", (0.01,), np.array([needed], dtype=float), budget)
+
+
+def test_quantiles_count_failures_as_longest() -> None:
+    some = trials(40, INF, 10, INF, 20)
+    assert [some.quantile(0.01, q) for q in (0.2, 0.4, 0.5, 0.6, 0.61)] == [10, 20, 40, 40, INF]
+    assert some.median(0.01) == 40
+    assert trials(INF, INF, 10).median(0.01) == INF
+
+
+def test_a_success_costs_what_failures_spent_too() -> None:
+    assert trials(40, INF, 10, INF, 20).expected(0.01) == pytest.approx((40 + 10 + 20 + 2 * 100) / 3)
+    assert trials(INF, INF).expected(0.01) == INF
+
+
+def test_success_interval_is_wilsons() -> None:
+    """Wilson (1927): the shares p with |p - k/n| = z sqrt(p (1 - p) / n)."""
+    low, high = trials(*[1.0] * 21, *[INF] * 9).success_interval(0.01)
+    for p in (low, high):
+        assert abs(p - 0.7) == pytest.approx(1.959963985 * np.sqrt(p * (1 - p) / 30), rel=1e-8)
+    assert low < 0.7 < high
+
+
+def test_sooner_by_counting_pairs() -> None:
+    rng = np.random.default_rng(5)
+    a, b = (np.where(v > 70, INF, v) for v in rng.integers(1, 100, (2, 30)).astype(float))
+    share, p = sooner(trials(*a), trials(*b), 0.01)
+    assert share == pytest.approx(np.mean([1.0 if x < y else 0.5 if x == y else 0.0 for x in a for y in b]))
+    other, same = sooner(trials(*b), trials(*a), 0.01)
+    assert (share + other, p) == pytest.approx((1, same))
+    assert 0 < p < 1
+
+
+def test_sooner_of_what_always_fails_is_a_tie() -> None:
+    assert sooner(trials(INF, INF), trials(INF, INF, INF), 0.01) == (0.5, 1.0)
+
+
+def test_p_value_is_that_of_shuffled_labels() -> None:
+    a, b = (10, 20, 30, 40, 50, INF), (35, 60, 70, INF, INF, INF)
+    share, p = sooner(trials(*a), trials(*b), 0.01)
+    rng, both = np.random.default_rng(1), np.array([*a, *b])
+    shuffled = []
+    for _ in range(4000):
+        rng.shuffle(both)
+        x, y = both[:6], both[6:]
+        shuffled.append(np.mean((x[:, None] < y) + 0.5 * (x[:, None] == y)))
+    assert p == pytest.approx(np.mean(abs(np.array(shuffled) - 0.5) >= abs(share - 0.5) - 1e-12), abs=0.03)
+
+
+def test_refuses_what_was_not_measured() -> None:
+    with pytest.raises(ValueError, match=r"^the target 0\.5 was not measured; there are 0\.01$"):
+        trials(1, 2).to(0.5)
+    with pytest.raises(ValueError, match=r"^there are no trials of 'a cam'; there are universal-joint shaft, speed re"):
+        measured_trials("a cam")
+
+
+def test_the_table_has_a_row_for_each_method() -> None:
+    table = trial_table(measured_trials("welded beam"))
+    assert len(table.rows) == 8
+    assert {len(row) for row in table.rows} == {len(table.head)} == {9}
+    assert table.rows[-1] == ("random search", *("0 of 30", "0 to 11 %", "none", "none") * 2)
+
+
+def test_the_data_file_is_whole() -> None:
+    names = ["universal-joint shaft", *(known.name for known in KNOWN_PROBLEMS)]
+    assert list(DATA["problems"]) == list(DATA["evaluations"]) == names
+    assert DATA["targets"] == sorted(DATA["targets"], reverse=True)
+    methods = {tuple(rows) for rows in DATA["evaluations"].values()}
+    assert len(methods) == 1
+    assert {"SLSQP", "penalty method", "competitive", "random search"} < set(methods.pop())
+    for problem in names:
+        for one in measured_trials(problem):
+            assert one.evaluations.shape == (3, DATA["seeds"]) == (3, 30)
+            counts = one.evaluations[np.isfinite(one.evaluations)]
+            assert ((counts >= 1) & (counts <= one.budget) & (counts % 1 == 0)).all()
+            assert (np.diff(one.evaluations[:, np.isfinite(one.evaluations[-1])], axis=0) >= 0).all()
+
+
+def test_the_optima_in_the_data_file_are_those_of_the_problems() -> None:
+    optima = [p["optimum"] for p in DATA["problems"].values()]
+    assert optima[0] == pytest.approx(lightest_shaft().analyse().area, rel=1e-12)
+    assert optima[1:] == pytest.approx([known.f for known in KNOWN_PROBLEMS], rel=1e-7)
+
+
+def test_what_the_notebook_says() -> None:
+    """The conclusions in words, as numbers."""
+    by = {(t.problem, t.method): t for problem in DATA["problems"] for t in measured_trials(problem)}
+    for problem in DATA["problems"]:
+        medians = {m: t.median(0.01) for (p, m), t in by.items() if p == problem}
+        rest = min(v for m, v in medians.items() if m != "SLSQP")
+        assert rest > 15 * medians["SLSQP"]
+        for always in ("SLSQP", "penalty method", "DE (scipy)"):
+            assert by[problem, always].successes(0.01) == 30
+    arrived = [by[problem, "competitive"].successes(0.01) for problem in DATA["problems"]]
+    assert arrived == [30, 23, 0, 0]
+    assert by["tension spring", "competitive, narrowing"].successes(0.01) == 18
+    shaft = {m: t for (p, m), t in by.items() if p == "universal-joint shaft"}
+    assert sooner(shaft["competitive"], shaft["GA (pymoo)"], 0.01)[1] < 1e-3
+    assert sooner(shaft["competitive"], shaft["GA (pymoo)"], 0.001)[1] > 0.5
+
+
+@pytest.fixture(scope="module")
+def script():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(BENCHMARKS)
+        yield importlib.import_module("compare_optimisers")
+
+
+def test_the_script_has_the_settings_of_the_data_file(script) -> None:
+    assert (DATA["seeds"], DATA["budget"], DATA["tolerance"]) == (script.SEEDS, script.BUDGET, script.TOLERANCE)
+    assert list(script.TARGETS) == DATA["targets"]
+    assert list(script.METHODS) == list(DATA["evaluations"]["welded beam"])
+    described = {name: script.described(problem) for name, problem in script.PROBLEMS.items()}
+    assert described == {name: pytest.approx(p, rel=1e-9) for name, p in DATA["problems"].items()}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_data_file_can_be_measured_again(script) -> None:
+    """One seed: the random search to the last count; methods that feed back their own rounding to their arrival."""
+    for method in script.METHODS:
+        cached = [row[3] for row in DATA["evaluations"]["universal-joint shaft"][method]]
+        again = script.trial("universal-joint shaft", method, 3)
+        if method == "random search":
+            assert again == cached
+        assert [n is None for n in again] == [n is None for n in cached]
+
+
+def test_a_trial_counts_every_design_and_no_more_than_the_budget(script) -> None:
+    problem = script.PROBLEMS["universal-joint shaft"]
+    study = script.CountedStudy(problem, 250)
+    drawn = np.random.default_rng(2).uniform(*study.bounds, (250, 2))
+    for start in (0, 100):
+        study.evaluate(drawn[start : start + 100])
+    with pytest.raises(script.Enough):
+        study.evaluate(drawn[200:])
+    evaluation = problem.study.evaluate(drawn)
+    for target, reached in zip(script.TARGETS, study.reached, strict=True):
+        near = evaluation.feasible & (evaluation.f[:, 0] <= problem.optimum * (1 + target))
+        assert reached == (np.argmax(near) + 1 if near.any() else None)
+
+
+def test_the_data_file_is_written_in_rows(script) -> None:
+    text = json.dumps({"a": [[1, 2], [3, None]], "b": {"c": 1}}, indent=1)
+    rows = script._in_rows(text)
+    assert json.loads(rows) == json.loads(text)
+    assert rows.splitlines()[1:3] == [' "a": [[1,2],', "  [3,null]"]
