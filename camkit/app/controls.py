@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -47,7 +48,6 @@ class Knob:
 
     def __init__(self, name: str, declared: Quantity, value: float, changed: Callable[[], None]) -> None:
         self.declared, self.value, self._changed, self._silent = declared, float(value), changed, False
-        self._told: list[float] = []  # to the page, which may still answer
         shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
         self.slider = w.FloatSlider(
             value=shown,
@@ -58,6 +58,7 @@ class Knob:
             tooltip=declared.meaning,
             layout=w.Layout(width="auto", min_width="60px", flex="1 1 80px"),
         )
+        self.slider.value = on_grid(self.slider, shown)
         self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="76px"))
         label = w.HTML(
             f"<span title='{declared.meaning}'>{symbol_html(declared.symbol)}&ensp;{words(name)}</span>",
@@ -79,46 +80,44 @@ class Knob:
     def between(self, low: float, high: float) -> None:
         """Other ends of the slider (SI); the value is moved between them."""
         ends = low / self.declared.factor, high / self.declared.factor
-        if ends == (self.slider.min, self.slider.max):
-            return
-        self._silent = True
-        try:
-            with self.slider.hold_trait_notifications():
-                self.slider.min, self.slider.max = ends
-        finally:
-            self._silent = False
-        self.set(min(max(self.value, low), high))
+        if ends != (self.slider.min, self.slider.max):
+            self._silent = True
+            with self.slider.hold_sync():
+                with self.slider.hold_trait_notifications():
+                    self.slider.min, self.slider.max = ends
+                self.set(min(max(self.value, low), high))
 
     def _put(self, widget: Any, shown: float) -> None:
-        if widget is self.slider:
-            self._told = [*self._told[-49:], widget.value]
         self._silent = True
         try:
-            widget.value = shown
+            widget.value = on_grid(widget, shown) if widget is self.slider else shown
         finally:
             self._silent = False
 
     def _moved(self, shown: float) -> None:
-        """The slider moved; that the page snaps a number to the slider's steps, and says so late, is no move."""
-        if self._silent or abs(shown - self.value / self.declared.factor) <= 0.501 * self.slider.step:
-            return
-        late = next(
-            (i for i, told in enumerate(self._told) if 1e-9 < abs(shown - told) / self.slider.step <= 0.501), None
-        )
-        if late is not None:
-            del self._told[late]
-            self._put(self.slider, in_unit(self.value, self.declared.unit))
-            return
-        self._told.clear()
-        self.value = float(f"{shown:.10g}") * self.declared.factor
-        self._put(self.box, _six_digits(shown))
-        self._changed()
+        """The slider moved; that the page snaps a typed value to the slider's steps is no move."""
+        if not self._silent and abs(shown - self.value / self.declared.factor) > 0.501 * self.slider.step:
+            self.value = float(f"{shown:.10g}") * self.declared.factor
+            self._put(self.box, _six_digits(shown))
+            self._changed()
 
     def _typed(self, shown: float) -> None:
         if not self._silent:
             self.value = shown * self.declared.factor
             self._put(self.slider, shown)
             self._changed()
+
+
+def on_grid(slider: w.FloatSlider, shown: float) -> float:
+    """The step of ``slider`` next to ``shown``, to the last bit as the page reckons it (noUiSlider, in per cent).
+
+    The page sends back what it has to correct; while the kernel is busy that comes late, and would undo what was shown
+    in the meantime.
+    """
+    low, width = slider.min, slider.max - slider.min or 1.0
+    each = 100 * slider.step / width
+    percent = math.floor(100 * (max(shown, low) - low) / width / each + 0.5) * each
+    return float(percent * width / 100 + low) if shown < slider.max and percent < 100 else slider.max
 
 
 def _six_digits(shown: float) -> float:

@@ -111,18 +111,19 @@ def test_a_pointer_turns_the_view_in_space_only(panel):
     assert panel.design == START
 
 
-def test_what_the_page_snaps_and_says_late_is_no_move(panel):
-    """The page rounds 119.243 to the slider's steps and tells so after 120 has been loaded."""
+def test_a_slider_shows_what_the_page_can_show(panel):
+    """The steps count from the lower end; a number between two keeps its digits beside the slider."""
     crank = panel.controls["crank"]
-    for size in (119.243, 118.01, 120):
-        panel.load(START.replace(crank=size * mm))
-    for late in (119.2, 118.0):
-        crank.slider.value = late
-        assert panel.design.crank == 120 * mm
-        assert crank.slider.value == crank.box.value == 120
-    crank.slider.value = 119.2
-    assert panel.design.crank == 119.2 * mm
-    assert crank.box.value == 119.2
+    panel.load(START.replace(crank=119.243 * mm))
+    assert crank.slider.value == pytest.approx(119.2, abs=1e-9)
+    assert (crank.value, crank.box.value) == pytest.approx((119.243 * mm, 119.243), abs=1e-12)
+    assert panel.design.crank == 119.243 * mm
+    turn = panel.positions["turn"]
+    turn.set(1.234)
+    steps = (turn.slider.value - turn.slider.min) / turn.slider.step
+    assert steps == pytest.approx(round(steps), abs=1e-6)
+    turn.set(99.0)
+    assert turn.slider.value == turn.slider.max
 
 
 def test_every_control_moves_and_comes_back(panel):
