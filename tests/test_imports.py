@@ -15,7 +15,7 @@ import scipy
 REPOSITORY = Path(__file__).parents[1]
 
 # The modules that need the [lab] extra; `import camkit` must not need them.
-LAB = {"app", "plot", "optimise", "competitive", "minimise", "cycle_time"}
+LAB = {"app", "plot", "optimise", "competitive", "minimise", "cycle_time", "trade_off"}
 
 # As on a machine where nothing else is installed: an import of anything else fails.
 ONLY_NUMPY_AND_SCIPY = """

@@ -42,8 +42,10 @@ class Survey(Panel):
         )
         self.menu.observe(lambda _: self._changed(), "value")
         self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
+        self.plane = Plane(self.study, n=steps)
         self.optimum: np.ndarray | None = None
         self._key: Any = None
+        self._searched = False
         self._later: threading.Timer | None = None
         self.verdict, self._banner = w.HTML(), banner()
         self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
@@ -53,7 +55,7 @@ class Survey(Panel):
         super().__init__([self._body()])
         self._changed()
         self.settle()
-        explorer.on_change(lambda _: self._changed())
+        explorer.on_change(lambda _: self._settle_later())  # the sliders' own pictures come first
 
     def _knob(self, i: int, name: str, value: float) -> Knob:
         declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
@@ -86,7 +88,12 @@ class Survey(Panel):
         return make(self.explorer.design.replace(**{n: getattr(first, n) for n in free}), weights=self.weights)
 
     def _changed(self) -> None:
-        """Another problem, other weights, another design: another plane, unless only the free quantities moved."""
+        """Another problem or other weights: shown at once, the optimum a moment later."""
+        self._take_up()
+        self._settle_later()
+
+    def _take_up(self) -> None:
+        """Another plane, unless only the free quantities of the design moved."""
         try:
             study = self.study
         except ValueError as refusal:
@@ -95,11 +102,10 @@ class Survey(Panel):
         tell(self._banner, "")
         key = self.menu.value, self.weights, study.start
         if key != self._key:
-            self._key, self.plane, self.optimum = key, Plane(study, n=self.steps), None
-            self._search_later()
+            self._key, self.plane, self.optimum, self._searched = key, Plane(study, n=self.steps), None, False
         self._show()
 
-    def _search_later(self) -> None:
+    def _settle_later(self) -> None:
         if self._later:
             self._later.cancel()
         self._later = threading.Timer(SETTLE, self._settle_if_alive)
@@ -110,15 +116,18 @@ class Survey(Panel):
             self.settle()
 
     def settle(self) -> None:
-        """Look for the optimum, if that is still to be done."""
+        """Catch up with the design in the sliders, and look for the optimum if that is still to be done."""
         if not self._later:
             return
         self._later.cancel()
-        self._later, plane = None, self.plane
-        best = plane.best
-        if plane is self.plane:  # nobody has moved anything since
-            self.optimum = best if np.isfinite(best).all() else None
-            self._show()
+        self._later = None
+        self._take_up()
+        plane = self.plane
+        if not self._searched:
+            best = plane.best
+            if plane is self.plane:  # nobody has moved anything since
+                self.optimum, self._searched = best if np.isfinite(best).all() else None, True
+                self._show()
 
     def _show(self) -> None:
         here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
@@ -128,7 +137,7 @@ class Survey(Panel):
 
     def _lines(self) -> list[str]:
         """The optimum in words: free quantities, parts of the objective, limits."""
-        if self._later:
+        if not self._searched:
             return ["looking for the optimum"]
         if self.optimum is None:
             return ["no design between the bounds keeps every limit"]

@@ -228,7 +228,7 @@ class RollerAnalysis(CamAnalysis):
     @cached_property
     def outer_undercut(self) -> np.ndarray:
         """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``; nowhere on a plate."""
-        return (-self.cam.roller_radius * self.curvature >= 1) & self.cam.groove
+        return (-self.cam.roller_radius * self.curvature >= 1) & self.groove
 
     @cached_property
     def profile_margin(self) -> Extreme:
@@ -250,14 +250,19 @@ class RollerAnalysis(CamAnalysis):
         return self.roller_centre - flank * self.cam.roller_radius * self.normal
 
     @property
+    def groove(self) -> bool:
+        """Whether the roller runs in a groove; a cam that does not say has one."""
+        return bool(getattr(self.cam, "groove", True))
+
+    @property
     def driving_flank(self) -> Any:
         """The inner flank where the follower goes out; in a groove the outer one where it comes back."""
-        return np.where((self.velocity < 0) & self.cam.groove, -1.0, 1.0)
+        return np.where((self.velocity < 0) & self.groove, -1.0, 1.0)
 
     @property
     def loaded_flank(self) -> Any:
         """The inner flank; in a groove the outer one where the follower pulls."""
-        return np.where((self.contact_force < 0) & self.cam.groove, -1.0, 1.0)
+        return np.where((self.contact_force < 0) & self.groove, -1.0, 1.0)
 
     @property
     def lean(self) -> Any:
@@ -287,7 +292,7 @@ class RollerAnalysis(CamAnalysis):
     def outer_profile(self) -> np.ndarray:
         """Outer flank of a groove cam, m; ``nan`` on a plate cam, which has none."""
         flank = self.on_cam(self.contact_point(-1))
-        return flank if self.cam.groove else np.full_like(flank, np.nan)
+        return flank if self.groove else np.full_like(flank, np.nan)
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ least_concave_radius = Measure("least concave radius (pitch)", "mm", lambda a: l
 undercut_margin = Measure(
     "undercut margin of the groove",
     "",
-    lambda a: 1 - (a.cam.roller_radius * (abs(a.curvature) if a.cam.groove else a.curvature)).max(-1),
+    lambda a: 1 - (a.cam.roller_radius * (abs(a.curvature) if a.groove else a.curvature)).max(-1),
 )
 peak_force = Measure("peak contact force", "N", lambda a: abs(a.contact_force).max(-1))
 peak_torque = Measure("peak cam torque", "N mm", lambda a: abs(a.cam_torque).max(-1))

@@ -118,8 +118,8 @@ def test_a_typed_size_and_load_change_numbers_and_picture(panel: Locator) -> Non
 def test_the_crank_slider_ends_at_the_limits(panel: Locator) -> None:
     low, high = np.array(PRACTICAL.analyse().turn_range) / deg
     slider = panel.locator(".camkit-knob").filter(has_text="crank angle shown").get_by_role("slider")
-    assert float(slider.get_attribute("aria-valuemin") or "") == pytest.approx(low, abs=1e-6)
-    assert float(slider.get_attribute("aria-valuemax") or "") == pytest.approx(high, abs=1e-6)
+    assert float(slider.get_attribute("aria-valuemin") or "") == pytest.approx(low, abs=0.06)
+    assert float(slider.get_attribute("aria-valuemax") or "") == pytest.approx(high, abs=0.06)
     slider.press("End")
     eventually(lambda: abs(float(box(panel, "crank angle shown").input_value()) - high) < 1)
     turn = kernel_value(panel.page, "app.positions['turn'].value")
@@ -150,8 +150,8 @@ def test_the_mouse_turns_the_view(panel: Locator) -> None:
 
 def test_what_cannot_be_assembled_is_a_sentence(panel: Locator) -> None:
     with pytest.raises(ValueError) as refused:  # noqa: PT011 - the sentence is what is compared
-        PRACTICAL.replace(coupler=90 * mm).analyse()
-    put(panel, "coupler", "90")
+        PRACTICAL.replace(coupler=50 * mm).analyse()
+    put(panel, "coupler", "50")
     expect(panel.get_by_role("alert")).to_have_text(f"This cannot be built: {refused.value}.")
     put(panel, "coupler", "120")
     expect(panel.get_by_role("alert")).to_have_count(0)

@@ -1,0 +1,439 @@
+"""High-speed disk cam with a roller on a rocking arm: contact stress and wear, the motion law itself free.
+
+The arm swings away over the first interval of the cam's turn, dwells, swings back over another and dwells.  The
+cam is given by the arm's length ``l``, the roller's radius ``r`` and the profile's largest radius ``r_k2``; where
+the arm starts and the smallest radius ``r_k1`` follow.  The stress between cam and roller grows with
+``F_sigma = sqrt(N / rho_pr)``, wear with ``F_wear = N F_sigma``: ``N`` is the normal force and ``rho_pr`` the
+reduced radius of both surfaces.  "Margin" is ``q = 1 - r kappa`` with the pitch curve's curvature ``kappa``.
+
+Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.  The geometry is that of `OscillatingRollerCam`.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..contact import contact_modulus, hertz_line
+from ..geometry import angle_opposite
+from ..motion import LAWS, Dwell, Law, MotionProgram, Poly345, Return, Rise
+from ..motion.shaped import DEGREE9, FAMILIES, ShapedLaw
+from ..quantities import Design, choice, counted, fails, quantity
+from ..units import deg, mm
+from .high_speed_load import ConstantTorque, InertialSpringLoad
+from .load import Friction
+from .oscillating_roller import OscillatingRollerAnalysis
+
+HAIR = 1e-9
+"""Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
+AT_REST = 1e-9
+"""Share of the swing below which the arm counts as not having moved."""
+
+
+def lifted(values: Any) -> Any:
+    """``values`` at even steps, each local maximum raised to the top of the parabola through its neighbours.
+
+    >>> x = np.linspace(0, 3, 31)
+    >>> print(f"{1 - np.sin(x).max():.0e}, {1 - lifted(np.sin(x)).max():.0e}")
+    4e-04, 1e-06
+    """
+    left, mid, right = values[..., :-2], values[..., 1:-1], values[..., 2:]
+    with np.errstate(invalid="ignore"):
+        bend = 2 * mid - left - right
+        top = (mid >= left) & (mid >= right) & (bend > 0) & np.isfinite(bend)
+        tops = mid + np.where(top, (right - left) ** 2, 0.0) / np.where(top, 8 * bend, 1.0)
+    return np.concatenate([values[..., :1], tops, values[..., -1:]], axis=-1)
+
+
+def joined(*stretches: Any) -> Any:
+    """Arrays of angles, one behind the other, also where only some have a population axis."""
+    lead = np.broadcast_shapes(*(values.shape[:-1] for values in stretches))
+    return np.concatenate([np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches], axis=-1)
+
+
+def number(value: Any) -> Any:
+    """A field of a design as a number of the whole: one, or ``(p,)`` from ``(p, 1)``."""
+    return np.atleast_1d(value)[..., 0]
+
+
+@dataclass(frozen=True)
+class FreeLawCam(Design):
+    """What every high-speed cam has: sizes, two motion laws, and four coefficients that shape each of them.
+
+    The coefficients are added to the laws in the sense of ``family`` (see `ShapedLaw`): on the 3-4-5 polynomial
+    they make the paper's polynomials of degree 9, or splines.
+    """
+
+    arm_length: float = quantity("l", 165, 40, 290, "mm", "arm: pivot to roller centre")
+    roller_radius: float = quantity("r", 30, 20, 200, "mm", "roller")
+    max_radius: float = quantity("r_k2", 130, 60, 140, "mm", "largest radius of the profile")
+    rise_law: Any = choice("a", Poly345(), LAWS, "law by which the arm swings away")
+    return_law: Any = choice("a'", Poly345(), LAWS, "law by which the arm swings back")
+    family: Any = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the laws")
+    rise_c0: float = quantity("c_0", 0, -0.6, 0.6, "", "shapes the law away", above=None)
+    rise_c1: float = quantity("c_1", 0, -0.6, 0.6, "", "shapes the law away", above=None)
+    rise_c2: float = quantity("c_2", 0, -0.6, 0.6, "", "shapes the law away", above=None)
+    rise_c3: float = quantity("c_3", 0, -0.6, 0.6, "", "shapes the law away", above=None)
+    return_c0: float = quantity("d_0", 0, -0.6, 0.6, "", "shapes the law back", above=None)
+    return_c1: float = quantity("d_1", 0, -0.6, 0.6, "", "shapes the law back", above=None)
+    return_c2: float = quantity("d_2", 0, -0.6, 0.6, "", "shapes the law back", above=None)
+    return_c3: float = quantity("d_3", 0, -0.6, 0.6, "", "shapes the law back", above=None)
+    contact_width: float = quantity("b", 20, 5, 60, "mm", "length of the line on which cam and roller touch")
+    cam_modulus: float = quantity("E_1", 210, 90, 220, "GPa", "elastic modulus of the cam")
+    roller_modulus: float = quantity("E_2", 210, 90, 320, "GPa", "elastic modulus of the roller")
+
+    def _law(self, way: str) -> Law:
+        base = getattr(self, f"{way}_law")
+        if not isinstance(base, Law):
+            raise ValueError(f"the {way} law is {base!r}; it must be a motion law such as Degree9((0, 0, 0, 0))")
+        c = tuple(getattr(self, f"{way}_c{i}") for i in range(4))
+        return base if all(np.ndim(ci) == 0 and ci == 0 for ci in c) else ShapedLaw(base, c, self.family)
+
+    @cached_property
+    def laws(self) -> tuple[Law, Law]:
+        """The laws of rise and return with what the coefficients add to them."""
+        return self._law("rise"), self._law("return")
+
+
+@dataclass(frozen=True)
+class HighSpeedCam(FreeLawCam):
+    """A cam between two dwells, its laws free (defaults: the paper's first design).
+
+    ``spring_factor`` is the rate of the closing spring over ``J omega^2``; 0 stands for the weakest spring that
+    keeps the roller on the cam.  ``load`` is an `InertialSpringLoad`, a `ConstantTorque` or anything else with a
+    ``name`` and their method ``resisting_torque``.
+
+    >>> cam = HighSpeedCam(165 * mm, 30 * mm, 130 * mm, Poly345(), Poly345())
+    >>> analysis = cam.analyse()
+    >>> print(f"{analysis.rise.stress_coefficient.max():.4f}, {analysis.fall.wear_coefficient.max():.2f}")
+    2.4780, 410.00
+
+    Raises ``ValueError`` for sizes that cannot be built: the sentence says which and what is possible.
+    """
+
+    load: Any = choice("M", InertialSpringLoad(), (InertialSpringLoad(), ConstantTorque()), "what the arm resists with")
+    centre_distance: float = quantity("L", 200, 100, 400, "mm", "cam axis to arm pivot")
+    swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm")
+    rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away")
+    return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back")
+    speed: float = quantity("n", 100, 10, 200, "%", "share of the speed for which the load is given")
+    spring_factor: float = quantity(
+        "K", 0, 0, 12, "", "closing spring / inertia by speed squared; 0: the weakest", at_least=0
+    )
+    rotation: int = 1
+
+    groove: ClassVar[bool] = False
+    """A plate: spring or weight hold the roller to it."""
+    friction: ClassVar[Friction] = Friction(0, 0, 0, 0)
+    """None is counted."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.laws  # noqa: B018 - refuses what is no law
+        self._refuse_intervals()
+        self._refuse_sizes()
+
+    def _refuse_intervals(self) -> None:
+        if np.ndim(self.rotation) or self.rotation not in (1, -1):
+            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+        moving = self.rise_angle + self.return_angle
+        fits = moving < 2 * np.pi
+        if fails(fits):
+            raise ValueError(
+                f"the arm swings over {moving / deg:.4g} deg of the cam; there are 360 deg, and two dwells "
+                "need some of them"
+            )
+        self.keep(fits)
+
+    def _refuse_sizes(self) -> None:
+        L, l, psi = self.centre_distance, self.arm_length, self.end_angle
+        reaches, starts, clear = psi < np.pi, self.start_angle > 0, self.min_radius > 0
+        if fails(reaches):
+            raise ValueError(
+                f"the roller's centre has to come {(self.max_radius + self.roller_radius) / mm:.4g} mm from the cam "
+                f"axis (r_k2 + r); an arm of {l / mm:.4g} mm at {L / mm:.4g} mm reaches {abs(L - l) / mm:.4g} to "
+                f"{(L + l) / mm:.4g} mm"
+            )
+        if fails(starts):
+            raise ValueError(
+                f"the arm ends at {psi / deg:.4g} deg from the line of centres and swings "
+                f"{self.swing / deg:.4g} deg; it must start above 0 deg"
+            )
+        if fails(clear):
+            raise ValueError(
+                f"the smallest radius r_k1 of the profile is {self.min_radius / mm:.4g} mm; it must be above 0 mm: "
+                f"the roller of {self.roller_radius / mm:.4g} mm covers the cam axis"
+            )
+        self.keep(reaches & starts & clear)
+
+    @property
+    def end_angle(self) -> Any:
+        """``psi_max``: where the roller's centre is ``r_k2 + r`` from the cam axis, rad; ``nan`` if it never is."""
+        return angle_opposite(self.max_radius + self.roller_radius, self.arm_length, self.centre_distance)
+
+    @property
+    def start_angle(self) -> Any:
+        """``psi_0``: the arm from the line pivot -> cam axis at its near dwell, rad."""
+        return self.end_angle - self.swing
+
+    @property
+    def min_radius(self) -> Any:
+        """``r_k1``: smallest radius of the profile, m."""
+        L, l = self.centre_distance, self.arm_length
+        return np.sqrt(L**2 + l**2 - 2 * L * l * np.cos(self.start_angle)) - self.roller_radius
+
+    @property
+    def dwell_angle(self) -> Any:
+        """Cam angle of each of the two dwells, rad: they share what the intervals leave."""
+        return np.pi - (self.rise_angle + self.return_angle) / 2
+
+    @cached_property
+    def motion(self) -> MotionProgram:
+        """The arm's travel over a turn of the cam: rise, dwell, return, dwell."""
+        away, back = self.laws
+        moves = (Rise(self.rise_angle, self.swing, away), Return(self.return_angle, self.swing, back))
+        return MotionProgram((moves[0], Dwell(self.dwell_angle), moves[1], Dwell(self.dwell_angle)))
+
+    def angles(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Cam angles of the whole turn, of the rise and of the return, ``n`` even ones in either of these."""
+        n = counted(n, "angles", 5)
+        share, dwell = np.linspace(0, 1 - HAIR, n), np.linspace(0, 1, n // 4 + 2) * self.dwell_angle
+        rise, far = share * self.rise_angle, self.rise_angle + dwell
+        fall, near = far[..., -1:] + share * self.return_angle, 2 * np.pi - self.dwell_angle + dwell
+        return joined(rise, far[..., :-1], fall, near), rise, fall
+
+    def analyse(self, n: int = 401) -> HighSpeedAnalysis:
+        """Geometry and forces at ``n`` even cam angles of either interval, and some of the dwells."""
+        analysis = HighSpeedAnalysis(self, *self.angles(n))
+        analysis.refuse_impossible()
+        return analysis
+
+
+@dataclass(frozen=True)
+class HighSpeedContact(OscillatingRollerAnalysis):
+    """Force, stress and wear between cam and roller, on the geometry of `OscillatingRollerAnalysis`.
+
+    Arrays are ``(n,)`` for one design and ``(p, n)`` for ``p``.
+    """
+
+    cam: Any
+
+    @property
+    @abstractmethod
+    def spring_rate(self) -> Any:
+        """``K``, shaped to multiply arrays of angles."""
+
+    @cached_property
+    def resisting_torque(self) -> np.ndarray:
+        """``M``: torque about the arm's pivot that the cam has to overcome, N m."""
+        return self.cam.load.resisting_torque(self.motion, self.cam.swing, self.spring_rate, self.cam.speed)
+
+    @property
+    def normal_force(self) -> np.ndarray:
+        """``N = M / (l cos theta)`` between cam and roller, N; < 0 where the roller would lift off."""
+        return self.contact_force
+
+    @cached_property
+    def margin(self) -> np.ndarray:
+        """``q = 1 - r kappa``: 0 or less where the roller undercuts the profile."""
+        return 1 - self.cam.roller_radius * self.curvature
+
+    @cached_property
+    def reduced_radius(self) -> np.ndarray:
+        """``rho_pr = 1 / (1/r + kappa/q)``, which is ``r q``, m; ``nan`` where the profile is undercut."""
+        return np.where(self.margin > 0, self.cam.roller_radius * self.margin, np.nan)
+
+    @cached_property
+    def ease(self) -> np.ndarray:
+        """``r q / N = 1 / F_sigma^2``, m/N: smooth where ``F_sigma`` has a pole; ``nan`` without contact."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            touching = np.where(self.normal_force >= -self._nothing, abs(self.normal_force), np.nan)
+            return self.cam.roller_radius * self.margin / touching
+
+    @property
+    def _nothing(self) -> Any:
+        """A force that is rounding."""
+        return 1e-9 * abs(self.normal_force).max(-1, keepdims=True)
+
+    @cached_property
+    def stress_coefficient(self) -> np.ndarray:
+        """``F_sigma = sqrt(N / rho_pr)``, N^0.5 mm^-0.5; ``nan`` where undercut or without contact."""
+        return inverse_root(self.ease / mm)
+
+    @cached_property
+    def wear_coefficient(self) -> np.ndarray:
+        """``F_wear = N F_sigma``, N^1.5 mm^-0.5."""
+        return self.normal_force * self.stress_coefficient
+
+    @cached_property
+    def stress_between(self) -> np.ndarray:
+        """``F_sigma`` in SI, each peak raised to what it is between the angles."""
+        return inverse_root(-lifted(-self.ease))
+
+    @cached_property
+    def wear_between(self) -> np.ndarray:
+        """``F_wear`` in SI, each peak raised to what it is between the angles."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return inverse_root(-lifted(-self.ease / self.normal_force**2))
+
+    @cached_property
+    def margin_between(self) -> np.ndarray:
+        """``q``, each valley lowered to what it is between the angles."""
+        return -lifted(-self.margin)
+
+    @cached_property
+    def spring_needed(self) -> np.ndarray:
+        """``-psi''/psi``, the closing spring that holds the arm's inertia, over ``J omega^2``; peaks as above.
+
+        Very negative, and of no account, where the arm has not moved.
+        """
+        psi = self.motion.s
+        at_rest = psi <= AT_REST * self.cam.swing
+        return lifted(np.where(at_rest, -1e12, -self.motion.a / np.where(at_rest, 1, psi)))
+
+    @cached_property
+    def hertz_pressure(self) -> np.ndarray:
+        """``p_0 = sqrt(N E* / (pi b rho_pr))``: largest pressure between cam and roller, Pa."""
+        modulus = contact_modulus(self.cam.cam_modulus, self.cam.roller_modulus)
+        return hertz_line(self.normal_force / self.cam.contact_width, 1 / self.reduced_radius, modulus).pressure
+
+
+def inverse_root(ease: Any) -> Any:
+    """``ease ** -0.5``; ``nan`` where it is not above 0."""
+    return np.where(ease > 0, ease, np.nan) ** -0.5
+
+
+@dataclass(frozen=True)
+class Interval(HighSpeedContact):
+    """The part of a turn in which the arm swings one way."""
+
+    whole: HighSpeedAnalysis
+
+    @property
+    def spring_rate(self) -> Any:
+        """``K`` of the whole cam."""
+        return self.whole.spring_rate
+
+
+@dataclass(frozen=True)
+class HighSpeedAnalysis(HighSpeedContact):
+    """What follows from a `HighSpeedCam` over a turn, and of its two intervals ``rise`` and ``fall`` alone.
+
+    Numbers of the cam are one or ``(p,)``; what cannot be built is ``nan``.
+    """
+
+    rise_at: np.ndarray
+    fall_at: np.ndarray
+
+    @cached_property
+    def rise(self) -> Interval:
+        """The interval in which the arm swings away."""
+        return Interval(self.cam, self.rise_at, self)
+
+    @cached_property
+    def fall(self) -> Interval:
+        """The interval in which the arm swings back."""
+        return Interval(self.cam, self.fall_at, self)
+
+    def along(self, name: str) -> np.ndarray:
+        """An array of rise and fall, one behind the other."""
+        return joined(getattr(self.rise, name), getattr(self.fall, name))
+
+    @property
+    def moving_angle(self) -> np.ndarray:
+        """The cam angles of rise and fall, rad."""
+        return self.along("cam_angle")
+
+    @property
+    def start_angle(self) -> Any:
+        """``psi_0``: the arm from the line of centres at its near dwell, rad."""
+        return number(self.cam.start_angle)
+
+    @property
+    def min_radius(self) -> Any:
+        """``r_k1``: smallest radius of the profile, m."""
+        return number(self.cam.min_radius)
+
+    def refuse_impossible(self) -> None:
+        """``ValueError`` in a sentence if this is one design and a law swings the arm where it cannot go."""
+        self.rise.refuse_impossible()
+        self.fall.refuse_impossible()
+
+    @property
+    def intervals(self) -> tuple[Interval, Interval]:
+        """Rise and fall."""
+        return self.rise, self.fall
+
+    @cached_property
+    def travel(self) -> np.ndarray:
+        """The arm's travel over rise and fall as a share of the swing."""
+        return joined(self.rise.motion.s, self.fall.motion.s) / self.cam.swing
+
+    @cached_property
+    def lead(self) -> np.ndarray:
+        """Travel from the nearer end as a share of what a 3-4-5 polynomial makes of it, the ends left out.
+
+        Below 0 the arm is beyond that end.  It stays of a size near the ends, where the travel itself vanishes.
+        """
+        plain = Poly345()(np.linspace(0, 1 - HAIR, self.rise_at.shape[-1])[1:-1]).s
+        away, back = (stretch.motion.s[..., 1:-1] / self.cam.swing for stretch in self.intervals)
+        return joined(*(np.where(plain < 0.5, s / plain, (1 - s) / (1 - plain)) for s in (away, 1 - back)))
+
+    @cached_property
+    def least_spring_factor(self) -> Any:
+        """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia; ``inf`` if the arm passes its start.
+
+        0/0 where the arm has not moved is left out.
+        """
+        return np.where(self.passes_start, np.inf, self.along("spring_needed").max(-1))[()]
+
+    @cached_property
+    def spring_rate(self) -> Any:
+        """`spring_factor`, shaped to multiply arrays of angles."""
+        given = self.cam.spring_factor
+        weakest = np.asarray(self.least_spring_factor)[..., None]
+        return np.where(given > 0, given, weakest)
+
+    @property
+    def spring_factor(self) -> Any:
+        """``K``: rate of the closing spring over ``J omega^2``."""
+        return number(self.spring_rate)
+
+    @cached_property
+    def undercut_margin(self) -> Any:
+        """Least ``q = 1 - r kappa``, also between the angles; 0 or less: the profile is undercut."""
+        return self.along("margin_between").min(-1)
+
+    @property
+    def is_undercut(self) -> Any:
+        """Whether the roller undercuts the profile."""
+        return self.undercut_margin <= 0
+
+    @property
+    def loses_contact(self) -> Any:
+        """Whether the roller would lift off somewhere, ``N < 0``."""
+        return np.any([(s.normal_force < -s._nothing).any(-1) for s in self.intervals], axis=0)
+
+    @property
+    def passes_start(self) -> Any:
+        """Whether the arm swings back beyond its start, ``a < 0``: no spring can then follow ``K``."""
+        return (self.travel < -AT_REST).any(-1)
+
+    @property
+    def passes_end(self) -> Any:
+        """Whether the arm swings beyond its end, ``a > 1``: ``r_k2`` is then not the largest radius."""
+        return (self.travel > 1 + AT_REST).any(-1)
+
+    @property
+    def flags(self) -> dict[str, Any]:
+        """What is wrong with the cam, in words, and whether it is."""
+        return {
+            "the roller undercuts the profile": self.is_undercut,
+            "the roller loses contact": self.loses_contact,
+            "the arm passes its start": self.passes_start,
+            "the arm passes its end": self.passes_end,
+        }

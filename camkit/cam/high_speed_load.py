@@ -1,0 +1,79 @@
+"""What the arm of a high-speed cam resists with: each load is a ``name`` and a ``resisting_torque``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..motion import Kinematics
+from ..quantities import Design, quantity
+
+
+@dataclass(frozen=True)
+class InertialSpringLoad(Design):
+    """A mass that the arm swings and a spring that keeps it on the cam.
+
+    ``M = J omega^2 [psi'' + (alpha_s PS + psi) K]``: ``PS`` is the swing, ``K`` the rate of the closing spring over
+    ``J omega^2``, ``alpha_s PS`` how far the spring is wound up before the arm moves.
+
+    Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (table 1).
+    """
+
+    inertia_speed2: float = quantity("J omega^2", 10, 0.1, 100, "N m", "inertia of the arm by speed squared")
+    closing: float = quantity("alpha_s", 0.5, 0, 2, "", "winding of the spring at the start / swing", at_least=0)
+
+    name: ClassVar[str] = "inertia and closing spring"
+
+    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+        """About the arm's pivot, N m; ``speed`` is a share of the speed for which ``inertia_speed2`` is given."""
+        spring = (self.closing * swing + motion.s) * spring_factor
+        return self.inertia_speed2 * speed**2 * (motion.a + spring)
+
+
+@dataclass(frozen=True)
+class ConstantTorque(Design):
+    """The same torque at every angle (table 2 of the same paper).
+
+    >>> ConstantTorque(-1)
+    Traceback (most recent call last):
+        ...
+    ValueError: the torque M (constant torque on the arm) is -1 N m; it must be a finite number above 0 N m
+    """
+
+    torque: float = quantity("M", 10, 0.1, 100, "N m", "constant torque on the arm")
+
+    name: ClassVar[str] = "constant torque"
+
+    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+        """About the arm's pivot, N m."""
+        return self.torque + 0.0 * motion.s
+
+
+@dataclass(frozen=True)
+class SliderLoad:
+    """A lever of length ``x`` that lifts a slider and swings evenly about the level.
+
+    ``M = [G + P(s)] x cos(psi - PS / 2) + J omega^2 psi''``: ``G`` weight, ``P`` force of the work at the slider's
+    way ``s = x [sin(psi - PS / 2) + sin(PS / 2)]``.  No spring: the weight keeps the roller on the cam.
+    """
+
+    lever: Any
+    weight: Any
+    force: Callable[[Any], Any]
+    """``P`` in N of ``s`` in m."""
+    inertia_speed2: Any
+
+    name: ClassVar[str] = "slider on a lever"
+
+    def way(self, motion: Kinematics, swing: Any) -> Any:
+        """``s``: of the slider from its lowest position, m."""
+        return self.lever * (np.sin(motion.s - swing / 2) + np.sin(swing / 2))
+
+    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+        """About the lever's pivot, N m."""
+        static = self.weight + self.force(self.way(motion, swing))
+        inertia = self.inertia_speed2 * speed**2 * motion.a
+        return static * self.lever * np.cos(motion.s - swing / 2) + inertia

@@ -1,0 +1,107 @@
+"""The tables of the high-speed cam paper, printed beside computed, and the problems whose optima it prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..comparison import Comparison, Row
+from ..quantities import Measure
+from ..reference import as_printed
+from ..study import Study
+from ..units import cm, deg, mm
+from .cam_lever import CamLever, cam_lever_study
+from .high_speed import HighSpeedAnalysis, HighSpeedCam
+from .high_speed_load import ConstantTorque, InertialSpringLoad
+from .high_speed_study import high_speed_study, peak_stress, peak_wear
+
+SOURCE = "Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov"
+WAYS = ("rise", "return")
+LOADS = {"table_1": InertialSpringLoad(), "table_2": ConstantTorque()}
+ANGLES = 4001
+REMARK = {
+    ("wear, geometry", "stress", "return"): "near undercut: half a millimetre more or less makes it 4.8 to 6.8",
+    ("wear, geometry", "wear", "return"): "near undercut: half a millimetre more or less makes it 198 to 261",
+}
+STRESS_CAP = 2 / mm**0.5
+"""``F_sigma`` of at most 2 N^0.5 mm^-0.5."""
+
+
+def _cam(table: str, row: str) -> HighSpeedCam:
+    l, r, k2 = (float(size) * mm for size in as_printed("high_speed")[table][row]["sizes"])
+    return HighSpeedCam(l, r, k2, load=LOADS[table])
+
+
+def _rows(name: str, printed: Any, analysis: HighSpeedAnalysis, scale: float = 1.0) -> Iterator[Row]:
+    """Stress, wear and pressure angle of rise and return; ``scale`` from the analysis's units to the table's."""
+    for quantity, unit, of in (
+        ("stress", "N^0.5 mm^-0.5", lambda s: scale * s.stress_coefficient),
+        ("wear", "N^1.5 mm^-0.5", lambda s: scale * s.wear_coefficient),
+        ("angle", "deg", lambda s: abs(s.pressure_angle) / deg),
+    ):
+        for way, text, stretch in zip(WAYS, printed.get(quantity, ()), analysis.intervals, strict=False):
+            shown = unit if scale == 1 else unit.replace("mm", "cm")
+            remark = REMARK.get((name, quantity, way), "")
+            yield Row(f"{name}: {quantity}, {way}", shown, text, float(of(stretch).max()), remark)
+
+
+def table(number: int) -> Comparison:
+    """Table 1 (inertia and spring) or 2 (constant torque): the designs with printed laws."""
+    key = f"table_{number}"
+    printed = as_printed("high_speed")[key]
+    rows = [
+        row for name in printed if name != "what" for row in _rows(name, printed[name], _cam(key, name).analyse(ANGLES))
+    ]
+    return Comparison(f"Table {number}: {printed['what'].split(';')[0]}", SOURCE, rows)
+
+
+def table_3() -> Comparison:
+    """The cam and lever before the optimisation, under the stand-in load."""
+    printed = as_printed("high_speed")["table_3"]["initial"]
+    analysis = CamLever().analyse(ANGLES)
+    sizes = {
+        "min_radius": ("mm", analysis.min_radius / mm),
+        "centre_distance": ("mm", analysis.cam.centre_distance / mm),
+        "swing": ("deg", analysis.cam.swing / deg),
+        "start_angle": ("deg", analysis.start_angle / deg),
+    }
+    rows = [Row(name.replace("_", " "), unit, printed[name], float(value)) for name, (unit, value) in sizes.items()]
+    rows += _rows("initial", printed, analysis, float(np.sqrt(cm / mm)))
+    return Comparison("Table 3: cam and lever, stand-in load", SOURCE, rows)
+
+
+class Problem(NamedTuple):
+    """A problem of the paper; ``printed`` is the optimum that it prints, in multiples of ``unit`` (SI), or ``None``."""
+
+    name: str
+    printed: float | None
+    unit: float
+    study: Study
+
+
+def problems() -> tuple[Problem, ...]:
+    """What the paper optimises of tables 1 and 2; laws are the 3-4-5 polynomial unless said to be free."""
+    torque, unit = HighSpeedCam(load=ConstantTorque()), mm**-0.5
+    cap: dict[Measure, float] = {peak_stress: STRESS_CAP}
+    free_torque = high_speed_study(torque, peak_wear, free_laws=True)
+    free_capped = high_speed_study(objective=peak_wear, free_laws=True, at_most=cap)
+    return (
+        Problem("least wear", 224, unit, high_speed_study(objective=peak_wear)),
+        Problem("least stress", 1.71, unit, high_speed_study()),
+        Problem("least wear, stress capped", None, unit, high_speed_study(objective=peak_wear, at_most=cap)),
+        Problem("least wear, constant torque", 125, unit, high_speed_study(torque, peak_wear)),
+        Problem("least stress, laws free", 1.44, unit, high_speed_study(free_laws=True)),
+        Problem("least wear, stress capped, laws free", 167, unit, free_capped),
+        Problem("least wear, constant torque, laws free", 101, unit, free_torque),
+    )
+
+
+def lever_problems() -> tuple[Problem, ...]:
+    """The paper's sweep of the cam and lever: the least stress with ``r_k2`` of at most 94 to 140 mm."""
+    sweep, unit = as_printed("high_speed")["table_3"]["sweep"], cm**-0.5
+    return tuple(
+        Problem(f"r_k2 at most {radius} mm", float(stress), unit, cam_lever_study(max_radius=float(radius) * mm))
+        for radius, stress in zip(sweep["max_radius"], sweep["stress"], strict=True)
+    )

@@ -1,0 +1,105 @@
+"""Measures of a high-speed cam, and the questions asked of it.
+
+Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..quantities import Measure, PeakMeasure
+from ..study import Study
+from ..units import mm
+from .high_speed import HighSpeedCam, number
+from .high_speed_load import InertialSpringLoad
+
+
+def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
+    """The largest value of ``curve`` over rise and fall."""
+    return PeakMeasure(name, unit, curve, angle=lambda a: a.moving_angle)
+
+
+peak_stress = peak("contact stress F_sigma", "N^0.5 mm^-0.5", lambda a: a.along("stress_between"))
+peak_wear = peak("wear F_wear", "N^1.5 mm^-0.5", lambda a: a.along("wear_between"))
+steepest = peak("steepest pressure angle", "deg", lambda a: abs(a.along("pressure_angle")))
+peak_force = peak("peak normal force", "N", lambda a: a.along("normal_force"))
+peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.along("hertz_pressure"))
+peak_torque = peak("peak cam torque", "N mm", lambda a: abs(a.along("cam_torque")))
+spring_use = peak("closing spring needed", "%", lambda a: a.along("spring_needed") / a.spring_rate)
+least_lead = -PeakMeasure("least travel / that of 3-4-5", "", lambda a: -a.lead)
+undercut_margin = -peak("undercut margin 1 - r kappa", "", lambda a: -a.along("margin_between"))
+least_radius = Measure("smallest radius r_k1", "mm", lambda a: a.min_radius)
+gap = Measure("gap from roller to pivot", "mm", lambda a: number(a.cam.arm_length - a.cam.roller_radius))
+spring_factor = Measure("closing spring K", "", lambda a: a.spring_factor)
+
+HIGH_SPEED_MEASURES = (
+    peak_stress,
+    peak_wear,
+    peak_pressure,
+    peak_force,
+    peak_torque,
+    steepest,
+    undercut_margin,
+    least_radius,
+    gap,
+    spring_factor,
+    spring_use,
+    least_lead,
+)
+"""What a table of a high-speed cam shows; peaks are those of rise and fall together."""
+HighSpeedCam.measures = HIGH_SPEED_MEASURES
+
+GEOMETRY = {
+    "arm_length": (40 * mm, 290 * mm),
+    "roller_radius": (20 * mm, 200 * mm),
+    "max_radius": (60 * mm, 140 * mm),
+}
+"""The paper's three free sizes; ``l >= 40``, ``r >= 20`` and ``r_k2 <= 140 mm`` are its limits, the others are wide."""
+COEFFICIENTS = tuple(f"{way}_c{i}" for way in ("rise", "return") for i in range(4))
+LAWS_FREE = dict.fromkeys(COEFFICIENTS, (-0.6, 0.6))
+SPRING_FREE = {"spring_factor": (0.2, 12.0)}
+CLEAR = 1e-3
+"""Least margin of undercut within a search: where it is 0 the stress is infinite."""
+
+
+def high_speed_study(
+    start: HighSpeedCam | None = None,
+    objective: Measure = peak_stress,
+    *,
+    free_laws: bool = False,
+    free_spring: bool = True,
+    space: Mapping[str, tuple[float, float]] | None = None,
+    at_most: Mapping[Measure, float] | None = None,
+    at_least: Mapping[Measure, float] | None = None,
+    angles: int = 201,
+) -> Study:
+    """The paper's problem: the largest contact stress (or wear) of the turn small, ``r_k1`` at least 30 mm.
+
+    Free are arm, roller and largest radius, with ``free_laws`` the eight coefficients too.  The closing spring is
+    then free as well: its weakest rate is a maximum over the angles in turn, which descends better as the limit
+    that no more spring is needed than there is.  Methods without slopes do better with ``free_spring=False``, the
+    weakest spring everywhere.  ``space`` replaces the bounds of the sizes; ``at_most`` and ``at_least`` add limits.
+
+    >>> study = high_speed_study()
+    >>> print(f"{study.evaluate(study.x0).f[0, 0] * mm**0.5:.4f}")
+    2.4780
+    """
+    start = start or HighSpeedCam()
+    free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (LAWS_FREE if free_laws else {})
+    most: dict[Measure, float] = {}
+    least: dict[Measure, float] = {least_radius: 30 * mm, undercut_margin: CLEAR}
+    if free_laws:
+        least[least_lead] = 0.0
+    if free_laws and free_spring and isinstance(start.load, InertialSpringLoad):
+        start = start.replace(spring_factor=start.spring_factor or float(start.analyse().spring_factor))
+        free |= SPRING_FREE
+        most[spring_use] = 1.0
+    return Study(
+        start=start,
+        free=free,
+        minimise=(objective,),
+        at_most=most | dict(at_most or {}),
+        at_least=least | dict(at_least or {}),
+        angles=angles,
+    )

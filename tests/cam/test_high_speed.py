@@ -1,0 +1,524 @@
+"""The high-speed cam and the cam with lever against the paper, brute-force geometry and identities.
+
+Source of the published system: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov; computed values were worked out
+from its formulas by an independent program at 4001 angles.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import trapezoid
+from scipy.optimize import brentq
+
+from camkit.cam.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share, lever_stress
+from camkit.cam.high_speed import HighSpeedCam, lifted
+from camkit.cam.high_speed_load import ConstantTorque, InertialSpringLoad
+from camkit.cam.high_speed_paper import lever_problems, problems, table, table_3
+from camkit.cam.high_speed_study import (
+    HIGH_SPEED_MEASURES,
+    high_speed_study,
+    least_lead,
+    peak_pressure,
+    peak_stress,
+    peak_wear,
+    undercut_margin,
+)
+from camkit.contact import contact_modulus
+from camkit.export import from_json, profile_csv, to_json
+from camkit.motion import LAWS, Cycloidal, Degree9, ModifiedSine, Poly345, SplineLaw
+from camkit.motion.shaped import KNOTS, SPLINE, ShapedLaw
+from camkit.units import GPa, cm, deg, mm, rpm
+
+SPRING, TORQUE = InertialSpringLoad(), ConstantTorque(10)
+LAW, OTHER_LAW = Degree9((0.1, -0.2, 0.05, -0.08)), Degree9((-0.1, -0.3, -0.1, -0.05))
+
+
+def cam(l, r, k2, load=SPRING, **fields):
+    return HighSpeedCam(l * mm, r * mm, k2 * mm, Poly345(), Poly345(), load=load, **fields)
+
+
+FIRST, FREE = cam(165, 30, 130), HighSpeedCam(190 * mm, 150 * mm, 140 * mm, LAW, OTHER_LAW)
+
+
+# ---------------------------------------------------------------- the paper
+
+COMPUTED = [
+    (cam(165, 30, 130), (2.477986, 2.457231), (345.3384, 410.0059), (42.2227, 45.9929)),
+    (cam(187, 95, 140), (1.652, 5.56), (224.56, 214.3), (49.73, 34.83)),
+    (cam(161, 82.5, 140), (1.714927, 1.711790), (238.3882, 236.8190), (43.46, 29.64)),
+    (cam(165, 30, 130, TORQUE), (2.017312, 1.958268), (164.1947, 158.6436), None),
+    (cam(182, 68.9, 138, TORQUE), (1.570266, 2.257879), (124.7468, 124.5345), (47.53, 28.50)),
+]
+
+
+@pytest.mark.parametrize(("design", "stress", "wear", "angle"), COMPUTED)
+def test_rows_of_tables_1_and_2(design, stress, wear, angle):
+    """To 1e-4, or to the last digit given where that is coarser."""
+    for i, interval in enumerate(design.analyse(4001).intervals):
+        for value, given in (
+            (interval.stress_coefficient.max(), stress),
+            (interval.wear_coefficient.max(), wear),
+            (np.degrees(abs(interval.pressure_angle).max()), angle),
+        ):
+            if given:
+                digits = len(str(given[i]).partition(".")[2])
+                assert value == pytest.approx(given[i], rel=1e-4, abs=0.6 * 10**-digits)
+
+
+def test_what_the_tables_print_is_reproduced_but_for_rounded_sizes_near_undercut():
+    missed = {row.name: row.remark for t in (table(1), table(2), table_3()) for row in t.rows if not row.reproduced}
+    assert set(missed) == {
+        "wear, geometry: stress, return",
+        "wear, geometry: wear, return",
+        "stress, geometry: angle, return",
+        "initial: wear, rise",  # 2094 printed as 2100
+    }
+    for name in ("wear, geometry: stress, return", "wear, geometry: wear, return"):
+        assert missed[name].startswith("near undercut")
+
+
+def test_half_a_millimetre_moves_the_row_near_undercut_as_its_remark_says():
+    near = [cam(187 + a, 95 + b, 140).analyse(4001).fall for a in (-0.5, 0, 0.5) for b in (-0.5, 0, 0.5)]
+    stress, wear = ([getattr(f, k).max() for f in near] for k in ("stress_coefficient", "wear_coefficient"))
+    assert (round(min(stress), 1), round(max(stress), 1)) == (4.8, 6.8)
+    assert (round(min(wear)), round(max(wear))) == (198, 261)
+
+
+def test_reference_values():
+    analysis = FIRST.analyse(4001)
+    assert np.degrees(analysis.start_angle) == pytest.approx(20.899556, abs=5e-7)
+    assert analysis.min_radius / mm == pytest.approx(44.614491, abs=5e-7)
+    assert analysis.spring_factor == pytest.approx(2.544160, abs=5e-7)
+    u = np.linspace(0.75, 0.76, 100_001)
+    ratio = -Poly345()(u).a / Poly345()(u).s
+    assert ratio.max() == pytest.approx(6.277462, abs=5e-7)
+    assert u[ratio.argmax()] == pytest.approx(0.755993, abs=1e-6)
+    assert analysis.spring_factor == pytest.approx(ratio.max() / (90 * deg) ** 2, rel=1e-8)
+
+
+def test_undercut_begins_at_a_roller_of_111_4498_mm():
+    r = brentq(lambda r: cam(165, r, 130).analyse(4001).undercut_margin, 105, 118)
+    assert r == pytest.approx(111.4498, abs=5e-5)
+
+
+# ---------------------------------------------------------------- brute force
+
+
+class Brute:
+    """The same cam from its law alone: points, complex-step tangents, differences; nothing of the package's cams."""
+
+    def __init__(self, design):
+        self.c = design
+        R2 = design.max_radius + design.roller_radius
+        L, l = design.centre_distance, design.arm_length
+        self.start = np.arccos((L**2 + l**2 - R2**2) / (2 * L * l)) - design.swing
+        self.back_at = (2 * np.pi + design.rise_angle - design.return_angle) / 2
+
+    def psi(self, phi):
+        """The arm's angle, a polynomial on each interval (continued beyond it, so differences can be taken)."""
+        c, x = self.c, np.real(phi)
+        away, back = polynomial(c.rise_law), polynomial(c.return_law)
+        rising = x < (c.rise_angle + self.back_at) / 2
+        u = np.where(rising, phi / c.rise_angle, (phi - self.back_at) / c.return_angle)
+        return self.start + c.swing * np.where(rising, away(u), 1 - back(u))
+
+    def centre(self, phi):
+        psi = self.psi(phi)
+        return np.array([self.c.centre_distance - self.c.arm_length * np.cos(psi), self.c.arm_length * np.sin(psi)])
+
+    def pitch(self, phi):
+        """The roller's centre as the cam, turning counter-clockwise, sees it."""
+        x, y = self.centre(phi)
+        return np.array([x * np.cos(phi) + y * np.sin(phi), y * np.cos(phi) - x * np.sin(phi)])
+
+    def normal(self, phi):
+        """Of the pitch curve, on the cam, away from the material: turned left of the way the roller runs back."""
+        x, y = self.pitch(phi + 1e-30j).imag / 1e-30
+        n = np.array([-y, x]) / np.hypot(x, y)
+        return n * np.sign((n * self.pitch(phi)).sum(0))
+
+    def profile(self, phi):
+        return self.pitch(phi) - self.c.roller_radius * self.normal(phi)
+
+
+def polynomial(law):
+    """A law of degree 9 as a numpy polynomial, fitted through ten of its points."""
+    u = np.cos(np.pi * (np.arange(10) + 0.5) / 10) / 2 + 0.5
+    return np.polynomial.Polynomial.fit(u, law(u).s, 9, domain=[0, 1])
+
+
+FOURTH = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
+
+
+def curvature_of(points, phi, h=1e-3):
+    """Curvature of a closed curve run clockwise, from five points: convex > 0."""
+    around = points(phi[:, None] + h * np.arange(-2, 3))
+    (x1, y1), (x2, y2) = (around @ weights / h**k for k, weights in enumerate(FOURTH, start=1))
+    return (y1 * x2 - x1 * y2) / (x1**2 + y1**2) ** 1.5
+
+
+SHAPES = pytest.mark.parametrize("design", [FIRST, FREE], ids=["3-4-5", "free laws"])
+
+
+@SHAPES
+def test_geometry_by_brute_force(design):
+    brute = Brute(design)
+    for interval in design.analyse(91).intervals:
+        phi = interval.cam_angle
+        assert_allclose(interval.arm_angle, brute.psi(phi), atol=1e-12)
+        assert_allclose(interval.pitch, brute.pitch(phi), atol=1e-13)
+        assert_allclose(interval.profile, brute.profile(phi), atol=1e-12)
+        moves = np.array([np.sin(brute.psi(phi)), np.cos(brute.psi(phi))])
+        x, y = brute.normal(phi)
+        normal = np.array([x * np.cos(phi) - y * np.sin(phi), x * np.sin(phi) + y * np.cos(phi)])
+        assert_allclose(np.cos(interval.pressure_angle), (normal * moves).sum(0), atol=1e-12)
+        assert_allclose(interval.curvature, curvature_of(brute.pitch, phi), rtol=1e-6)
+        assert_allclose(interval.profile_curvature, curvature_of(brute.profile, phi), rtol=1e-4, atol=1e-4)
+
+
+@SHAPES
+def test_stress_by_its_definition(design):
+    """F_sigma^2 = N (1/r + 1/rho_k), the profile's curvature from its points."""
+    brute = Brute(design)
+    for interval in design.analyse(91).intervals:
+        fit = 1 / design.roller_radius + curvature_of(brute.profile, interval.cam_angle)
+        assert_allclose(interval.stress_coefficient**2 / mm, interval.normal_force * fit, rtol=1e-4)
+        assert_allclose(1 / interval.reduced_radius, fit, rtol=1e-4)
+
+
+@SHAPES
+def test_profile_runs_from_its_smallest_to_its_largest_radius(design):
+    analysis = design.analyse(1001)
+    radius = np.hypot(*analysis.profile)
+    assert radius.min() == pytest.approx(analysis.min_radius, rel=1e-12)
+    assert radius.max() == pytest.approx(design.max_radius, rel=1e-12)
+    assert_allclose(analysis.profile[:, 0], analysis.profile[:, -1], atol=1e-15)
+    assert analysis.cam_angle[[0, -1]] == pytest.approx([0, 2 * np.pi])
+    assert (np.diff(analysis.cam_angle) > 0).all()
+
+
+# ---------------------------------------------------------------- forces
+
+
+@pytest.mark.parametrize("load", [SPRING, TORQUE], ids=lambda load: load.name)
+def test_wear_is_force_times_stress_and_no_power_is_lost(load):
+    analysis = FREE.replace(load=load).analyse(181)
+    for part in (*analysis.intervals, analysis):
+        assert_allclose(part.wear_coefficient, part.normal_force * part.stress_coefficient, rtol=1e-15)
+        assert_allclose(part.cam_torque, part.resisting_torque * part.velocity, rtol=1e-15)
+        x, y = part.contact_point()
+        force = part.normal_force * part.normal
+        assert_allclose(x * force[1] - y * force[0], part.cam_torque, atol=1e-9)  # moment about the cam axis
+        arm = part.contact_point() - np.array([[FREE.centre_distance], [0]])
+        moment = arm[1] * force[0] - arm[0] * force[1]  # about the arm's pivot, clockwise
+        assert_allclose(moment, part.resisting_torque, rtol=1e-9)
+
+
+def test_the_inertial_load_is_newtons_law_with_a_spring():
+    """J psi.. = M - c (psi + psi_s) with the cam at constant speed, J = 0.02 kg m^2 at 22.36 rad/s, c = K J omega^2."""
+    J, omega, closing = 0.02, np.sqrt(500), 0.3
+    design = FREE.replace(load=InertialSpringLoad(J * omega**2, closing))
+    rise = design.analyse(91).rise
+    h = 1e-5
+    psi = [Brute(design).psi(rise.cam_angle + k * omega * h) - Brute(design).start for k in (-1, 0, 1)]
+    acceleration = (psi[0] - 2 * psi[1] + psi[2]) / h**2
+    c = design.analyse(91).spring_factor * J * omega**2
+    wound = psi[1] + closing * design.swing
+    assert_allclose(rise.resisting_torque, J * acceleration + c * wound, rtol=1e-4)
+
+
+def test_the_weakest_spring_just_holds_the_arm():
+    for design in (FIRST, FREE):
+        analysis = design.analyse(4001)
+        held = [s.acceleration + analysis.spring_factor * s.motion.s for s in analysis.intervals]
+        assert min(h.min() for h in held) == pytest.approx(0, abs=1e-6)
+        weaker = design.replace(spring_factor=0.99 * float(analysis.spring_factor)).analyse(4001)
+        assert min((s.acceleration + weaker.spring_factor * s.motion.s).min() for s in weaker.intervals) < -1e-4
+
+
+def test_inertia_grows_with_speed_squared_and_a_constant_torque_does_not():
+    for load, factor in ((SPRING, 4), (TORQUE, 1)):
+        slow, fast = (FREE.replace(load=load, speed=n).analyse(91).rise.normal_force for n in (1.0, 2.0))
+        assert_allclose(fast, factor * slow, rtol=1e-12)
+
+
+def test_hertz_pressure_is_proportional_to_the_stress_coefficient():
+    analysis = FREE.replace(contact_width=25 * mm, cam_modulus=180 * GPa).analyse(91)
+    scale = np.sqrt(contact_modulus(180 * GPa, 210 * GPa) / (np.pi * 25 * mm))
+    assert_allclose(analysis.rise.hertz_pressure, scale * analysis.rise.stress_coefficient / mm**0.5, rtol=1e-12)
+    assert peak_pressure(analysis) == pytest.approx(scale * peak_stress(analysis), rel=1e-3)
+
+
+def test_the_other_sense_of_rotation_swaps_rise_and_return_of_a_symmetric_law():
+    one, other = (FIRST.replace(rotation=sigma).analyse(181) for sigma in (1, -1))
+    for name in ("stress_coefficient", "wear_coefficient", "pressure_angle", "margin"):
+        assert_allclose(getattr(one.rise, name), getattr(other.fall, name)[::-1], rtol=1e-6, atol=1e-8)
+        assert_allclose(getattr(one.fall, name), getattr(other.rise, name)[::-1], rtol=1e-6, atol=1e-8)
+
+
+# ---------------------------------------------------------------- peaks between the angles
+
+
+def test_lifted_raises_maxima_to_the_parabola_and_nothing_else():
+    x = np.arange(7.0)
+    assert_allclose(lifted(-((x - 3.3) ** 2)), [*-((x[:3] - 3.3) ** 2), 0, *-((x[4:] - 3.3) ** 2)], atol=1e-15)
+    assert_allclose(lifted(x), x)
+    assert_allclose(lifted(np.array([[0.0, 1, 0], [0, np.inf, 0]])), [[0, 1, 0], [0, np.inf, 0]])
+
+
+@pytest.mark.parametrize("margin", [0.2, 0.02, 0.005, 0.001])
+@pytest.mark.parametrize("measure", [peak_stress, peak_wear, undercut_margin], ids=lambda m: m.name)
+def test_401_angles_give_what_4001_give_also_near_undercut(margin, measure):
+    r = brentq(lambda r: cam(165, r, 130).analyse(8001).undercut_margin - margin, 60, 111.4)
+    coarse, dense = (measure(cam(165, r, 130).analyse(n)) for n in (401, 4001))
+    assert coarse == pytest.approx(dense, rel=1e-3)
+
+
+# ---------------------------------------------------------------- laws
+
+
+def test_coefficients_make_the_laws_of_degree_9():
+    c = {f"rise_c{i}": x for i, x in enumerate(LAW.c)} | {f"return_c{i}": x for i, x in enumerate(OTHER_LAW.c)}
+    plain = FREE.replace(rise_law=Poly345(), return_law=Poly345(), **c)
+    for a, b in zip(plain.analyse(91).intervals, FREE.analyse(91).intervals, strict=True):
+        assert_allclose(a.stress_coefficient, b.stress_coefficient, rtol=1e-9)
+
+
+def test_coefficients_add_to_whatever_law_there_is():
+    half = Degree9(tuple(c / 2 for c in LAW.c))
+    assert_allclose(ShapedLaw(half, half.c)(KNOTS), LAW(KNOTS), rtol=1e-12)
+
+
+def test_splines_are_the_other_family():
+    u, c = np.linspace(0, 1, 101), (0.02, -0.05, 0.03, 0.01)
+    through = SplineLaw(KNOTS, tuple(Poly345()(KNOTS).s + c))
+    shaped = ShapedLaw(Poly345(), c, SPLINE)
+    assert_allclose(shaped(u), through(u), atol=1e-10)
+    assert_allclose(shaped.peaks(), through.peaks(), rtol=1e-9)
+    assert shaped.continuity == 2
+    assert shaped.kinks == KNOTS
+    one = FIRST.replace(rise_law=through).analyse(91).rise.wear_coefficient
+    fields = {f"rise_c{i}": x for i, x in enumerate(c)}
+    assert_allclose(FIRST.replace(family=SPLINE, **fields).analyse(91).rise.wear_coefficient, one, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", [law for law in LAWS if law.continuity >= 2], ids=lambda law: law.name)
+def test_every_law_without_shocks_makes_a_cam(law):
+    analysis = FIRST.replace(rise_law=law, return_law=law).analyse(401)
+    assert peak_stress(analysis) > 0
+    assert not any(analysis.flags.values())
+
+
+def test_the_last_angle_of_an_interval_still_speaks_for_its_law():
+    """A law that ends with a shock is seen before the dwell that follows it."""
+    from camkit.motion import SimpleHarmonic
+
+    rise = FIRST.replace(rise_law=SimpleHarmonic()).analyse(91).rise
+    assert rise.acceleration[-1] == pytest.approx(-FIRST.swing * np.pi**2 / 2 / (90 * deg) ** 2, rel=1e-6)
+
+
+# ---------------------------------------------------------------- one and many
+
+
+def test_a_population_is_its_members():
+    rng = np.random.default_rng(1)
+    low, high = high_speed_study(free_laws=True).bounds
+    study = high_speed_study(HighSpeedCam(180 * mm, 90 * mm, 135 * mm), free_laws=True)
+    x = study.x0 + 0.05 * (rng.random((20, len(low))) - 0.5) * (high - low)
+    many = study.evaluate(x)
+    assert np.isfinite(many.f).sum() >= 10  # the others are undercut
+    for i, row in enumerate(x):
+        assert_allclose(study.evaluate(row).f, many.f[i : i + 1], rtol=1e-12)
+        assert_allclose(study.evaluate(row).g, many.g[i : i + 1], rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+def test_members_that_cannot_be_built_are_nan_and_disturb_nobody():
+    l = np.array([[165.0], [420], [-165], [np.nan], [165], [165]]) * mm
+    r = np.array([[30.0], [30], [30], [30], [400], [30]]) * mm
+    swing = np.array([[30.0], [30], [30], [30], [30], [170]]) * deg
+    analysis = HighSpeedCam(l, r, 130 * mm, swing=swing, rise_angle=np.full((6, 1), 90 * deg)).analyse(91)
+    assert np.isfinite(peak_stress(analysis)).tolist() == [True] + [False] * 5
+    assert peak_stress(analysis)[0] == pytest.approx(float(peak_stress(FIRST.analyse(91))), rel=1e-12)
+    for measure in HIGH_SPEED_MEASURES:
+        assert measure(analysis).shape == (6,)
+        assert np.isnan(measure(analysis)[1:]).all(), measure.name
+
+
+@pytest.mark.filterwarnings("error")
+def test_flags():
+    c = np.array([[0.0], [-0.5], [0.5], [0.0]])
+    r = np.array([[30.0], [30], [30], [112]]) * mm
+    analysis = FIRST.replace(roller_radius=r, rise_c0=c).analyse(401)
+    travel = analysis.rise.motion.s / FIRST.swing
+    margin = 1 - r * analysis.along("curvature")
+    assert analysis.flags["the roller undercuts the profile"].tolist() == (margin.min(-1) < 0).tolist()
+    assert analysis.flags["the arm passes its start"].tolist() == (travel.min(-1) < 0).tolist()
+    assert analysis.flags["the arm passes its end"].tolist() == (travel.max(-1) > 1 + 1e-9).tolist()
+    assert [sum(flag[i] for flag in analysis.flags.values()) > 0 for i in range(4)] == [False, True, True, True]
+    assert analysis.is_undercut[3]
+    assert analysis.passes_start.tolist() == [False, True, False, False]
+    assert analysis.passes_end.tolist() == [False, False, True, False]
+    assert np.isinf(analysis.spring_factor).tolist() == analysis.passes_start.tolist()
+    assert not np.isfinite(peak_stress(analysis)[1])
+    assert (least_lead(analysis) < 0).tolist() == (analysis.passes_start | analysis.passes_end).tolist()
+
+
+def test_a_weak_spring_loses_contact():
+    load = InertialSpringLoad(closing=0.0)
+    assert not FIRST.replace(load=load).analyse(401).loses_contact
+    weak = FIRST.replace(load=load, spring_factor=2.0).analyse(401)
+    assert weak.loses_contact
+    assert np.isnan(peak_stress(weak))
+    assert not FIRST.replace(load=TORQUE, spring_factor=2.0).analyse(401).loses_contact
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"arm_length": 0.0}, r"the arm length l .* is 0 mm; it must be a finite number above 0 mm"),
+        ({"roller_radius": -1 * mm}, r"the roller radius r .* is -1 mm"),
+        ({"max_radius": np.inf}, r"the max radius r_k2 .* is inf mm"),
+        ({"swing": np.nan}, r"the swing PS .* is nan deg"),
+        ({"rise_angle": 0.0}, r"the rise angle phi_1 .* is 0 deg; it must be a finite number above 0 deg"),
+        ({"return_angle": 280 * deg}, r"swings over 370 deg of the cam; there are 360 deg"),
+        ({"arm_length": 30 * mm}, r"has to come 160 mm from the cam axis .* reaches 170 to 230 mm"),
+        ({"arm_length": 400 * mm}, r"has to come 160 mm .* an arm of 400 mm at 200 mm reaches 200 to 600 mm"),
+        ({"max_radius": 336 * mm}, r"has to come 366 mm .* reaches 35 to 365 mm"),
+        ({"swing": 60 * deg}, r"the arm ends at 50.9 deg .* swings 60 deg; it must start above 0 deg"),
+        (
+            {"roller_radius": 120 * mm, "max_radius": 30 * mm},
+            r"smallest radius r_k1 of the profile is -\d+.* mm; it must",
+        ),
+        ({"rise_law": "cycloidal"}, r"the rise law is 'cycloidal'; it must be one of"),
+        ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be one of"),
+        ({"rise_c0": "much"}, r"the rise c0 c_0 is 'much'"),
+        ({"rotation": 0}, r"the rotation is 0; it must be \+1 or -1"),
+    ],
+)
+def test_what_cannot_be_built_is_refused_in_a_sentence(change, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        FIRST.replace(**change)
+
+
+def test_a_law_that_swings_the_arm_through_the_line_of_centres_is_refused():
+    with pytest.raises(ValueError, match=r"the arm swings from -\d+.* deg from the line of centres"):
+        FIRST.replace(rise_c0=-3.0).analyse()
+
+
+# ---------------------------------------------------------------- with the rest of the package
+
+
+def test_saved_and_loaded_it_is_the_same_cam():
+    for design in (FIRST.replace(load=ConstantTorque(12), family=SPLINE), FREE, CamLever(rise_law=ModifiedSine())):
+        assert from_json(to_json(design)) == design
+
+
+def test_the_profile_can_be_cut():
+    assert len(profile_csv(FIRST.analyse(91)).splitlines()) == 1 + FIRST.analyse(91).cam_angle.size
+
+
+def test_views_of_cams_show_it():
+    from matplotlib.figure import Figure
+
+    from camkit.plot import cam as views
+
+    for design in (FIRST, CamLever()):
+        analysis = design.analyse(91)
+        for view in (views.cam_mechanism, views.motion, views.pressure_angle, views.cam_torque, views.curvature):
+            ax = Figure().add_subplot()
+            assert view(analysis, ax) is ax
+
+
+# ---------------------------------------------------------------- cam and lever
+
+PRESS = CamLever()
+
+
+def test_first_row_of_table_3_under_the_stand_in_load():
+    """The values with which the stand-in was chosen: 10.109, 10.246, 2094.1, 1950.6."""
+    rise, fall = PRESS.analyse(4001).intervals
+    scale = np.sqrt(cm / mm)
+    given = [s.stress_coefficient.max() * scale for s in (rise, fall)]
+    assert given == pytest.approx([10.109, 10.246], abs=6e-4)
+    assert [s.wear_coefficient.max() * scale for s in (rise, fall)] == pytest.approx([2094.1, 1950.6], abs=0.06)
+
+
+def test_the_lever_moves_the_slider_by_its_stroke():
+    for x in (200 * mm, 250 * mm, 300 * mm):
+        press = PRESS.replace(lever=x)
+        way = press.analyse(91).way
+        assert (way.min(), way.max()) == pytest.approx((0, 18 * mm), abs=1e-15)
+        assert press.cam.centre_distance == pytest.approx(np.hypot(525 * mm - x, 180 * mm))
+
+
+def curve_of(way):
+    return 40 + 5e5 * way**2
+
+
+@pytest.mark.parametrize("force", [(), ((0, 0), (9 * mm, 80), (18 * mm, 20)), curve_of], ids=["none", "table", "curve"])
+def test_the_work_put_into_the_lever_lifts_the_slider_and_swings_it(force):
+    """Energy: the torque's work over part of the rise is weight, force and kinetic energy."""
+    press = PRESS.replace(force_curve=force, shaft_speed=80 * rpm)
+    rise = press.analyse(8001).rise
+    way, psi = press.cam.load.way(rise.motion, press.swing), rise.motion.s
+    half = slice(0, 5000)
+    kinetic = press.lever_mass * press.lever**2 * (press.shaft_speed * rise.velocity[half][-1]) ** 2 / 2
+    lifted_energy = trapezoid(press.weight + press.force(way[half]), way[half])
+    assert trapezoid(rise.resisting_torque[half], psi[half]) == pytest.approx(lifted_energy + kinetic, rel=1e-6)
+
+
+def test_inertia_takes_its_share_of_the_closing_weight():
+    analysis = PRESS.analyse(4001)
+    J = 15 * 0.25**2
+    needed = max((-J * (50 * rpm) ** 2 * s.acceleration).max() for s in analysis.intervals)
+    assert closing_share(analysis) == pytest.approx(needed / (147 * 0.25), rel=1e-12)
+    assert closing_share(analysis) == pytest.approx(0.2565, abs=1e-4)
+
+
+def test_a_population_of_presses_is_its_members():
+    x = np.array([[200.0], [250], [300]]) * mm
+    many = PRESS.replace(lever=x).analyse(91)
+    for i, lever in enumerate(x.ravel()):
+        one = PRESS.replace(lever=lever).analyse(91)
+        for measure in CAM_LEVER_MEASURES:
+            assert np.broadcast_to(measure(many), 3)[i] == pytest.approx(float(measure(one)), rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"lever": 8 * mm}, r"the stroke is 18 mm; a lever of 8 mm gives less than 16 mm"),
+        ({"force_curve": ((0, 1), (0, 2))}, r"the force curve's way must grow"),
+        ({"force_curve": ((0, 1), (0.01, np.nan))}, r"the force curve has an entry that is not a finite number"),
+        ({"max_radius": 700 * mm}, r"has to come 745 mm from the cam axis"),
+        ({"weight": 0.0}, r"the weight G .* is 0 N; it must be a finite number above 0 N"),
+    ],
+)
+def test_a_press_that_cannot_be_built_is_refused_in_a_sentence(change, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        PRESS.replace(**change)
+
+
+# ---------------------------------------------------------------- studies
+
+
+def test_studies_ask_what_the_paper_asks():
+    study = high_speed_study(free_laws=True)
+    assert len(study.free) == 12  # eleven and the closing spring
+    assert len(high_speed_study(free_laws=True, free_spring=False).free) == 11
+    assert len(high_speed_study(HighSpeedCam(load=TORQUE), free_laws=True).free) == 11
+    assert len(cam_lever_study().free) == 12
+    assert study.evaluate(study.x0).feasible.tolist() == [True]
+    assert [p.printed for p in problems()] == [224, 1.71, None, 125, 1.44, 167, 101]
+    assert [p.printed for p in lever_problems()] == [8.77, 8.36, 7.85, 7.44, 7.25]
+
+
+def test_more_limits_can_be_set():
+    from camkit.cam.high_speed_study import gap
+
+    study = high_speed_study(at_least={gap: 60 * mm}, space={"roller_radius": (20 * mm, 60 * mm)})
+    assert list(study.free) == ["roller_radius"]
+    assert study.evaluate([[50 * mm]]).feasible.tolist() == [True]
+    assert lever_stress(PRESS.analyse(91)) == pytest.approx(float(peak_stress(PRESS.analyse(91))))
+    assert Cycloidal() in LAWS
