@@ -381,7 +381,7 @@ def test_a_trade_off_runs_from_the_best_in_one_to_the_best_in_the_other(optima):
 
 def test_free_laws_move_the_whole_front():
     geometry, laws = (both(free_laws=free) for free in (False, True))
-    fixed, free = (study.evaluate([b.x for b in trade_off(study, 3)]).f for study in (geometry, laws))
+    fixed, free = (study.evaluate([b.x for b in trade_off(study, 2)]).f for study in (geometry, laws))
     assert (free[:, None] < fixed[None]).all(-1).any(0).all()  # each design of the one is beaten by one of the other
     assert len(list(zip(range(2), trade_off(geometry, 9), strict=False))) == 2  # it can be left
 
