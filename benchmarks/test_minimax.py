@@ -111,18 +111,23 @@ PROBLEMS = {
     "3 sizes, 8 coefficients": (high_speed_study(free_laws=True), high_speed_study(free_laws=True, free_spring=False)),
 }
 """Each with the closing spring free, for SLSQP, and as weak as may be, for methods without slopes."""
+REACHED = {"3 sizes": 1.70, "3 sizes, 8 coefficients": 1.25}
+"""What the best of ten seeds comes below with any method, N^0.5 mm^-0.5."""
 
 
-@pytest.mark.parametrize("name", PROBLEMS)
-def test_least_contact_stress_by_four_methods(name: str, report: Report) -> None:
+def ten_trials(name: str, method: str) -> list[Trial]:
     with_spring, without = PROBLEMS[name]
-    report(f"least F_sigma, {name}: best / median / worst of 10 seeds", "designs, seconds (median)")
-    medians = {}
-    for method, trial in METHODS.items():
-        trials = [trial(with_spring if "SLSQP" in method else without, seed) for seed in SEEDS]
-        f = sorted(t.f * mm**0.5 for t in trials)
-        medians[method] = statistics.median(f)
-        designs, seconds = (statistics.median(getattr(t, k) for t in trials) for k in ("designs", "seconds"))
-        shown = f"{f[0]:.4f} / {medians[method]:.4f} / {f[-1]:.4f}"
-        report(f"    {method:<18} {shown}", f"{designs:7.0f}  {seconds:6.2f} s")
-    assert min(medians, key=medians.__getitem__) == "SLSQP, epigraph"
+    return [METHODS[method](with_spring if "SLSQP" in method else without, seed) for seed in SEEDS]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_least_contact_stress(name: str, method: str, benchmark: Any, report: Report) -> None:
+    trials = benchmark.pedantic(ten_trials, args=(name, method), rounds=1)
+    f = sorted(t.f * mm**0.5 for t in trials)
+    designs, seconds = (statistics.median(getattr(t, k) for t in trials) for k in ("designs", "seconds"))
+    if method == next(iter(METHODS)):
+        report(f"least F_sigma, {name}: best / median / worst of 10 seeds", "designs  seconds (medians)")
+    shown = f"{f[0]:.4f} / {statistics.median(f):.4f} / {f[-1]:.4f}"
+    report(f"    {method:<18} {shown}", f"{designs:7.0f}  {seconds:6.2f}")
+    assert f[0] < REACHED[name]

@@ -1,4 +1,7 @@
-"""Searches: what NSGA-II spends on evaluating designs and what on itself, and what evaluating in one call saves."""
+"""Searches: what NSGA-II spends on evaluating designs and what on itself, and what evaluating in one call saves.
+
+The parts are measured in seconds of the processor, which neighbours on the machine change less than those of the clock.
+"""
 
 from __future__ import annotations
 
@@ -25,22 +28,23 @@ def test_nsga2_100_designs_1000_generations_on_the_lift_curve(
     evaluate = StudyProblem._evaluate
 
     def timed(self: StudyProblem, *args: Any, **kwargs: Any) -> None:
-        start = time.perf_counter()
+        start = time.process_time()
         evaluate(self, *args, **kwargs)
-        evaluating.append(time.perf_counter() - start)
+        evaluating.append(time.process_time() - start)
 
     monkeypatch.setattr(StudyProblem, "_evaluate", timed)
     study = door_handle_study()
-    start = time.perf_counter()
+    clock, start = time.perf_counter(), time.process_time()
     front = benchmark.pedantic(nsga2, args=(study, 100, 1000, 1), rounds=1)
-    total, own = time.perf_counter() - start, sum(evaluating)
+    took, total, own = time.perf_counter() - clock, time.process_time() - start, sum(evaluating)
     assert len(evaluating) == 1000  # one call for each generation
-    report("NSGA-II, 100 designs x 1000 generations, lift curve: all", f"{total:.1f} s")
+    report("NSGA-II, 100 designs x 1000 generations, lift curve: by the clock", f"{took:.1f} s")
+    report("    by the processor", f"{total:.1f} s")
     report("    of which camkit evaluates designs", f"{own:.1f} s ({100 * own / total:.0f} %)")
     report("    of which pymoo's own", f"{total - own:.1f} s ({100 * (1 - own / total):.0f} %)")
     report("    a generation: evaluation, pymoo", f"{own:.2f} ms, {total - own:.2f} ms")
     report("    designs on the front", f"{len(front)}")
-    benchmark.extra_info.update(total_s=total, evaluation_s=own, pymoo_s=total - own)
+    benchmark.extra_info.update(clock_s=took, total_s=total, evaluation_s=own, pymoo_s=total - own)
 
 
 @pytest.mark.parametrize("whole", [False, True], ids=["lift curve", "whole cam"])
@@ -51,9 +55,9 @@ def test_100_designs_in_one_call_against_one_by_one(benchmark: Any, whole: bool,
     singly: list[float] = []
 
     def timed(times: list[float], evaluate: Callable[[], Any]) -> Any:
-        start = time.perf_counter()
+        start = time.process_time()
         result = evaluate()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
         return result
 
     def one_by_one() -> Any:

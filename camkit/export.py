@@ -282,10 +282,13 @@ def table_csv(columns: Mapping[str, Any]) -> str:
 def profile_csv(analysis: Any) -> str:
     """The profile of a cam as CSV text, a row for each cam angle, units in the heading.
 
+    Of an analysis that covers a part of the cam it takes the ``whole``.
+
     >>> from camkit import DoorHandleCam
     >>> print(profile_csv(DoorHandleCam().analyse(361)).splitlines()[0])
     stretch,cam_angle_deg,pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,outer_profile_x_mm,outer_profile_y_mm
     """
+    analysis = getattr(analysis, "whole", analysis)
     if np.ndim(analysis.cam_angle) > 1 or np.ndim(analysis.pitch) > 2:
         raise ValueError("this is a population; the profile of one design can be written")
     return table_csv(_profile_columns(analysis))

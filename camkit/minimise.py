@@ -122,7 +122,13 @@ def _merit(evaluation: Evaluation) -> tuple[float, float]:
 
 
 def _better(study: Study, *candidates: np.ndarray) -> np.ndarray:
-    return min(candidates, key=lambda x: _merit(study.evaluate(x)))
+    """The best of some designs and the study's start."""
+    return min((_start(study), *candidates), key=lambda x: _merit(study.evaluate(x)))
+
+
+def _start(study: Study) -> np.ndarray:
+    """The free values of the study's start, moved into their bounds."""
+    return np.clip(study.x0, *study.bounds)
 
 
 # ---------------------------------------------------------------- SLSQP
@@ -134,9 +140,9 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
         end, used, _ = _descent(study, x, ROUGH)
         ends.append(end)
         evaluations += used
-    best, used, finished = _tightened(study, judge, _better(judge, study.x0, *ends))
+    best, used, finished = _tightened(study, judge, _better(judge, *ends))
     merits = [_merit(study.evaluate(end)) for end in ends]
-    stopped = "no neighbour of the design is better" if finished else "it could not go on"
+    stopped = "no neighbour of the design is better" if finished else "no step made the design better"
     f = tuple(f if broken <= SAME else np.inf for broken, f in merits)
     return _Found(best, evaluations + used, f, stopped)
 
@@ -170,12 +176,12 @@ def _starts(study: Study, seed: int, starts: int) -> list[np.ndarray]:
 
     Every second crowd is drawn from the whole box, the others from a third of it around the start.
     """
-    first = [study.x0] if np.isfinite(study.evaluate(study.x0).f).all() else []
-    low, high = study.bounds
+    start, (low, high) = _start(study), study.bounds
+    first = [start] if np.isfinite(study.evaluate(start).f).all() else []
     draw = qmc.Sobol(len(study.free), rng=seed)
     for k in range(starts - len(first)):
         crowd = low + draw.random(CROWD) * (high - low)
-        crowd = crowd if k % 2 else np.clip(study.x0 + (crowd - study.x0) / 3, low, high)
+        crowd = crowd if k % 2 else start + (crowd - start) / 3
         evaluation = study.evaluate(crowd)
         broken = np.maximum(evaluation.g, 0).sum(-1)
         first.append(crowd[np.lexsort((evaluation.f[:, 0], broken))[0]])
@@ -203,7 +209,7 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Fo
         told,
         study.bounds.T,
         init=qmc.scale(qmc.Sobol(len(study.free), rng=seed).random(crowd), *study.bounds),
-        x0=np.clip(study.x0, *study.bounds),
+        x0=_start(study),
         maxiter=max(designs // crowd - 1, 1),
         tol=1e-9,
         seed=seed,
@@ -212,7 +218,7 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Fo
         vectorized=True,
     )
     why = "its designs had drawn together" if found.success else "it had looked at as many designs as it may"
-    return _Found(_better(judge, study.x0, found.x), looked, (), why)
+    return _Found(_better(judge, found.x), looked, (), why)
 
 
 def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int, designs: int) -> _Found:
@@ -222,7 +228,7 @@ def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int,
     generations = max(designs // each, 2)
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
     algorithm.run()
-    best = _better(judge, study.x0, *algorithm.opt.get("X"))
+    best = _better(judge, *algorithm.opt.get("X"))
     return _Found(best, int(algorithm.evaluator.n_eval), (), f"its {generations} generations were over")
 
 

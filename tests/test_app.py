@@ -264,7 +264,8 @@ def test_a_loaded_design_moves_every_slider_and_calls_followers_once(app):
     app.load(wanted)
     assert app.design is wanted
     assert seen == [wanted]
-    assert app.controls["lift_arm"].slider.value == pytest.approx(47.123456789)
+    assert app.controls["lift_arm"].value == 47.123456789 * mm
+    assert app.controls["lift_arm"].slider.value == pytest.approx(47.12)  # the step nearest to it
     assert app.controls["motion_law"].menu.value == Poly345()
     app.controls["friction"].slider.value = 0.1
     assert app.design == wanted.replace(friction=0.1)  # what has no slider is kept, and every digit
@@ -769,7 +770,7 @@ def test_two_hundred_moves_leave_nothing_behind():
     assert figures() == before
     assert _pylab_helpers.Gcf.get_all_fig_managers() == []
     assert sum(len(ax.get_children()) for ax in app.picture.axes) == artists
-    assert grown < 100_000
+    assert grown < 1_000_000  # one picture left behind at each move would be 20 MB; coverage itself keeps some
     time.sleep(0.05)
     assert threading.active_count() <= threads + 1
     close(app)

@@ -78,14 +78,17 @@ class Knob:
         self._put(self.slider, shown)
 
     def between(self, low: float, high: float) -> None:
-        """Other ends of the slider (SI); the value is moved between them."""
-        ends = low / self.declared.factor, high / self.declared.factor
+        """Other ends of the slider (SI), to the next step outward; the value is moved between them."""
+        step, factor = self.slider.step, self.declared.factor
+        ends = tuple(
+            round(to(end / factor / step) * step, 9) for to, end in ((math.floor, low + 1e-9), (math.ceil, high - 1e-9))
+        )
         if ends != (self.slider.min, self.slider.max):
             self._silent = True
             with self.slider.hold_sync():
                 with self.slider.hold_trait_notifications():
                     self.slider.min, self.slider.max = ends
-                self.set(min(max(self.value, low), high))
+                self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
 
     def _put(self, widget: Any, shown: float) -> None:
         self._silent = True
@@ -114,6 +117,8 @@ def on_grid(slider: w.FloatSlider, shown: float) -> float:
     The page sends back what it has to correct; while the kernel is busy that comes late, and would undo what was shown
     in the meantime.
     """
+    if not math.isfinite(shown):
+        return float(slider.value)
     low, width = slider.min, slider.max - slider.min or 1.0
     each = 100 * slider.step / width
     percent = math.floor(100 * (max(shown, low) - low) / width / each + 0.5) * each

@@ -409,9 +409,28 @@ class ValveAnalysis:
 
     @cached_property
     def pitch(self) -> np.ndarray:
-        """Path of a roller's centre on the cam, m."""
+        """Path of the roller's centre on the cam, m; ``nan`` under a flat face, which has none."""
         height = self.cam.base_radius + self.cam.roller_radius + self.lift
-        return self.on_cam(np.stack([0 * height, height]))
+        return self.on_cam(np.stack([0 * height, height if self.cam.follower == ROLLER else np.nan * height]))
+
+    @property
+    def outer_profile(self) -> np.ndarray:
+        """``nan``: a valve cam has no groove and so no outer flank."""
+        return np.nan * self.profile
+
+    @property
+    def profile_angle(self) -> np.ndarray:
+        """The cam angle at which the follower touches each point of the profile, rad."""
+        return self.cam_angle
+
+    @cached_property
+    def stretch(self) -> np.ndarray:
+        """Which part of the cam each point belongs to, in words."""
+        from_nose = abs(self.cam_angle - self.cam.half_angle)
+        on_flank, on_ramp = from_nose <= self.cam.half_angle, from_nose <= self.cam.half_angle + self.cam.ramp_angle
+        side = np.where(self.cam_angle <= self.cam.half_angle, "opening ", "closing ")
+        part = np.where(on_flank, "flank", "ramp")
+        return np.where(on_ramp, np.char.add(side, part), "base circle")
 
     @property
     def valve_open(self) -> np.ndarray:
@@ -491,6 +510,11 @@ class ValveAnalysis:
     def rate_needed(self) -> Any:
         """Least spring rate that keeps the follower on the cam up to the speed margin with the given preload, N/m."""
         return self.cam.train.rate_needed(self.cam.flank, self._flank_angle, self.top_speed)
+
+    @property
+    def tables(self) -> dict[str, dict[str, np.ndarray]]:
+        """What a workshop asks for, by its name: columns by heading."""
+        return {"Lift table": self.lift_table}
 
     @cached_property
     def lift_table(self) -> dict[str, np.ndarray]:

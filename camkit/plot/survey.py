@@ -84,8 +84,7 @@ def _middle(curve: np.ndarray) -> Any:
 
 def _missed(ax: Axes, x: Any, y: Any, plane: Any) -> None:
     """A veil over what misses a limit or cannot be built, and its edge."""
-    limits = plane.limits
-    worst = np.where(np.isnan(limits), 1.0, np.clip(limits, -1, 1)).max(axis=0, initial=-1)
+    worst = np.clip(plane.worst, -1, 1)
     area(ax, "missed", region_below(x, y, -worst, 0), facecolor="white", alpha=0.72, edgecolor="none", zorder=2)
     line(ax, "limit", *level_curve(x, y, worst, 0), color=WARNING, linewidth=2.2, zorder=2.5)
 

@@ -20,6 +20,7 @@ from camkit.cam.valve_study import (
     corrected_valve_study,
     fullness,
     in_paper_units,
+    keeping_least_radius,
     least_radius,
     nose_acceleration,
     nose_radius,
@@ -166,6 +167,53 @@ def test_the_whole_cam_is_closed_and_symmetric(follower):
     assert_allclose(np.hypot(*whole.profile)[base], analysis.cam.base_radius - analysis.cam.ramp_height)
     assert_allclose(np.hypot(*whole.profile).max(), 34 * mm)
     assert_allclose(whole.lift[360], 13 * mm)
+
+
+def test_the_event_runs_from_ramp_to_ramp():
+    cam = ValveCam()
+    event = cam.analyse(101).event
+    assert event.cam_angle.shape == (201,)
+    assert_allclose(event.cam_angle[[0, 100, 200]] / deg, (-25, 62, 149))
+    assert_allclose(event.lift[[0, -1]], -cam.ramp_height)
+    assert set(event.stretch) == {"opening ramp", "opening flank", "closing flank", "closing ramp"}
+
+
+def test_every_point_of_the_whole_cam_belongs_to_a_stretch():
+    whole = ValveCam().analyse().whole
+    assert_allclose(whole.turn_range, whole.cam_angle[[0, -1]])
+    for words, lowest, highest_ in (
+        ("opening ramp", -25, 0), ("opening flank", 0, 62), ("closing flank", 62, 124), ("closing ramp", 124, 149),
+    ):  # fmt: skip
+        here = whole.cam_angle[whole.stretch == words] / deg
+        assert lowest - 1e-9 <= here.min() < lowest + 0.51
+        assert highest_ - 0.51 < here.max() <= highest_ + 1e-9
+    assert (whole.lift[whole.stretch == "base circle"] == whole.lift.min()).all()
+
+
+def test_time_derivatives_are_those_of_the_turning_cam():
+    cam, dt = ValveCam(), 1e-7
+    analysis = cam.analyse()
+    before, after = (cam.motion(analysis.cam_angle[50:-50] + x * dt * cam.speed) for x in (-1, 1))
+    moves = analysis.in_time
+    for k in range(3):
+        scale = cam.speed**k
+        difference = (after[k] - before[k]) * scale / (2 * dt)
+        assert_allclose(difference, moves[k + 1][50:-50], atol=1e-5 * abs(moves[k + 1]).max())
+
+
+def test_the_spring_that_is_needed_is_what_the_follower_force_lacks():
+    event = ValveCam().analyse().event
+    for speed in (event.cam.speed, event.top_speed):
+        open_ = event.valve_open
+        assert_allclose((event.spring_force - event.needed_at(speed))[open_], event.force_at(speed)[open_], atol=1e-9)
+        assert (event.needed_at(speed)[~open_] == 0).all()
+
+
+def test_the_base_circle_that_keeps_the_limit_everywhere():
+    for n, m in DESIGNS:
+        cam = keeping_least_radius(ValveCam(n=n, m=m))
+        assert_allclose(cam.analyse(100_001).flat_radius.min(), PAPER_LEAST_RADIUS, rtol=1e-6)
+    assert_allclose(keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm, 24.341, atol=5e-4)
 
 
 def test_lift_table():
@@ -474,6 +522,14 @@ def test_the_front_of_fullness_against_acceleration():
     exact = study.evaluate([[20, 20], [6, 19.4]])
     assert_allclose(-exact.f[:, 0], (0.638393, 0.600000), atol=1e-6)
     assert_allclose(exact.f[:, 1], (13895, 5887), atol=0.5)
+
+
+def test_a_front_may_be_limited_anywhere_and_have_other_bounds():
+    study = valve_front_study(ValveCam(base_radius=24.5 * mm), least_radius, {"n": (10, 20), "m": (5, 20)})
+    assert_allclose(study.bounds, [[10, 5], [20, 20]])
+    ((measure, limit, sense),) = study.limits
+    assert (measure, limit, sense) == (least_radius, PAPER_LEAST_RADIUS, -1)
+    assert study.evaluate([[12, 6], [12, 8]]).feasible.tolist() == [False, True]
 
 
 # --- what cannot be built, and populations ----------------------------------------------------------------------------
