@@ -1,5 +1,6 @@
 """The survey of a study over two quantities: its picture against the study, its panel against the package."""
 
+import itertools
 from dataclasses import dataclass
 from functools import partial
 
@@ -52,7 +53,7 @@ def test_each_shade_covers_the_same_area_and_darker_is_better():
     f = plane.study.evaluate(x).f[:, 0]
     inside = np.array([Path(band.get_xy()).contains_points(x) for band in bands])
     assert_allclose(inside.mean(1), np.arange(1, BANDS + 1) / BANDS, atol=0.03)
-    for lower, upper in zip(inside[:-1], inside[1:], strict=True):
+    for lower, upper in itertools.pairwise(inside):
         assert f[lower].max() < f[upper & ~lower].max() + 1e-3
 
 
