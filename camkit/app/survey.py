@@ -9,6 +9,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..minimise import minimise
 from ..plane import Plane
 from ..plot.survey import ShownPlane, objective_plane
 from ..quantities import Measure, Quantity, words
@@ -20,6 +21,28 @@ from .panel import Panel
 from .picture import SETTLE, LivePicture
 
 MakeStudy = Callable[..., Study]
+
+
+VALLEYS, APART = 4, 0.3
+"""From how many designs the optimum is looked for, and how far apart they are, as a share of the bounds' width."""
+
+
+def optimum(plane: Plane) -> np.ndarray | None:
+    """Free values of the best design that keeps every limit, or ``None``.
+
+    SLSQP from the grid's best design and from others that are good and lie elsewhere: there may be several valleys.
+    """
+    study, (low, high) = plane.study, plane.study.bounds
+    found = plane.evaluation
+    starts: list[np.ndarray] = []
+    for x in found.x[np.lexsort((found.f[:, 0], np.maximum(found.g, 0).sum(-1)))]:
+        if all((abs(x - other) > APART * (high - low)).any() for other in starts):
+            starts.append(x)
+        if len(starts) == VALLEYS:
+            break
+    ends = [minimise(study.replace(start=study.design(x))) for x in starts]
+    best = min((end for end in ends if end.feasible), key=lambda end: end.f, default=None)
+    return best.x if best else None
 
 
 class Survey(Panel):
@@ -124,9 +147,9 @@ class Survey(Panel):
         self._take_up()
         plane = self.plane
         if not self._searched:
-            best = plane.best
+            best = optimum(plane)
             if plane is self.plane:  # nobody has moved anything since
-                self.optimum, self._searched = best if np.isfinite(best).all() else None, True
+                self.optimum, self._searched = best, True
                 self._show()
 
     def _show(self) -> None:
