@@ -2,6 +2,9 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# The small matrices of these searches are slower on two threads than on one.
+export OPENBLAS_NUM_THREADS := 1
+
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
 # JupyterLab refuses to run as root unless told so.

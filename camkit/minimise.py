@@ -180,12 +180,18 @@ def _starts(study: Study, seed: int, starts: int) -> list[np.ndarray]:
     first = [start] if np.isfinite(study.evaluate(start).f).all() else []
     draw = qmc.Sobol(len(study.free), rng=seed)
     for k in range(starts - len(first)):
-        crowd = low + draw.random(CROWD) * (high - low)
-        crowd = crowd if k % 2 else start + (crowd - start) / 3
-        evaluation = study.evaluate(crowd)
-        broken = np.maximum(evaluation.g, 0).sum(-1)
-        first.append(crowd[np.lexsort((evaluation.f[:, 0], broken))[0]])
+        wide = low + draw.random(CROWD) * (high - low)
+        near = start + (wide - start) / 3
+        first.append(_best_of(study, wide, near) if k % 2 or not first else _best_of(study, near, wide))
     return first
+
+
+def _best_of(study: Study, crowd: np.ndarray, instead: np.ndarray) -> np.ndarray:
+    """The best design of a crowd, or of another if none in it has an objective."""
+    evaluation = study.evaluate(crowd)
+    f, broken = evaluation.f[:, 0], np.maximum(evaluation.g, 0).sum(-1)
+    best = np.lexsort((f, broken, np.isinf(f)))[0]
+    return crowd[best] if np.isfinite(f[best]) or crowd is instead else _best_of(study, instead, instead)
 
 
 # ---------------------------------------------------------------- methods without slopes
