@@ -63,7 +63,17 @@ interact(redraw, lift_arm=FloatSlider(50, min=40, max=62, step=0.01));""",
     """
 import gc
 import psutil
+import time
 from matplotlib.figure import Figure
+
+def work(move):
+    start = time.thread_time()
+    for i in range(20):
+        move(50 + 0.01 * i)
+    return 1000 * (time.thread_time() - start) / 20
+
+def drag(value):
+    app.controls["lift_arm"].slider.value = value
 
 def held():
     gc.collect()
@@ -198,6 +208,25 @@ def test_a_key_press_shows_five_times_sooner_than_with_interact(
 
 def _range(values: list[float]) -> str:
     return f"{min(values):.0f} .. {max(values):.0f}"
+
+
+def test_processor_time_of_a_move_in_the_kernel(
+    benchmark: Any, contenders: tuple[Contender, Contender], report: Callable[[str, str], None]
+) -> None:
+    # By the processor's clock, which a busy machine does not lengthen: the browser's share is not in it.
+    live, redrawn = contenders
+    ours: list[float] = []
+    theirs: list[float] = []
+    benchmark.pedantic(
+        lambda: ours.append(kernel_value(live.page, "work(drag)")),
+        setup=lambda: theirs.append(kernel_value(redrawn.page, "work(redraw)", timeout=120)),
+        rounds=3,
+    )
+    us, them = statistics.median(ours), statistics.median(theirs)
+    report("kernel's processor time for a move, explore", f"{us:.1f} ms")
+    report("kernel's processor time for a move, interact", f"{them:.1f} ms")
+    report("ratio", f"{them / us:.1f}")
+    benchmark.extra_info.update(explore_cpu_ms=us, interact_cpu_ms=them)
 
 
 def test_pictures_a_second_in_a_drag(

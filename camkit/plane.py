@@ -95,7 +95,8 @@ class Plane:
     def best(self) -> np.ndarray:
         """The free values of the best design within the study's bounds, ``(2,)`` SI; ``nan`` if none keeps every limit.
 
-        SLSQP, started from the best design of a coarse grid over the bounds.
+        SLSQP, started from the best design of a coarse grid over the bounds; what ends within rounding of a bound
+        lies on it.
         """
         coarse = np.stack(np.meshgrid(*np.linspace([0, 0], [1, 1], 21, axis=1)), axis=-1).reshape(-1, 2)
         start = coarse[self._first(self._at(coarse))]
@@ -108,7 +109,7 @@ class Plane:
             constraints={"type": "ineq", "fun": lambda u: -self._at(u).g[0], "jac": lambda u: -self._slopes(u)[1]},
             method="SLSQP",
             options={"ftol": 1e-12},
-        ).x if np.isfinite(size) else start  # fmt: skip
+        ).x.round(12) if np.isfinite(size) else start  # fmt: skip
         both = self._at(np.array([start, found]))
         chosen = self._first(both)
         kept = np.isfinite(both.f[chosen, 0]) and (both.g[chosen] <= KEPT).all()

@@ -11,9 +11,10 @@ from matplotlib.path import Path
 from numpy.testing import assert_allclose
 
 from camkit import Measure, Study, explore, try_everything
-from camkit.app.survey import survey
+from camkit.app.survey import optimum, survey
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_study import corrected_valve_study, valve_study
+from camkit.minimise import minimise
 from camkit.plane import Plane
 from camkit.plot.artists import _find, moving
 from camkit.plot.picture import draw, layout
@@ -142,6 +143,21 @@ def test_without_a_limit_nothing_is_veiled():
     assert legend(ax) == ["optimum"]
 
 
+@pytest.mark.parametrize("w", [0.4, 0.55, 0.557, 0.558, 0.6])
+def test_the_optimum_is_the_lower_of_two_valleys(w):
+    study = valve_study(weights=(w, 1 - w), printed_sign=True)
+    assert_allclose(optimum(Plane(study, n=21)), (4.827593 if w < 0.5577 else 20, 20), atol=1e-5)
+    assert_allclose(optimum(Plane(study, n=21)), minimise(study, "de").x, atol=1e-3)
+
+
+def test_an_optimum_inside_the_plane_and_one_that_is_not_there():
+    study = corrected_valve_study(WIDE, (0.9, 0.1))
+    x = optimum(Plane(study, n=21))
+    near = study.evaluate(x + 0.05 * np.array([(1, 0), (-1, 0), (0, 1), (0, -1), (0, 0)])).f[:, 0]
+    assert near.argmin() == 4
+    assert optimum(Plane(corrected_valve_study(), n=21)) is None
+
+
 # --- the panel --------------------------------------------------------------------------------------------------------
 
 PROBLEMS = {
@@ -228,6 +244,7 @@ def test_the_design_in_the_sliders_counts(panel):
     panel.explorer.controls["base_radius"].box.value = 24.5
     settled(panel)
     assert_allclose(panel.optimum, Plane(corrected_valve_study(WIDE), n=21).best, rtol=1e-6)
+    assert_allclose(panel.optimum, (4.0305, 20), atol=1e-4)
     assert "least radius anywhere (flat follower): 4.5 mm" in panel.summary()
 
 
@@ -252,7 +269,7 @@ def test_a_design_outside_the_bounds_is_surveyed_too(panel):
 
 def test_the_optimum_and_a_clicked_point_are_loaded(panel):
     press(panel, "Load the optimum")
-    assert panel.explorer.design == ValveCam(n=20, m=20)
+    assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (20, 20), rtol=1e-12)
     width, height = panel.picture.figure.canvas.get_width_height()
     x, y = panel.picture.axes[0].transData.transform((8.0, 12.0))
     panel._clicked(x / width, 1 - y / height)

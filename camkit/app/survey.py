@@ -9,7 +9,6 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..minimise import minimise
 from ..plane import Plane
 from ..plot.survey import ShownPlane, objective_plane
 from ..quantities import Measure, Quantity, words
@@ -23,26 +22,24 @@ from .picture import SETTLE, LivePicture
 MakeStudy = Callable[..., Study]
 
 
-VALLEYS, APART = 4, 0.3
-"""From how many designs the optimum is looked for, and how far apart they are, as a share of the bounds' width."""
-
-
 def optimum(plane: Plane) -> np.ndarray | None:
     """Free values of the best design that keeps every limit, or ``None``.
 
-    SLSQP from the grid's best design and from others that are good and lie elsewhere: there may be several valleys.
+    The best of the plane and of its four quarters: the objective may have several valleys.
     """
-    study, (low, high) = plane.study, plane.study.bounds
-    found = plane.evaluation
-    starts: list[np.ndarray] = []
-    for x in found.x[np.lexsort((found.f[:, 0], np.maximum(found.g, 0).sum(-1)))]:
-        if all((abs(x - other) > APART * (high - low)).any() for other in starts):
-            starts.append(x)
-        if len(starts) == VALLEYS:
-            break
-    ends = [minimise(study.replace(start=study.design(x))) for x in starts]
-    best = min((end for end in ends if end.feasible), key=lambda end: end.f, default=None)
-    return best.x if best else None
+    quarters = _quarters(plane.study) if plane.evaluation.feasible.any() else []
+    ends = [plane.best, *(Plane(quarter).best for quarter in quarters)]
+    kept = np.array([end for end in ends if np.isfinite(end).all()])
+    return kept[np.argmin(plane.study.evaluate(kept).f[:, 0])] if len(kept) else None
+
+
+def _quarters(study: Study) -> list[Study]:
+    """The study in each quarter of its bounds."""
+    low, high = study.bounds
+    middle = (low + high) / 2
+    corners = [(x, y) for x in (low, middle) for y in (low, middle)]
+    boxes = [np.array([[x[0], y[1]], [x[0], y[1]] + (high - low) / 2]) for x, y in corners]
+    return [study.replace(free=dict(zip(study.free, box.T, strict=True)), start=study.design(box[0])) for box in boxes]
 
 
 class Survey(Panel):

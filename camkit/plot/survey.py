@@ -42,7 +42,7 @@ def objective_plane(shown: ShownPlane, ax: Axes) -> Axes:
     x, y = plane.axes / units
     if new(ax):
         frame(ax, "", *(_label(n, q) for n, q in zip(plane.study.free, plane.declared, strict=True)))
-        ax.set(xlim=x[[0, -1]], ylim=y[[0, -1]])
+        ax.set(xlim=_ends(x), ylim=_ends(y))
         ax.grid(visible=False)
     measure = plane.study.minimise[0]
     ax.set_title(measure.label[:1].upper() + measure.label[1:], pad=13)
@@ -52,6 +52,11 @@ def objective_plane(shown: ShownPlane, ax: Axes) -> Axes:
     _mark(ax, "optimum", shown.best, units, marker="*", markersize=20, markeredgecolor=WARNING)
     _legend(ax, shown)
     return ax
+
+
+def _ends(values: np.ndarray) -> np.ndarray:
+    """First and last value, and room for a mark on the edge."""
+    return values[[0, -1]] + 0.025 * np.ptp(values) * np.array([-1, 1])
 
 
 def _label(name: str, declared: Any) -> str:

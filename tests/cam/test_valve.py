@@ -617,6 +617,10 @@ def test_a_population_is_its_members(follower):
         for measure in VALVE_MEASURES:
             assert_allclose(measure(analysis)[i], measure(one), rtol=1e-9)
         assert_allclose(analysis.whole.profile[:, i], one.whole.profile, atol=1e-12)
+        assert_allclose(analysis.event.lift[i], one.event.lift, atol=1e-12)
+        assert_allclose(analysis.in_time.a[i], one.in_time.a, rtol=1e-9, atol=1e-6)
+        assert_allclose(analysis.needed_at(100.0)[i], one.needed_at(100.0), rtol=1e-9, atol=1e-9)
+        assert (analysis.whole.stretch[i] == one.whole.stretch).all()
         assert_allclose(sprung.spring_rate[i, 0], cam.with_spring().spring_rate)
         assert_allclose(sprung.spring_preload[i, 0], cam.with_spring().spring_preload)
 

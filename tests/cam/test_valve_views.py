@@ -63,7 +63,7 @@ def test_drawing_again_moves_what_was_drawn():
     for cam in (*OTHERS, first):
         draw(cam.analyse(), axes, VALVE_VIEWS, turn=0.4)
         assert [set(moving(ax)) for ax in axes] == artists
-        axes[0].figure.canvas.draw()
+    axes[0].figure.canvas.draw()
     for again, new in zip(axes, drawn(first, *VALVE_VIEWS, turn=0.4), strict=True):
         before, after = data_of(new), data_of(again)
         assert before.keys() == after.keys()
