@@ -30,7 +30,7 @@ LIMITS = {steepest: (50 * deg, 1)} | {m: (v, s) for m, v, s in STUDY.limits}
 def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
     """The notebook opened and run once for all tests of this file."""
     page = context.new_page()
-    open_notebook(page, "09_spatial_linkage.ipynb")
+    open_notebook(page, "10_spatial_linkage.ipynb")
     run_all(page)
     yield page
     page.close()

@@ -51,7 +51,7 @@ class Workbook:
 @pytest.fixture(scope="module")
 def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
-    open_notebook(page, "11_universal_joint_shaft.ipynb")
+    open_notebook(page, "12_universal_joint_shaft.ipynb")
     run_all(page)
     panels = page.locator(".camkit-panel")
     # a panel inside a panel: the outer one, with the buttons, comes first

@@ -54,7 +54,7 @@ class Workbook:
 @pytest.fixture(scope="module")
 def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
-    open_notebook(page, "07_valve_cam.ipynb")
+    open_notebook(page, "08_valve_cam.ipynb")
     run_all(page)
     panels = page.locator(".camkit-panel")
     # a panel inside a panel: the outer one, with the buttons, comes first
