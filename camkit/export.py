@@ -23,6 +23,8 @@ from .study import Study, WeightedSum, weighted
 from .units import in_unit
 
 SCHEMA = "camkit/1"
+SETTINGS: dict[str, type] = {"population": int, "generations": int, "seed": int, "mode": str, "rule": str}
+"""What a search is set to: counts, and the entries of its menus."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +34,13 @@ class Work:
     study: Study
     design: Any
     judgements: Mapping[str, Any] = field(default_factory=dict)
-    """Upper triangles of judgement matrices by name."""
+    """Upper triangles of judgement matrices by name; ``None`` for a judgement that was not made."""
     search: Mapping[str, Any] = field(default_factory=dict)
-    """Population, generations, seed and mode (the menu's entry) of the search that found ``x``."""
+    """Population, generations, seed, mode and rule (entries of menus) of the search that found ``x``."""
     x: Any = ()
     """Free values of the front's designs, ``(p, n_free)``, SI."""
+    record: Mapping[str, Any] = field(default_factory=dict)
+    """How the front was found: population, generations, seed, seconds, versions; empty if nobody wrote it down."""
 
 
 def save(thing: Any, path: str | Path) -> None:
@@ -190,6 +194,7 @@ def _work_out(work: Work) -> dict[str, Any]:
         "judgements": {name: _out(matrix) for name, matrix in work.judgements.items()},
         "search": dict(work.search),
         "front": in_units,
+        "record": dict(work.record),
     }
 
 
@@ -216,14 +221,32 @@ def _work_in(entry: Mapping[str, Any]) -> Work:
     if not isinstance(_in(entry["design"]), type(start)):
         raise ValueError("the file is damaged: its design is of another kind than its start")
     for name, v in dict(entry["search"]).items():
-        if name not in ("population", "generations", "seed", "mode") or (name != "mode" and not isinstance(v, int)):
+        if not isinstance(v, SETTINGS.get(name, ())) or isinstance(v, bool):
             raise ValueError(f"the file says {v!r} for {name!r}, which is no setting of a search")
     for matrix in entry["judgements"].values():
         judgement_matrix(_in(matrix))
     x = np.array(rows, dtype=float).reshape(-1, len(free)) * [declared[n].factor for n in free]
     if not np.isfinite(x).all():
         raise ValueError("the file is damaged: its front has a value that is not a finite number")
-    return Work(study, _in(entry["design"]), _matrices(entry["judgements"]), dict(entry["search"]), x)
+    record = _record_in(entry.get("record", {}))  # files of camkit 0.1 have none
+    return Work(study, _in(entry["design"]), _matrices(entry["judgements"]), dict(entry["search"]), x, record)
+
+
+def _record_in(entry: Any) -> dict[str, Any]:
+    kinds: dict[str, Any] = {
+        "population": int,
+        "generations": int,
+        "seed": int,
+        "seconds": (int, float),
+        "versions": dict,
+    }
+    if entry and not (
+        entry.keys() == kinds.keys()
+        and all(isinstance(entry[name], kind) and not isinstance(entry[name], bool) for name, kind in kinds.items())
+        and all(isinstance(version, str) for version in entry["versions"].values())
+    ):
+        raise ValueError("the file is damaged: its record of the search is not as camkit writes it")
+    return dict(entry)
 
 
 def _whole(value: Any) -> int:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pymoo.algorithms.moo.nsga2 import NSGA2
+from pymoo.core.population import Population
 from pymoo.core.problem import Problem
+from pymoo.core.repair import Repair
 from pymoo.indicators.hv import HV
 from scipy.stats import qmc
 
+from .checkpoint import ALGORITHM, Checkpoint, fingerprint, taken_up, versions
 from .study import Evaluation, Study
 
 WORST = 1e12
@@ -39,18 +44,33 @@ class StudyProblem(Problem):
         out["G"] = np.minimum(evaluation.g, WORST)
 
 
+class OnGrid(Repair):
+    """Moves free values to the nearest millionth (``2^-20``) of the width between their bounds.
+
+    Processors differ in the last bits of a power.  A search doubles such differences from generation to generation;
+    on a grid they never arise, and a seed gives the same front everywhere.
+    """
+
+    def _do(self, problem: Problem, x: np.ndarray, **kwargs: Any) -> np.ndarray:
+        low, high = problem.xl, problem.xu
+        shares = np.round((x - low) / (high - low) * 2**20) / 2**20
+        return np.clip(low + shares * (high - low), low, high)
+
+
 @dataclass(frozen=True)
 class Front:
     """Designs of which none is better than another in every objective, in order of the first objective.
 
     ``len(front)``, ``front[i]`` is a design again, ``front.x`` and ``front.f`` are ``(p, n)`` arrays in SI.
-    An empty front says in ``message`` what stood in the way.
+    An empty front says in ``message`` what stood in the way.  ``record`` says how a search found it: population,
+    generations, seed, seconds and versions.
     """
 
     study: Study
     x: np.ndarray
     f: np.ndarray
     message: str = ""
+    record: Mapping[str, Any] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.x)
@@ -66,8 +86,8 @@ class Front:
     def judged_by(self, study: Study) -> Front:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
         if not len(self):
-            return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message)
-        return front_of(study.evaluate(self.x), study)
+            return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message, self.record)
+        return replace(front_of(study.evaluate(self.x), study), record=self.record)
 
 
 def front_of(evaluation: Evaluation, study: Study) -> Front:
@@ -120,11 +140,12 @@ class Generation:
     of: int
     evaluation: Evaluation
     study: Study
+    record: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
     def front(self) -> Front:
         """The front so far."""
-        return front_of(self.evaluation, self.study)
+        return replace(front_of(self.evaluation, self.study), record=self.record)
 
     @property
     def feasible(self) -> int:
@@ -132,27 +153,80 @@ class Generation:
         return int(self.evaluation.feasible.sum())
 
 
-def nsga2_generations(study: Study, population: int, generations: int, seed: int) -> Iterator[Generation]:
-    """NSGA-II one generation at a time; leave the loop to stop, the last front stays."""
-    for name, value, least in (("population", population, 4), ("generations", generations, 1), ("seed", seed, 0)):
+def nsga2_generations(
+    study: Study, population: int, generations: int, seed: int, checkpoint: str | Path | None = None
+) -> Iterator[Generation]:
+    """NSGA-II one generation at a time; leave the loop to stop, the last front stays.
+
+    With the file ``checkpoint`` each generation is written there before it is given.  If the file is there already,
+    the search goes on from it, first giving the generation that it holds; see `nsga2`.
+    """
+    for name, value, least in (
+        ("population is", population, 4),
+        ("number of generations is", generations, 1),
+        ("seed is", seed, 0),
+    ):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise ValueError(f"the {name} is {value!r}; it must be a whole number of at least {least}")
-    algorithm = NSGA2(pop_size=population, eliminate_duplicates=False)
+            raise ValueError(f"the {name} {value!r}; it must be a whole number of at least {least}")
+    algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, repair=OnGrid())
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
-    number = 0
+    record: dict[str, Any] = {"population": int(population), "seed": int(seed), "versions": versions()}
+    about = {"study": fingerprint(study), "algorithm": ALGORITHM, **record} if checkpoint else {}
+    number, began = 0, time.monotonic()
+
+    def generation() -> Generation:
+        x, f, g = algorithm.pop.get("X", "F", "G")
+        told = {**record, "generations": number, "seconds": time.monotonic() - began}
+        return Generation(number, generations, Evaluation(x, np.where(f < WORST, f, np.inf), g), study, told)
+
+    if checkpoint and Path(checkpoint).exists():
+        found = taken_up(checkpoint, study, population, generations, seed)
+        _go_on(algorithm, found)
+        number, began = found.number, began - found.seconds
+        yield generation()
     while algorithm.has_next():
         algorithm.next()
         number += 1
-        x, f, g = algorithm.pop.get("X", "F", "G")
-        yield Generation(number, generations, Evaluation(x, np.where(f < WORST, f, np.inf), g), study)
+        if checkpoint:
+            seconds = time.monotonic() - began
+            Checkpoint(number=number, seconds=seconds, **about, **_state(algorithm)).write(checkpoint)
+        yield generation()
 
 
-def nsga2(study: Study, population: int = 100, generations: int = 200, seed: int = 1) -> Front:
+def _state(algorithm: NSGA2) -> dict[str, Any]:
+    """All that the next generation depends on."""
+    x, f, g, rank, crowding = algorithm.pop.get("X", "F", "G", "rank", "crowding")
+    ranks = {"rank": rank.astype(float), "crowding": crowding.astype(float)}  # None becomes nan
+    return {"random": algorithm.random_state.bit_generator.state, "x": x, "f": f, "g": g, **ranks}
+
+
+def _go_on(algorithm: NSGA2, found: Checkpoint) -> None:
+    """Put the algorithm where it stood."""
+    algorithm._initialize()
+    algorithm.pop = Population.new(X=found.x, F=found.f, G=found.g)
+    algorithm.pop.set("rank", found.rank, "crowding", found.crowding)
+    algorithm.random_state.bit_generator.state = found.random
+    algorithm.is_initialized, algorithm.n_iter = True, found.number
+    algorithm._post_advance()
+
+
+def nsga2(
+    study: Study,
+    population: int = 100,
+    generations: int = 200,
+    seed: int = 1,
+    checkpoint: str | Path | None = None,
+) -> Front:
     """The Pareto front of ``study`` by NSGA-II (Deb et al. 2002), through pymoo.
 
     A generation is one batched evaluation.  The result is repeatable for a seed; a front without a design says
-    in ``message`` which limit stood in the way.  Raises ``ValueError`` for a population below 4, or generations
-    or a seed that are no whole numbers.
+    in ``message`` which limit stood in the way.
+
+    ``checkpoint`` names a file that is written after each generation.  The same call goes on from it when the process
+    was killed, without losing a generation, and ends with the same front to the last bit.
+
+    Raises ``ValueError`` for a population below 4, or generations or a seed that are no whole numbers; for a
+    checkpoint that is damaged, or of another study, population, seed or version, and for one of more generations.
     """
-    *_, last = nsga2_generations(study, population, generations, seed)
+    *_, last = nsga2_generations(study, population, generations, seed, checkpoint)
     return last.front

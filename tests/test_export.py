@@ -324,3 +324,29 @@ def test_a_bad_file_of_another_kind_is_named():
         from_json(GOOD, Work)
     with pytest.raises(ValueError, match=r"^the file holds a Work; a DoorHandleCam is wanted here$"):
         from_json(to_json(Work(door_handle_study(), DoorHandleCam())), DoorHandleCam)
+
+
+def test_a_judgement_that_was_not_made_and_the_record_come_back(work):
+    record = {"population": 40, "generations": 30, "seed": 5, "seconds": 1.5, "versions": {"numpy": "2.4.6"}}
+    kept = replace(work, judgements={"criteria": [5.0, None, 1.0]}, record=record)
+    again = from_json(to_json(kept))
+    assert again.judgements == {"criteria": (5.0, None, 1.0)}
+    assert again.record == record
+
+
+def test_a_study_of_an_older_camkit_has_no_record(work):
+    content = json.loads(to_json(work))
+    del content["work"]["record"]
+    assert from_json(json.dumps(content)).record == {}
+
+
+@pytest.mark.parametrize(
+    "record",
+    [[1], "seed", {"seed": 1}, *({"population": 4, "generations": 3, "seed": 5, "seconds": 1.5, "versions": {}} | wrong
+     for wrong in ({"seed": "1"}, {"seed": True}, {"seconds": None}, {"versions": {"numpy": 2}}, {"more": 1}))],
+)  # fmt: skip
+def test_a_record_that_is_garbled_is_refused(work, record):
+    content = json.loads(to_json(work))
+    content["work"]["record"] = record
+    with pytest.raises(ValueError, match="the file is damaged: "):
+        from_json(json.dumps(content))

@@ -1,6 +1,13 @@
 """The search against problems whose fronts are known, against brute force and against chance."""
 
-from dataclasses import dataclass
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -11,6 +18,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import DoorHandleCam, Measure, Study, door_handle_study, nsga2
 from camkit.cam.door_handle import EXPANDED_SPACE
+from camkit.checkpoint import Checkpoint, fingerprint, read, versions
+from camkit.motion import Poly345
 from camkit.optimise import Front, dominated, front_of, nsga2_generations, reference_point
 from camkit.quantities import Design, quantity
 from camkit.units import mm
@@ -239,3 +248,171 @@ def test_the_papers_problem_has_a_front_of_smaller_arms(lift):
     """Objective values of the start are (1, -33.588 mm); the front does better in effort at no less radius."""
     better = lift.f[lift.f[:, 1] <= -33.588 * mm]
     assert better[:, 0].min() < 0.95
+
+
+# ---------------------------------------------------------------- a search that was killed goes on
+
+
+def every_number(generation):
+    return [generation.number, *(getattr(generation.evaluation, k).tolist() for k in "xfg")]
+
+
+@pytest.mark.parametrize(
+    "study",
+    [two_places(), two_places(at_least={right: 1.0}), door_handle_study(), door_handle_study(whole=True)],
+    ids=["no limits", "a limit", "lift", "whole cam: hardly anything feasible"],
+)
+@pytest.mark.parametrize("stop", [1, 2, 7])
+def test_a_search_goes_on_as_if_it_had_never_stopped(study, stop, tmp_path):
+    """Bit by bit, wherever it was stopped, and without evaluating anything twice."""
+    path = tmp_path / "search.npz"
+    whole = [every_number(g) for g in nsga2_generations(study, 24, 12, 5)]
+    before = [every_number(g) for g in islice(nsga2_generations(study, 24, 12, 5, path), stop)]
+    after = [every_number(g) for g in nsga2_generations(study, 24, 12, 5, path)]
+    assert before == whole[:stop]
+    assert after == whole[stop - 1 :]
+    assert [every_number(g) for g in nsga2_generations(study, 24, 12, 5, path)] == whole[-1:]
+    assert os.listdir(tmp_path) == ["search.npz"]
+
+
+def test_a_search_goes_on_with_more_generations(tmp_path):
+    study, path = door_handle_study(), tmp_path / "search.npz"
+    nsga2(study, 20, 5, 1, path)
+    assert_array_equal(nsga2(study, 20, 9, 1, path).f, nsga2(study, 20, 9, 1).f)
+
+
+KILLED = """
+import sys
+from camkit import door_handle_study
+from camkit.optimise import nsga2_generations
+for generation in nsga2_generations(door_handle_study(), 40, 10_000, 3, sys.argv[1]):
+    print(generation.number, flush=True)
+"""
+
+
+def test_a_killed_process_loses_no_generation(tmp_path):
+    path = tmp_path / "search.npz"
+    process = subprocess.Popen([sys.executable, "-c", KILLED, path], stdout=subprocess.PIPE, text=True)
+    told = list(islice(process.stdout, 12))
+    time.sleep(0.05)
+    process.send_signal(signal.SIGKILL)
+    told += process.stdout.readlines()
+    assert process.wait() == -signal.SIGKILL
+    last = int([line for line in told if line.endswith("\n")][-1])
+    kept = read(path)
+    assert last <= kept.number <= last + 1  # written before it is told
+    front = nsga2(door_handle_study(), 40, kept.number + 10, 3, path)
+    again = nsga2(door_handle_study(), 40, kept.number + 10, 3)
+    assert_array_equal(front.x, again.x)
+    assert_array_equal(front.f, again.f)
+    assert front.record["seconds"] > kept.seconds
+
+
+def test_no_generations_are_refused():
+    with pytest.raises(ValueError, match=r"^the number of generations is 0; it must be a whole number of at least 1$"):
+        nsga2(two_places(), 8, 0)
+
+
+def test_a_front_says_how_it_was_found(tmp_path):
+    front = nsga2(two_places(), 20, 5, 7, tmp_path / "search.npz")
+    told = dict(front.record)
+    assert 0 < told.pop("seconds") < 60
+    assert told == {"population": 20, "generations": 5, "seed": 7, "versions": versions()}
+    assert list(told["versions"]) == ["python", "camkit", "numpy", "scipy", "pymoo"]
+    assert told["versions"]["numpy"] == np.__version__
+    assert front.judged_by(two_places(at_least={right: 1.0})).record == front.record
+
+
+def test_a_study_is_recognised_by_what_it_says():
+    study = door_handle_study()
+    same = study.replace(start=study.start.replace(lift_arm=0.051))  # lift_arm is free
+    assert fingerprint(study) == fingerprint(same)
+    others = [
+        study.replace(start=study.start.replace(motion_law=Poly345())),
+        study.replace(angles=181),
+        study.weighing((0.5, 0.25, 0.25)),
+        study.replace(at_most={}),
+        study.replace(free={**study.free, "lift_arm": (0.045, np.nextafter(0.055, 1))}),
+    ]
+    assert len({fingerprint(s) for s in (study, *others)}) == 6
+
+
+@pytest.fixture
+def kept(tmp_path):
+    path = tmp_path / "lift.npz"
+    nsga2(two_places(), 8, 3, 1, path)
+    return path
+
+
+def changed(path, **entries):
+    replace(read(path), **entries).write(path)
+
+
+def as_it_is(path):
+    pass
+
+
+DAMAGED = {}, "is damaged; delete it to begin anew"
+REFUSED = {
+    "another study": (as_it_is, {"study": two_places(at_least={right: 1.0})},
+        "is of another study; name another file, or delete it to begin anew"),
+    "another seed": (as_it_is, {"seed": 2}, "has the seed 1; here it is 2"),
+    "another population": (as_it_is, {"population": 9}, "has the population 8; here it is 9"),
+    "fewer generations": (as_it_is, {"generations": 2}, "has 3 generations; here are 2 to be run"),
+    "another numpy": (lambda path: changed(path, versions={**versions(), "numpy": "1.0"}), {},
+        f"was written with numpy 1.0; with numpy {np.__version__} the search would not go on as it began"),
+    "another algorithm": (lambda path: changed(path, algorithm="GA"), {},
+        "is of the algorithm 'GA', which cannot go on faithfully; NSGA-II alone can"),
+    "cut short": (lambda path: path.write_bytes(path.read_bytes()[:900]), *DAMAGED),
+    "empty": (lambda path: path.write_bytes(b""), *DAMAGED),
+    "text": (lambda path: path.write_text("front"), *DAMAGED),
+    "a pickle": (lambda path: path.write_bytes(pickle.dumps([1, 2])), *DAMAGED),
+    "a population too many": (lambda path: changed(path, population=9), *DAMAGED),
+    "no random generator": (lambda path: changed(path, random={}), *DAMAGED),
+    "a negative generation": (lambda path: changed(path, number=-1), *DAMAGED),
+    "a count of text": (lambda path: changed(path, number="3"), *DAMAGED),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_a_checkpoint_that_cannot_be_gone_on_from_is_refused(kept, case):
+    spoil, settings, sentence = REFUSED[case]
+    spoil(kept)
+    with pytest.raises(ValueError, match=r"^the checkpoint lift\.npz ") as refusal:
+        nsga2(**{"study": two_places(), "population": 8, "generations": 3, "seed": 1, **settings}, checkpoint=kept)
+    assert str(refusal.value) == f"the checkpoint lift.npz {sentence}"
+
+
+def test_a_flipped_bit_is_seen(kept):
+    """Wherever in the numbers it is: the file carries check sums."""
+    whole = bytearray(kept.read_bytes())
+    at = whole.index(read(kept).x.tobytes()[:8])
+    whole[at] ^= 1
+    kept.write_bytes(whole)
+    with pytest.raises(ValueError, match="is damaged"):
+        read(kept)
+
+
+def test_another_file_and_no_file_are_refused(kept):
+    np.savez(
+        kept, about=np.array('{"schema": "camkit-checkpoint/9"}'), **{k: 0 for k in ("x", "f", "g", "rank", "crowding")}
+    )
+    with pytest.raises(ValueError, match=r"the file lift\.npz is no checkpoint of the schema 'camkit-checkpoint/1'"):
+        read(kept)
+    with pytest.raises(ValueError, match=r"there is no checkpoint none\.npz"):
+        read(kept.with_name("none.npz"))
+
+
+def test_a_checkpoint_is_replaced_whole(kept, monkeypatch):
+    """While the new one is half written the old one is read."""
+    before = read(kept)
+
+    def breaks(file, **arrays):
+        file.write(b"PK half")
+        raise OSError("the disk is full")
+
+    monkeypatch.setattr(np, "savez", breaks)
+    with pytest.raises(OSError, match="full"):
+        before.write(kept)
+    assert isinstance(read(kept), Checkpoint)
+    assert read(kept).number == before.number
