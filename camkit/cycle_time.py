@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .minimise import Minimum, minimise
+from .minimum import Minimum, minimise
 from .study import Study
 from .units import deg
 

@@ -41,7 +41,8 @@ class Active(NamedTuple):
 
     def __str__(self) -> str:
         where = " at " + _listed([f"{angle / deg:.1f}" for angle in self.angles]) + " deg" if self.angles else ""
-        return f"the {self.name} {self.value}{where}"
+        symbol = len(self.name) == 1  # a quantity that is known by its letter alone
+        return f"{self.name} = {self.value}" if symbol else f"the {self.name} {self.value}{where}"
 
 
 @dataclass(frozen=True)
@@ -80,8 +81,8 @@ def minimise(
 
     - ``"slsqp"`` descends from the study's start and from ``starts - 1`` random designs; seconds.  Where the
       objective or a limit is a `PeakMeasure` it sees every angle, so that it does not stall on a ridge.
-    - ``"de"`` (differential evolution, scipy), ``"ga"`` (pymoo) and ``"competitive"`` (`CompetitiveAlgorithm`) need no
-      slopes and no start: they look at about ``designs`` designs.
+    - ``"de"`` (differential evolution, scipy), ``"ga"`` (pymoo) and ``"competitive"`` (`CompetitiveAlgorithm`, with a
+      ``narrowing`` of 0.9 that is not its paper's) need no slopes and no start: they look at about ``designs`` designs.
 
     ``recheck``: how many angles the result is judged on, if not those of the study; ``"slsqp"`` tightens limits until
     they hold there.  The result is never worse than the study's start, and repeatable for a seed.
@@ -116,9 +117,14 @@ class _Found(NamedTuple):
     why: str
 
 
+def _broken(evaluation: Evaluation) -> np.ndarray:
+    """By how much each design misses its limits, all together, ``(p,)``."""
+    return np.maximum(evaluation.g, 0).sum(-1)
+
+
 def _merit(evaluation: Evaluation) -> tuple[float, float]:
     """Of one design: broken limits first, then the objective."""
-    return float(np.maximum(evaluation.g, 0).sum()), float(evaluation.f[0, 0])
+    return float(_broken(evaluation)[0]), float(evaluation.f[0, 0])
 
 
 def _better(study: Study, *candidates: np.ndarray) -> np.ndarray:
@@ -189,15 +195,15 @@ def _starts(study: Study, seed: int, starts: int) -> list[np.ndarray]:
 def _best_of(study: Study, crowd: np.ndarray, instead: np.ndarray) -> np.ndarray:
     """The best design of a crowd, or of another if none in it has an objective."""
     evaluation = study.evaluate(crowd)
-    f, broken = evaluation.f[:, 0], np.maximum(evaluation.g, 0).sum(-1)
-    best = np.lexsort((f, broken, np.isinf(f)))[0]
+    f = evaluation.f[:, 0]
+    best = np.lexsort((f, _broken(evaluation), np.isinf(f)))[0]
     return crowd[best] if np.isfinite(f[best]) or crowd is instead else _best_of(study, instead, instead)
 
 
 # ---------------------------------------------------------------- methods without slopes
 
 WORST = 1e12
-"""What a method is told of a design that keeps not every limit, and more the less it keeps them."""
+"""What a method is told of a design that does not keep every limit, and more the less it keeps them."""
 
 
 def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
@@ -207,8 +213,8 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Fo
         nonlocal looked
         evaluation = study.evaluate(x.T)
         looked += len(evaluation.x)
-        f, broken = evaluation.f[:, 0], np.maximum(evaluation.g, 0).sum(-1)
-        return np.where(evaluation.feasible, f, WORST * (1 + np.where(np.isfinite(f), 1 - 1 / (1 + broken), 1)))
+        f, missed = evaluation.f[:, 0], 1 - 1 / (1 + _broken(evaluation))
+        return np.where(evaluation.feasible, f, WORST * (1 + np.where(np.isfinite(f), missed, 1)))
 
     crowd = 2 ** int(np.ceil(np.log2(10 * len(study.free))))
     found = differential_evolution(
