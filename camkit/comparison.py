@@ -84,12 +84,11 @@ class Row:
         return self.name, self.unit, self.printed, f"{self.computed:.{digits}f}", self.verdict, self.remark
 
 
-HEAD = ("quantity", "unit", "printed", "computed", "verdict", "remark")
-
-
 @dataclass(frozen=True)
 class Comparison:
     """A printed table beside its recomputation; shows as a table in a notebook, as text elsewhere.
+
+    ``against`` says what stands beside the computed numbers where nobody printed them.
 
     >>> print(Comparison("Areas", "a book", [Row("disk of radius 1", "m^2", "3.14", 3.14159)]))
     Areas (a book)
@@ -99,17 +98,19 @@ class Comparison:
     title: str
     source: str
     rows: Sequence[Row]
+    against: str = "printed"
 
     def __repr__(self) -> str:
         lines = (
-            f"{name}{f' [{unit}]' if unit else ''}: printed {printed}, computed {computed}: {verdict}"
+            f"{name}{f' [{unit}]' if unit else ''}: {self.against} {printed}, computed {computed}: {verdict}"
             for name, unit, printed, computed, verdict, _ in (row.cells() for row in self.rows)
         )
         return "\n".join([f"{self.title} ({self.source})", *lines])
 
     def _repr_html_(self) -> str:
         align = "style='text-align:left'"
-        head = "".join(f"<th {align}>{word}</th>" for word in HEAD)
+        words = ("quantity", "unit", self.against, "computed", "verdict", "remark")
+        head = "".join(f"<th {align}>{word}</th>" for word in words)
         rows = "".join(
             f"<tr>{''.join(f'<td {align}>{self._marked(cell, row)}</td>' for cell in row.cells())}</tr>"
             for row in self.rows

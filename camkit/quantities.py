@@ -157,12 +157,15 @@ class Design:
         self.keep(ok)
 
     def keep(self, ok: Any) -> None:
-        """Members of a population for which ``ok`` does not hold become ``nan`` in every number."""
+        """Members of a population for which ``ok`` does not hold become ``nan`` in every number that is a column.
+
+        A number that all members share stays one, so that what follows from it is worked out once.
+        """
         if np.all(ok):
             return
-        for name, declared in declarations(self).items():
-            if isinstance(declared, Quantity):
-                object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
+        numbers = [name for name, declared in declarations(self).items() if isinstance(declared, Quantity)]
+        for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:
+            object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 
     def replace(self, **changes: Any) -> Any:
         """The same design with some fields changed (and checked again)."""
@@ -174,10 +177,10 @@ class Design:
             )
         return dataclasses.replace(self, **changes)  # type: ignore[type-var]
 
-    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
-        """In a notebook's plain text: declared numbers in their units, six digits."""
+    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
+        """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
         shown = (f"{words(name)} {_shown(getattr(self, name), d)}" for name, d in declarations(self).items())
-        printer.text(f"{type(self).__name__}: {', '.join(shown)}")
+        return {"text/plain": f"{type(self).__name__}: {', '.join(shown)}", "text/html": self._repr_html_()}
 
     def _repr_html_(self) -> str:
         rows = "".join(
@@ -225,7 +228,8 @@ class Measure:
 
     def text(self, value: float) -> str:
         """``value`` (SI) as a person reads it."""
-        return f"{in_unit(float(value), self.unit):.4g} {self.unit}".rstrip()
+        shown = in_unit(float(value), self.unit)
+        return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e6 else '.4g'}} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)

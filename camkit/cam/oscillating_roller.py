@@ -98,8 +98,8 @@ class OscillatingRollerAnalysis(RollerAnalysis):
     def buildable(self) -> Any:
         """Whether the design can be built, ``(..., 1)``: arm clear of the line of centres, roller of the axis."""
         psi = self.cam.start_angle + self.motion.s
-        clear = (psi > 0) & (psi < np.pi) & (self._pitch_radius(psi) > self.cam.roller_radius)
-        return clear.all(-1, keepdims=True)
+        low, high = psi.min(-1, keepdims=True), psi.max(-1, keepdims=True)  # nearest to the axis at the low end
+        return (low > 0) & (high < np.pi) & (self._pitch_radius(low) > self.cam.roller_radius)
 
     def refuse_impossible(self) -> None:
         """``ValueError`` in a sentence if this is one design and it cannot be built."""
