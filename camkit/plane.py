@@ -91,6 +91,14 @@ class Plane:
         """The measures that are limited, in the order of ``limits``."""
         return tuple(measure for measure, _, _ in self.study.limits)
 
+    @property
+    def best_on_grid(self) -> np.ndarray | None:
+        """Free values of the grid's best design within bounds and limits, ``(2,)`` SI; ``None`` if there is none."""
+        low, high = self.study.bounds
+        kept = self.evaluation.feasible & ((low <= self._points) & (self._points <= high)).all(-1)
+        f = np.where(kept, self.evaluation.f[:, 0], np.inf)
+        return self._points[f.argmin()] if np.isfinite(f).any() else None
+
     @cached_property
     def best(self) -> np.ndarray:
         """The free values of the best design within the study's bounds, ``(2,)`` SI; ``nan`` if none keeps every limit.

@@ -69,6 +69,7 @@ def test_the_best_design_by_brute_force(data) -> None:
 def test_nothing_that_keeps_every_limit() -> None:
     hopeless = plane(power=600 * kW)
     assert np.isnan(hopeless.best).all()
+    assert hopeless.best_on_grid is None
     with pytest.raises(ValueError, match=r"^no design within the bounds keeps every limit$"):
         _ = hopeless.best_design
 

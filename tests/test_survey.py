@@ -14,7 +14,7 @@ from camkit import Measure, Study, explore, try_everything
 from camkit.app.survey import optimum, survey
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_study import corrected_valve_study, valve_study
-from camkit.minimise import minimise
+from camkit.minimum import minimise
 from camkit.plane import Plane
 from camkit.plot.artists import _find, moving
 from camkit.plot.picture import draw, layout
@@ -90,7 +90,7 @@ def test_marks_and_legend():
     assert ax.get_title(loc="left") == "Fullness against nose deceleration"
     draw(ShownPlane(Plane(corrected_valve_study(), n=21)), [ax], (objective_plane,))
     assert np.isnan(xy(ax, "optimum")).all()
-    assert legend(ax) == ["least radius anywhere (flat follower) at least 4.5 mm", "optimum"]
+    assert legend(ax) == ["least convex radius anywhere at least 4.5 mm", "optimum"]
     assert ax.get_title(loc="left") == "Fullness against peak positive acceleration"
 
 
@@ -229,6 +229,9 @@ def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(p
     panel.menu.value = "sign as printed"
     assert panel.optimum is None
     assert "looking for the optimum" in panel.summary()
+    f, shown = panel.plane.evaluation.f[:, 0], panel.plane.study.evaluate(mark(panel, "optimum"))  # the grid's best
+    assert shown.feasible.all()
+    assert_allclose(shown.f[0, 0], f[panel.plane.evaluation.feasible].min(), rtol=1e-12)
     assert panel.take.disabled
     assert xy(panel.picture.axes[0], "level 3").shape != before.shape
     panel.settle()
@@ -245,7 +248,7 @@ def test_the_design_in_the_sliders_counts(panel):
     settled(panel)
     assert_allclose(panel.optimum, Plane(corrected_valve_study(WIDE), n=21).best, rtol=1e-6)
     assert_allclose(panel.optimum, (4.0305, 20), atol=1e-4)
-    assert "least radius anywhere (flat follower): 4.5 mm" in panel.summary()
+    assert "least convex radius anywhere: 4.5 mm" in panel.summary()
 
 
 def test_free_quantities_move_the_mark_and_nothing_else(panel):
@@ -283,9 +286,10 @@ def test_weights_that_are_all_0_are_refused_in_a_sentence(panel):
     settled(panel)
     assert panel.weights == (0, 1)
     panel.knobs[1].box.value = 0
-    assert "This cannot be surveyed: all weights are 0; one must be more." in panel._banner.value
+    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel._banner.value
     settled(panel)
     assert_allclose(panel.optimum, (20, 20))
+    assert "W_1 0, W_2 1" in panel.summary()
     panel.knobs[1].box.value = 0.5
     assert panel._banner.value == ""
 

@@ -47,7 +47,8 @@ class Survey(Panel):
 
     ``studies`` maps a name in the menu to a function ``make(start, weights)`` that gives a `Study` with two free
     quantities; ``weights`` names the parts of its weighted objective, a slider each (they are shared out so as to add
-    to 1).  The optimum is looked for a moment after the last move.  A click loads the design under it.
+    to 1).  The best design of the grid is marked at once, the optimum itself a moment after the last move.  A click
+    loads the design under it.
     """
 
     def __init__(
@@ -97,7 +98,7 @@ class Survey(Panel):
         """The weights, as shares of their sum."""
         values = [knob.value for knob in self.knobs]
         if not sum(values) > 0:
-            raise ValueError("all weights are 0; one must be more")
+            raise ValueError("all weights are 0; at least one must be above 0")
         return tuple(value / sum(values) for value in values)
 
     @property
@@ -153,7 +154,7 @@ class Survey(Panel):
         here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
         self.take.disabled = self.optimum is None
         self.verdict.value = "<br>".join(self._lines())
-        self.picture.show(ShownPlane(self.plane, here, self.optimum))
+        self.picture.show(ShownPlane(self.plane, here, self.optimum if self._searched else self.plane.best_on_grid))
 
     def _lines(self) -> list[str]:
         """The optimum in words: free quantities, parts of the objective, limits."""
@@ -185,9 +186,10 @@ class Survey(Panel):
 
     def summary(self) -> str:
         """The problem, its weights and its optimum."""
-        weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(self.weights, start=1))
+        problem, taken, _ = self._key
+        weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(taken, start=1))
         lines = [line.replace("<b>", "").replace("</b>", "") for line in self._lines()]
-        return "\n".join([f"{self.menu.value}: {weights}", *lines])
+        return "\n".join([f"{problem}: {weights}", *lines])
 
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         self.settle()

@@ -22,6 +22,7 @@ from ..geometry import rotated
 from ..motion import Kinematics, Poly345
 from ..quantities import Design, Quantity, choice, declarations, fails, quantity
 from ..units import deg, mm
+from .sizing import least_from_which_on
 from .valve_train import FLAT, FOLLOWERS, ROLLER, ValveTrain, highest
 
 LEAST_GAP = 1e-3
@@ -322,7 +323,16 @@ class ValveAnalysis:
         return _number(self.cam.base_radius) + _number(self.cam.max_lift) + self._nose_curve
 
     @cached_property
-    def _least(self) -> tuple[Any, Any]:
+    def _tightest(self) -> tuple[Any, Any]:
+        """Largest convex curvature of the roller centre's path on the flank, 1/m, and its cam angle."""
+        return self._tightest_on(self.cam.base_radius)
+
+    def _tightest_on(self, base_radius: Any) -> tuple[Any, Any]:
+        roller = self.cam.roller_radius
+        return highest(lambda at: ROLLER.pitch_curvature(self.cam.flank(at), base_radius, roller), self._flank_angle)
+
+    @cached_property
+    def _least_flat(self) -> tuple[Any, Any]:
         def bent(alpha: Any) -> Any:
             motion = self.cam.flank(alpha)
             return -(self.cam.base_radius + motion.s + motion.a)
@@ -332,17 +342,39 @@ class ValveAnalysis:
 
     @property
     def least_radius(self) -> Any:
-        """Least radius of curvature anywhere under a flat follower, m; below 0 the cam is undercut."""
-        return self._least[0]
+        """Least convex radius of curvature of the cam under the chosen follower, m; below 0 it is undercut."""
+        if self.cam.follower == FLAT:
+            return self._least_flat[0]
+        return 1 / self._tightest[0] - _number(self.cam.roller_radius)
 
     @property
     def least_radius_angle(self) -> Any:
         """Cam angle of the `least_radius`, rad."""
-        return self._least[1]
+        return (self._least_flat if self.cam.follower == FLAT else self._tightest)[1]
+
+    @cached_property
+    def least_hollow_radius(self) -> Any:
+        """Least radius of the hollow flank under a roller, m: a grinding wheel must be smaller; ``inf`` if none is."""
+        if self.cam.follower == FLAT:
+            return np.inf + 0 * self.fullness
+        base, roller = self.cam.base_radius, self.cam.roller_radius
+        hollow, _ = highest(lambda at: -ROLLER.pitch_curvature(self.cam.flank(at), base, roller), self._flank_angle)
+        return np.where(hollow > 0, 1 / np.where(hollow > 0, hollow, 1.0) + _number(roller), np.inf + 0 * hollow)
 
     def base_radius_for(self, least_radius: float) -> Any:
-        """Base radius with which this cam has the given `least_radius` under a flat follower, m."""
-        return _number(self.cam.base_radius) + least_radius - self.least_radius
+        """Least base radius from which on the cam keeps the given `least_radius`, m.
+
+        Under a flat face every radius of curvature grows with it; under a roller of the radius ``r`` the path of
+        its centre must keep ``rho = least_radius + r``, sure to be so from ``ample`` on (see
+        `TranslatingRollerAnalysis.height_for`).
+        """
+        base, roller = _number(self.cam.base_radius), _number(self.cam.roller_radius)
+        if self.cam.follower == FLAT:
+            return base + least_radius - self.least_radius
+        rho, motion = least_radius + roller, self.cam.flank(self._flank_angle)
+        w, v = (abs(x).max(-1) for x in (motion.a, motion.v))
+        ample = np.maximum(np.maximum(3 * rho, np.sqrt(3 * w * rho)), np.cbrt(6 * v**2 * rho))
+        return least_from_which_on(lambda size: rho * self._tightest_on(np.asarray(size)[..., None])[0] <= 1, ample)
 
     @cached_property
     def _flank_angle(self) -> np.ndarray:
@@ -479,12 +511,6 @@ class ValveAnalysis:
     def cam_torque(self) -> np.ndarray:
         """Torque that turns the camshaft, without friction, N m: power in = power out."""
         return self.follower_force * self.velocity
-
-    @cached_property
-    def mean_torque(self) -> Any:
-        """Mean of the torque over a turn, N m; 0, as without friction the spring gives back what it took."""
-        whole = self.whole
-        return np.trapezoid(whole.cam_torque, whole.cam_angle, axis=-1) / (2 * np.pi)
 
     @cached_property
     def jump_speed(self) -> Any:

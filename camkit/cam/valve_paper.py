@@ -17,7 +17,9 @@ from .valve import ValveCam
 from .valve_study import PAPER_LEAST_RADIUS, in_paper_units, valve_study
 
 PAPER = "He, Li 2008"
-FORMULAS = "the paper's formulas, evaluated apart from this package"
+FORMULAS = "the paper's formulas"
+APART = "evaluated apart"
+"""By another program than this package."""
 
 
 def _of_formulas(name: str) -> Any:
@@ -47,7 +49,7 @@ def listing() -> Comparison:
         Row("v = v_g alpha_B / omega", "mm", _of_formulas("v"), stated),
         Row("v in m/s and deg, taken for mm", "", _of_formulas("v_listed"), listed, "what the listing computes with"),
     ]
-    return Comparison("The seating velocity", FORMULAS, rows)
+    return Comparison("The seating velocity", FORMULAS, rows, APART)
 
 
 def corners() -> Comparison:
@@ -65,7 +67,7 @@ def corners() -> Comparison:
             Row(f"({n}, {m}): nose acceleration", "m/s^2", value["nose_acceleration"], float(a.nose_acceleration)),
             Row(f"({n}, {m}): radius at the nose", "mm", value["nose_radius"], float(a.nose_radius / mm)),
         ]
-    return Comparison("The corners (20, 20) and (3, 1)", FORMULAS, rows)
+    return Comparison("The corners (20, 20) and (3, 1)", FORMULAS, rows, APART)
 
 
 def lifts() -> Comparison:
@@ -73,7 +75,7 @@ def lifts() -> Comparison:
     printed = _of_formulas("lift_5_4")
     lift = ValveCam(n=5, m=4).motion(np.array(list(printed), dtype=float) * deg).s / mm
     rows = [Row(f"h({at} deg)", "mm", value, float(h)) for (at, value), h in zip(printed.items(), lift, strict=True)]
-    return Comparison("Lift of the cam (5, 4)", FORMULAS, rows)
+    return Comparison("Lift of the cam (5, 4)", FORMULAS, rows, APART)
 
 
 def sharpest() -> Comparison:
@@ -86,7 +88,7 @@ def sharpest() -> Comparison:
         Row("where", "deg", value["least_radius_angle"], float(a.least_radius_angle / deg)),
         Row("base radius that would keep 4.5 mm", "mm", value["base_radius_needed"], needed),
     ]
-    return Comparison("Radius of curvature under a flat face at (20, 20)", FORMULAS, rows)
+    return Comparison("Radius of curvature under a flat face at (20, 20)", FORMULAS, rows, APART)
 
 
 def sign_as_printed(found: ValveCam) -> Comparison:
@@ -104,7 +106,7 @@ def sign_as_printed(found: ValveCam) -> Comparison:
         Row("nose acceleration", "m/s^2", value["nose_acceleration"], float(a.nose_acceleration)),
         Row("W1 at which the optimum jumps to (20, 20)", "", value["switch"], float(loss / (gain + loss))),
     ]
-    return Comparison("Optimum with the sign as printed, W1 = 0.5", FORMULAS, rows)
+    return Comparison("Optimum with the sign as printed, W1 = 0.5", FORMULAS, rows, APART)
 
 
 def front_points(front: Any) -> Comparison:
@@ -116,4 +118,4 @@ def front_points(front: Any) -> Comparison:
         Row(f"most fullness at {a} m/s^2", "", full, float(np.interp(float(a), peak, xi)))
         for a, full in zip(value["acceleration"], value["fullness"], strict=True)
     ]
-    return Comparison("The front of fullness against peak positive acceleration", FORMULAS, rows)
+    return Comparison("The front of fullness against peak positive acceleration", FORMULAS, rows, APART)

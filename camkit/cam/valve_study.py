@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from ..quantities import Measure
 from ..study import Study, WeightedSum, weighted
 from ..units import deg, mm
-from .measures import peak_force
+from .measures import peak_force, steepest
 from .valve import ValveAnalysis, ValveCam
 
 fullness = Measure("fullness", "", lambda a: a.fullness)
@@ -18,7 +18,8 @@ nose_acceleration = Measure("nose acceleration", "m/s^2", lambda a: a.nose_accel
 nose_deceleration = Measure("nose deceleration", "m/s^2", lambda a: abs(a.nose_acceleration))
 peak_acceleration = Measure("peak positive acceleration", "m/s^2", lambda a: a.peak_acceleration)
 nose_radius = Measure("radius at the nose (flat follower)", "mm", lambda a: a.nose_radius)
-least_radius = Measure("least radius anywhere (flat follower)", "mm", lambda a: a.least_radius)
+least_radius = Measure("least convex radius anywhere", "mm", lambda a: a.least_radius)
+least_hollow_radius = Measure("least hollow radius", "mm", lambda a: a.least_hollow_radius)
 face_reach = Measure("reach of the contact on a flat face", "mm", lambda a: abs(a.velocity).max(-1))
 jump_margin = Measure("overspeed before the follower jumps", "%", lambda a: a.jump_margin)
 peak_stress = Measure("peak contact stress", "MPa", lambda a: a.contact_stress.max(-1))
@@ -30,6 +31,8 @@ VALVE_MEASURES = (
     peak_acceleration,
     nose_radius,
     least_radius,
+    least_hollow_radius,
+    steepest,
     face_reach,
     jump_margin,
     peak_force,
@@ -112,7 +115,7 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
 
 
 def keeping_least_radius(cam: ValveCam, least: float = PAPER_LEAST_RADIUS) -> ValveCam:
-    """The same cam on the base circle on which its ``least`` radius under a flat face is the paper's limit anywhere.
+    """The same cam on the base circle on which its least convex radius under its follower is ``least``.
 
     >>> print(f"{keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
     24.341 mm

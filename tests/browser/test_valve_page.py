@@ -24,7 +24,7 @@ from camkit.cam.valve_study import (
     valve_study,
 )
 from camkit.cam.valve_train import ROLLER
-from camkit.minimise import minimise
+from camkit.minimum import minimise
 from lab import LabServer, kernel_value, open_notebook, run_all
 
 START = ValveCam()
@@ -79,7 +79,7 @@ def shows(book: Workbook, cam: ValveCam) -> None:
         verdict = ""
         if measure in (nose_radius, least_radius):
             verdict = "≥ 4.5 mm" + ("met" if value >= PAPER_LEAST_RADIUS else "not met")
-        change = f"{100 * (value - start) / abs(start):+.1f} %"
+        change = f"{100 * (value - start) / abs(start):+.1f} %" if start and np.isfinite([value, start]).all() else ""
         expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
 
