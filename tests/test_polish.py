@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from camkit.polish import polish
+from camkit.polish import SumOfResiduals, polish
 from camkit.quantities import Design, Measure, quantity
 from camkit.study import Study
 
@@ -27,8 +27,8 @@ def errors(line):
     return line - Y
 
 
-total = Measure("total error", "", lambda line: abs(errors(line)).sum(-1))
-above = Measure("total error above", "", lambda line: np.maximum(errors(line), 0).sum(-1))
+total = SumOfResiduals("total error", "", errors)
+above = SumOfResiduals("total error above", "", errors, above_only=True)
 largest = Measure("largest error", "", lambda line: abs(errors(line)).max(-1))
 end = Measure("height at the end", "", lambda line: line[..., -1])
 middle = Measure("mean height", "", lambda line: line.mean(-1))
@@ -38,38 +38,46 @@ def study(objective, **limits):
     return Study(Line(), ("height", "slope"), (objective,), **limits)
 
 
-def least_by_linear_programming(norm, end_at_most=None):
+def least_by_linear_programming(end_at_most=None):
     n = len(T)
     design = np.column_stack([np.ones(n), T])
-    slack = np.ones((n, 1)) if norm == "largest" else np.eye(n)
-    a = np.block([[design, -slack], [-design, -slack]])
+    a = np.block([[design, -np.eye(n)], [-design, -np.eye(n)]])
     b = np.concatenate([Y, -Y])
     if end_at_most is not None:
-        a, b = np.vstack([a, [1, 1, *np.zeros(slack.shape[1])]]), np.append(b, end_at_most)
-    cost = np.concatenate([[0, 0], np.ones(slack.shape[1])])
-    return linprog(cost, a, b, bounds=[(-5, 5)] * 2 + [(0, None)] * slack.shape[1]).fun
+        a, b = np.vstack([a, [1, 1, *np.zeros(n)]]), np.append(b, end_at_most)
+    cost = np.concatenate([[0, 0], np.ones(n)])
+    return linprog(cost, a, b, bounds=[(-5, 5)] * 2 + [(0, None)] * n).fun
 
 
-@pytest.mark.parametrize(("objective", "norm"), [(total, "sum"), (largest, "largest")])
-def test_the_least_absolute_errors(objective, norm):
-    found = polish(study(objective), errors, norm=norm)
+def test_the_sums_by_hand():
+    lines = np.stack([Line(1.0, 2.0).analyse(1), Line(-1.0, 0.5).analyse(1)])
+    for objective, sums in ((total, abs(lines - Y)), (above, np.where(lines > Y, lines - Y, 0))):
+        assert objective(lines) == pytest.approx(sums.sum(-1))
+        assert (-objective)(lines) == pytest.approx(-sums.sum(-1))
+        spelled = objective.spelled_out(lines)
+        assert sum(w * part(lines) for w, part in zip(spelled.weights, spelled.parts, strict=True)) == pytest.approx(
+            sums.sum(-1)
+        )
+
+
+def test_the_least_absolute_errors():
+    found = polish(study(total), [0.0, 0.0])
     assert found.feasible
-    assert found.f[0] == pytest.approx(least_by_linear_programming(norm), rel=1e-7)
+    assert found.f[0] == pytest.approx(least_by_linear_programming(), rel=1e-7)
     assert found.message.startswith("best of its neighbours after")
     assert found.evaluations > 5
     assert found.design == Line(*map(float, found.x))
 
 
-@pytest.mark.parametrize(("objective", "norm"), [(total, "sum"), (largest, "largest")])
-def test_limits_are_kept_to_the_last_digit(objective, norm):
-    found = polish(study(objective, at_most={end: 2.0}), errors, norm=norm)
+def test_limits_are_kept_to_the_last_digit():
+    found = polish(study(total, at_most={end: 2.0}))
     assert found.feasible
     assert end(found.design.analyse(1)) == pytest.approx(2.0, abs=1e-7)
-    assert found.f[0] == pytest.approx(least_by_linear_programming(norm, 2.0), rel=1e-7)
+    assert found.f[0] == pytest.approx(least_by_linear_programming(2.0), rel=1e-7)
 
 
 def test_an_error_below_is_no_fault_of_the_excess():
-    found = polish(study(above, at_least={middle: 2.5}), errors, [0.0, 3.0], "excess")
+    found = polish(study(above, at_least={middle: 2.5}), [0.0, 3.0])
     assert found.feasible
     assert _best_of_a_grid() * (1 - 2e-3) < found.f[0] < _best_of_a_grid() * (1 + 1e-7)
 
@@ -80,42 +88,49 @@ def _best_of_a_grid():
     return np.maximum(2.5 + slopes * (T - 0.5) - Y, 0).sum(-1).min()
 
 
-def test_the_largest_error_of_a_line_to_a_parabola_is_one_eighth():
-    """Chebyshev: ``x - 1/8`` for ``x^2`` on 0 .. 1."""
-    parabola = Measure("largest error", "", lambda line: abs(line - T**2).max(-1))
-    found = polish(study(parabola), lambda line: line - T**2, norm="largest")
-    assert found.x == pytest.approx([-0.125, 1], abs=1e-7)
-    assert found.f[0] == pytest.approx(0.125, abs=1e-9)
-
-
 def test_a_start_that_is_best_stays():
-    best = polish(study(total), errors)
-    again = polish(study(total), errors, best.x)
+    best = polish(study(total))
+    again = polish(study(total), best.x)
     assert again.f <= best.f
     assert again.f == pytest.approx(best.f, rel=1e-9)
 
 
 def test_a_start_that_breaks_a_limit_is_mended():
-    found = polish(study(total, at_least={end: 4.0}), errors, [0.0, 0.0])
+    found = polish(study(total, at_least={end: 4.0}), [0.0, 0.0])
     assert found.feasible
     assert end(found.design.analyse(1)) == pytest.approx(4.0, abs=1e-7)
 
 
 def test_limits_that_cannot_be_kept_are_told():
-    found = polish(study(largest, at_least={end: 20.0}), errors, norm="largest")
+    found = polish(study(total, at_least={end: 20.0}))
     assert not found.feasible
-    assert found.message.endswith("it keeps not every limit")
+    assert found.message.endswith("it does not keep every limit")
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("objectives", "x", "sentence"),
     [
-        ({"norm": "mean"}, "the norm is 'mean'; there are 'sum', 'excess', 'largest'"),
-        ({"x": [0, 6]}, "the design to polish lies outside the bounds of the study"),
-        ({"x": [0, 4.95]}, "the design to polish cannot be built; start from one that a search has found"),
+        ((total,), [0, 6], "the design to polish lies outside the bounds of the study"),
+        ((total,), [0, 4.95], "the design to polish cannot be built; start from one that a search has found"),
+        (
+            (largest,),
+            None,
+            "the study minimises the largest error; polish takes one sum of residuals: use minimise()",
+        ),
+        (
+            (total, above),
+            None,
+            "the study minimises the total error and total error above; "
+            "polish takes one sum of residuals: use minimise()",
+        ),
     ],
 )
-def test_refusals(arguments, sentence):
+def test_refusals(objectives, x, sentence):
     with pytest.raises(ValueError) as refusal:  # noqa: PT011
-        polish(study(total), errors, **arguments)
+        polish(study(objectives[0]).replace(minimise=objectives), x)
     assert str(refusal.value) == sentence
+
+
+def test_the_negative_of_a_sum_is_refused():
+    with pytest.raises(ValueError, match="polish takes one sum of residuals"):
+        polish(study(-total))

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure, choice, fails, quantity
+from ..quantities import Measure, choice, counted, fails, quantity
 from ..study import Study
 from ..units import deg, mm
 from .load import RockerLoad
@@ -46,7 +46,10 @@ PAPER_POSITIONS = 30
 
 
 HOUSING = Box((-120 * mm, -20 * mm, -20 * mm), (120 * mm, 120 * mm, 120 * mm), "the housing")
-"""Space for the linkage of `ninety_degree_study`; both axes cross at its long side."""
+"""Space for the centre lines of the linkage of `ninety_degree_study`; both axes cross at its long side.
+
+What has a thickness needs as much more on every side: ball joints of 12 mm radius 264 x 164 x 164 mm.
+"""
 
 
 class Branch(IntEnum):
@@ -90,9 +93,14 @@ class CabinDoorLinkage(Links):
         return RSSR(*self.sizes)
 
     def analyse(self, n: int = 181) -> RSSRAnalysis:
-        """Positions, motion and static forces at ``n`` crank angles from shut to open, both included."""
-        sweep = self.start_angle + np.linspace(0, 1, n) * (self.end_angle - self.start_angle)
-        return self.linkage.analyse(sweep, self.branch, self.load)
+        """Positions, motion and static forces at ``n`` crank angles from shut to open, both included.
+
+        A sweep that passes an angle at which the linkage cannot be assembled is refused, whether or not it is one
+        of the ``n``; such a member of a population is ``nan``.
+        """
+        share = np.linspace(0, 1, counted(n, "crank angles"))
+        sweep = self.start_angle + share * (self.end_angle - self.start_angle)
+        return self.linkage.analyse(sweep, self.branch, self.load, through=True)
 
 
 def rssr_study(
@@ -108,9 +116,9 @@ def rssr_study(
     """The paper's synthesis: pressure angles near 30 deg at both ball joints over the crank's sweep.
 
     ``objective`` is `departure` unless said otherwise (`excess`, `largest_departure`, `steepest`, ...).  The door
-    turns by ``least_swing`` or more; all links stay ``inside`` one box and ``outside`` another.  The discriminant
-    must not fall below 0 between the positions either, so both branches are continuous over the sweep.  ``space`` maps
-    free quantities to bounds in SI.
+    turns by ``least_swing`` or more; the centre lines of all links stay ``inside`` one box and ``outside`` another.
+    The discriminant must not fall below 0 between the positions either, so both branches are continuous.
+    ``space`` maps free quantities to bounds in SI.
 
     >>> study = rssr_study()
     >>> paper = study.evaluate(np.array([[80, 141.914, 130, 136.787, 100.344]]) * mm)
@@ -132,8 +140,8 @@ def rssr_study(
 def ninety_degree_study() -> Study:
     """A door that opens 90 deg, its linkage in a small housing: the least steep pressure angles.
 
-    The paper's bounds, sweep and positions, but the paper's optimum opens 53.7 deg only.  The door of 30 kg rubs
-    with 10 N m and, as the ship heels by 10 deg, opens uphill; it opens against a growing rocker angle.
+    The paper's bounds, sweep and positions, but the paper's optimum opens 53.7 deg only.  A closer pulls the door
+    of 30 kg shut with 10 N m, and as the ship heels by 10 deg it opens uphill; the rocker angle falls as it opens.
 
     >>> study = ninety_degree_study()
     >>> whole_mm = study.evaluate(np.array([120, 120, 120, 99, 99]) * mm)

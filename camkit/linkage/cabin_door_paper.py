@@ -11,7 +11,6 @@ from ..polish import polish
 from ..reference import as_printed
 from ..units import deg, mm
 from .cabin_door import CabinDoorLinkage, rssr_study
-from .measures import departures
 from .rssr import RSSR, RSSRAnalysis, inclination
 
 
@@ -43,11 +42,12 @@ def optima() -> Comparison:
     for printed in as_printed("cabin_door")["optima"]["rows"]:
         start, end = (float(angle) for angle in printed["sweep"])
         study = rssr_study(CabinDoorLinkage(start_angle=start * deg, end_angle=end * deg))
-        found = polish(study, departures(), np.array(printed["x"], dtype=float) * mm)
+        found = polish(study, np.array(printed["x"], dtype=float) * mm)
         rows.append(
             Row(f"sum, crank from {start:g} to {end:g} deg", "deg", printed["sum"], found.f[0] / deg, _sizes(found.x))
         )
-    return Comparison("Least sums of |alpha - 30 deg|", "an independent computation", rows)
+    title, source = "Least sums of |alpha - 30 deg|", "an independent computation"
+    return Comparison(title, source, rows, against="evaluated apart")
 
 
 def _sizes(x: Any) -> str:
@@ -93,7 +93,7 @@ def adams() -> Comparison:
     analysis = linkage.analyse(crank_zero - np.array(data["crank_turned"], dtype=float) * deg)
     angle = np.mod(analysis.rocker_angle - rocker_zero + np.pi, 2 * np.pi) - np.pi
     columns = (("rocker angle", "rad", data["rocker_angle_rad"], angle),
-               ("ratio", "", data["inverse_torque_ratio"], abs(analysis.ratio)))  # fmt: skip
+               ("ratio", "", data["inverse_torque_ratio"], analysis.ratio))  # fmt: skip
     rows = [
         Row(f"{name}, crank turned {turned} deg", unit, printed, float(value))
         for name, unit, prints, values in columns

@@ -1,4 +1,4 @@
-"""What the rocker of a linkage resists with: a door's weight about its hinge, and a constant torque."""
+"""What the rocker of a linkage resists with: a door's weight about its hinge, and the constant torque of a closer."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from ..quantities import Design, quantity
 
 @dataclass(frozen=True)
 class RockerLoad(Design):
-    """A weight that turns with the rocker, and a constant torque on it.
+    """A weight that turns with the rocker, and a constant torque on it, such as a door closer's.
 
+    The torque keeps its sign whichever way the rocker turns: what resists one way drives the other, unlike friction.
     The hinge axis leans by ``epsilon`` from straight up; a centre of gravity at the rocker angle ``delta`` is at
     its lowest.  A ship that heels by 10 deg gives an upright door ``lean=10*deg``; a hatch has ``lean=90*deg``.
 
@@ -30,7 +31,9 @@ class RockerLoad(Design):
     mass_angle: float = quantity("gamma", 0, -180, 180, "deg", "from the rocker to the centre of gravity", above=None)
     lean: float = quantity("epsilon", 0, 0, 180, "deg", "hinge axis from straight up", above=None)
     downhill: float = quantity("delta", 0, -180, 360, "deg", "direction about the hinge that slopes down", above=None)
-    torque: float = quantity("T", 10, -50, 50, "N m", "constant resisting torque", above=None)
+    torque: float = quantity(
+        "T", 10, -50, 50, "N m", "constant, against a growing rocker angle; < 0: a falling one", above=None
+    )
     gravity: float = quantity("g", 9.81, 0, 9.81, "m/s^2", "weight of a mass; 0: none", at_least=0)
 
     def resisting_torque(self, rocker_angle: Any) -> Any:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..polish import SumOfResiduals
 from ..quantities import Measure, PeakMeasure
 from ..units import deg
 from .space import Box
@@ -34,14 +35,13 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
 
 def departure(target: float = TARGET, weights: Any = None) -> Measure:
     """The paper's objective ``sum_j w_j (|alpha_1j - target| + |alpha_2j - target|)``."""
-    of = departures(target, weights)
-    return Measure(_name("pressure angles off", target, weights), "deg", lambda a: abs(of(a)).sum(-1))
+    return SumOfResiduals(_name("pressure angles off", target, weights), "deg", departures(target, weights))
 
 
 def excess(target: float = TARGET, weights: Any = None) -> Measure:
     """The same sum over the pressure angles above ``target`` only: a smaller one is no fault."""
-    of = departures(target, weights)
-    return Measure(_name("pressure angles above", target, weights), "deg", lambda a: np.maximum(of(a), 0).sum(-1))
+    name = _name("pressure angles above", target, weights)
+    return SumOfResiduals(name, "deg", departures(target, weights), above_only=True)
 
 
 def largest_departure(target: float = TARGET, weights: Any = None) -> Measure:
@@ -55,12 +55,12 @@ def _name(what: str, target: float, weights: Any) -> str:
 
 
 def room_in(box: Box) -> Measure:
-    """How far all links stay within a box, from the nearest wall; < 0 where one leaves it."""
+    """How far the centre lines of all links stay within a box, from the nearest wall; < 0 where one leaves it."""
     return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)))
 
 
 def clearance_from(box: Box) -> Measure:
-    """How far all links stay clear of a box; < 0 where one enters it."""
+    """How far the centre lines of all links stay clear of a box; < 0 where one enters it."""
     return Measure(
         f"clearance from {box.name}", "mm", lambda a: box.clearance(a.chain[:, :-1], a.chain[:, 1:]).min((0, -1))
     )
@@ -78,24 +78,47 @@ steepest = PeakMeasure(
     lambda a: np.concatenate([a.crank_pressure_angle, a.rocker_pressure_angle], axis=-1),
     angle=lambda a: np.concatenate([a.crank_angle, a.crank_angle], axis=-1),
 )
+least_crank_transmission = -PeakMeasure(
+    "least transmission angle, crank", "deg", lambda a: -a.crank_transmission_angle, angle=lambda a: a.crank_angle
+)
+least_rocker_transmission = -PeakMeasure(
+    "least transmission angle, rocker", "deg", lambda a: -a.rocker_transmission_angle, angle=lambda a: a.crank_angle
+)
 swing = Measure("output swing", "deg", lambda a: np.ptp(a.rocker_angle, axis=-1))
 assembly_margin = Measure("least discriminant of the sweep", "", lambda a: a.least_discriminant[..., 0])
+possible_turn = Measure("possible turn of the crank", "deg", lambda a: a.possible_turn[..., 0])
+"""From limit to limit; 360 deg: all the way round."""
 peak_coupler_force = Measure("peak coupler force", "N", lambda a: abs(a.coupler_force).max(-1))
 peak_crank_torque = Measure("peak crank torque", "N m", lambda a: abs(a.crank_torque).max(-1))
-peak_hinge_force = Measure(
-    "peak force on the rocker's bearing", "N", lambda a: np.linalg.norm(a.rocker_bearing_force, axis=0).max(-1)
+
+
+def _longest(vectors: np.ndarray) -> Any:
+    return np.linalg.norm(vectors, axis=0).max(-1)
+
+
+peak_crank_bearing_force = Measure("peak force on the crank's bearing", "N", lambda a: _longest(a.crank_bearing_force))
+peak_crank_bearing_moment = Measure(
+    "peak moment on the crank's bearing", "N m", lambda a: _longest(a.crank_bearing_moment)
 )
+peak_hinge_force = Measure("peak force on the rocker's bearing", "N", lambda a: _longest(a.rocker_bearing_force))
+peak_hinge_moment = Measure("peak moment on the rocker's bearing", "N m", lambda a: _longest(a.rocker_bearing_moment))
 largest_ratio = Measure("largest velocity ratio", "", lambda a: abs(a.ratio).max(-1))
 
 SWEEP = (
     departure(),
     steepest_crank,
     steepest_rocker,
+    least_crank_transmission,
+    least_rocker_transmission,
     swing,
     assembly_margin,
+    possible_turn,
     largest_ratio,
     peak_coupler_force,
-    peak_hinge_force,
     peak_crank_torque,
+    peak_crank_bearing_force,
+    peak_crank_bearing_moment,
+    peak_hinge_force,
+    peak_hinge_moment,
 )
 """What a table of one sweep shows."""

@@ -114,12 +114,17 @@ class RSSR(Links):
     def _harmonics(self) -> np.ndarray:
         return limits.harmonics(self.discriminant)
 
+    @cached_property
+    def all_limit_angles(self) -> np.ndarray:
+        """The limit angles, ``(..., 4)``, filled up with ``nan``."""
+        return limits.zeros(self._harmonics)
+
     def limit_angles(self) -> np.ndarray:
         """Crank angles at which the linkage is stretched out or folded, growing, in [0, 2 pi): none, 2 or 4.
 
         For ``p`` designs ``(p, 4)``, filled up with ``nan``.
         """
-        angles = limits.zeros(self._harmonics)
+        angles = self.all_limit_angles
         return angles if angles.ndim > 1 else angles[np.isfinite(angles)]
 
     @cached_property
@@ -176,17 +181,20 @@ class RSSR(Links):
         sin, L = np.sin(angle), self.axis_angle
         return _vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
 
-    def analyse(self, crank_angle: Any, branch: int = 1, load: RockerLoad | None = None) -> RSSRAnalysis:
+    def analyse(
+        self, crank_angle: Any, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
+    ) -> RSSRAnalysis:
         """Positions, motion and static forces at the given crank angles (rad).
 
-        There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.
+        There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
+        crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
         """
         if branch not in (1, -1):
             raise ValueError(f"the branch is {branch!r}; it must be +1 or -1")
         angles = np.atleast_1d(np.asarray(crank_angle, dtype=float))
-        if not (angles.size and np.isfinite(angles).all()):
+        if not (angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
             raise ValueError("the crank angles must be one or more finite numbers")
-        analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad())
+        analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)
         analysis.refuse_impossible()
         return analysis
 
@@ -204,6 +212,8 @@ class RSSRAnalysis:
     crank_angle: np.ndarray
     branch: int = 1
     load: RockerLoad = field(default_factory=RockerLoad)
+    through: bool = False
+    """Whether the crank passes all angles between the given ones."""
 
     @cached_property
     def _closure(self) -> tuple[Any, Any, Any]:
@@ -212,7 +222,10 @@ class RSSRAnalysis:
     @cached_property
     def buildable(self) -> Any:
         """Whether the linkage can be assembled at every crank angle, ``(..., 1)``."""
-        return self.linkage.has_possible_sizes & reaches(*self._closure).all(-1, keepdims=True)
+        can = self.linkage.has_possible_sizes & reaches(*self._closure).all(-1, keepdims=True)
+        if not self.through:
+            return can
+        return can & self.linkage.assembles(self._extremes_passed).all(-1, keepdims=True)
 
     def refuse_impossible(self) -> None:
         """``ValueError`` in a sentence if this is one design and it cannot be assembled."""
@@ -225,21 +238,42 @@ class RSSRAnalysis:
                 f"the coupler of {self.linkage.coupler / mm:.5g} mm cannot be assembled at any crank angle; "
                 f"from crank to rocker it is {low / mm:.5g} to {high / mm:.5g} mm"
             )
-        first = self.crank_angle[~reaches(*self._closure)][0]
         ranges = " and ".join(f"{low / deg:.5g} to {high / deg:.5g}" for low, high in possible)
+        if self.through:
+            start, end = self.crank_angle[[0, -1]] / deg
+            raise ValueError(
+                f"the crank cannot sweep from {start:.5g} to {end:.5g} deg: "
+                f"the linkage can be assembled from {ranges} deg only"
+            )
+        first = self.crank_angle[~reaches(*self._closure)][0]
         raise ValueError(
             f"at a crank angle of {first / deg:.5g} deg the linkage cannot be assembled; possible are {ranges} deg"
         )
 
     @cached_property
+    def _room_to_turn(self) -> tuple[Any, Any, Any]:
+        """A crank angle clear of the limits, and how far each way the next limit lies, ``(..., 1)``; ``nan``: none."""
+        clearest = np.argmax(np.broadcast_to(self.discriminant, self._shape), axis=-1)[..., None]
+        clear = np.take_along_axis(self._turn, clearest, -1)
+        ends = self.linkage.all_limit_angles
+        ways = np.mod(clear - ends, 2 * np.pi), np.mod(ends - clear, 2 * np.pi)
+        below, above = (np.fmin.reduce(way, axis=-1, keepdims=True) for way in ways)
+        return clear, below, above
+
+    @property
+    def possible_turn(self) -> Any:
+        """How far the crank can turn on its branch, from limit to limit, rad, ``(..., 1)``; 2 pi: all the way round."""
+        _, below, above = self._room_to_turn
+        turn = np.where(np.isnan(below), 2 * np.pi, below + above)
+        return np.where(self.buildable, turn, np.nan)
+
+    @cached_property
     def turn_range(self) -> tuple[float, float]:
         """How far the crank can turn from its sweep, one design, rad: to the limits, or a turn about the middle."""
-        limits = self.linkage.limit_angles()
-        if not limits.size:
+        (clear,), (below,), (above,) = self._room_to_turn
+        if np.isnan(below):
             middle = float(self.crank_angle.min() + self.crank_angle.max()) / 2
             return middle - np.pi, middle + np.pi
-        clear = self.crank_angle[np.argmax(self.discriminant)]
-        below, above = np.mod(clear - limits, 2 * np.pi).min(), np.mod(limits - clear, 2 * np.pi).min()
         return float(clear - max(below - NEXT_TO, 0)), float(clear + max(above - NEXT_TO, 0))
 
     def at(self, crank_angle: float, branch: int | None = None) -> RSSRAnalysis:
@@ -252,8 +286,8 @@ class RSSRAnalysis:
         Arrays are ``(n, 1)``, with more positions beside the limits, and ``nan`` where it cannot be assembled.
         """
         start = (self.crank_angle.min() + self.crank_angle.max()) / 2 - np.pi
-        limits = start + np.mod(self.linkage.limit_angles() - start, 2 * np.pi)
-        beside = np.add.outer(limits, [-NEXT_TO, NEXT_TO])
+        ends = start + np.mod(self.linkage.limit_angles() - start, 2 * np.pi)
+        beside = np.add.outer(ends, [-NEXT_TO, NEXT_TO])
         angles = np.sort(np.append(start + 2 * np.pi * np.linspace(0, 1, n), beside))
         return RSSRAnalysis(self.linkage, angles[:, None], branch or self.branch, self.load)
 
@@ -272,16 +306,22 @@ class RSSRAnalysis:
         return a**2 + b**2 - k**2
 
     @cached_property
+    def _extremes_passed(self) -> np.ndarray:
+        """Crank angles of the sweep, also between the given ones, where the discriminant is least or largest.
+
+        ``(..., 4)``, filled up with the lowest crank angle.
+        """
+        low, high = (end(self.crank_angle, axis=-1, keepdims=True) for end in (np.min, np.max))
+        extremes = low + np.mod(self.linkage.extreme_angles - low, 2 * np.pi)
+        return np.where(extremes <= high, extremes, low)
+
+    @cached_property
     def least_discriminant(self) -> Any:
         """The least discriminant over the whole sweep, also between its crank angles, ``(..., 1)``.
 
         Above 0 both branches are continuous over the sweep and never meet.
         """
-        low = self.crank_angle.min(-1, keepdims=True)
-        span = self.crank_angle.max(-1, keepdims=True) - low
-        extremes = low + np.mod(self.linkage.extreme_angles - low, 2 * np.pi)
-        swept = np.where(extremes <= low + span, extremes, low)
-        between = self.linkage.discriminant(swept).min(-1, keepdims=True)
+        between = self.linkage.discriminant(self._extremes_passed).min(-1, keepdims=True)
         return np.minimum(self.discriminant.min(-1, keepdims=True), between)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Boxes: space that a linkage may use, or that it must leave free."""
+"""Boxes: space that the centre lines of a linkage may use, or that they must leave free."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Views of an RSSR linkage: the linkage in space on a turntable, and its curves over the crank angle.
 
-The crank is blue, the rocker orange; vermilion is where the crank cannot go.
+The crank is blue, the rocker orange; vermilion is where the crank cannot go, and a box that a link breaks.
 """
 
 from __future__ import annotations
@@ -68,25 +68,27 @@ def linkage_in_space(
     scene.look()
     _ground(scene, here)
     _sweeps(scene, analysis)
+    edges = []
     if inside is not None:
-        _box(scene, inside, broken=room_in(inside)(analysis) < 0)
+        edges.append(_box(scene, inside, broken=room_in(inside)(analysis) < 0))
     if outside is not None:
-        _box(scene, outside, broken=clearance_from(outside)(analysis) < 0)
+        edges.append(_box(scene, outside, broken=clearance_from(outside)(analysis) < 0))
     _door(scene, here)
     _links(scene, here)
     _pressure_angles_at(scene, here)
     text(ax, "numbers", 0.0, 0.99, _numbers(here), transform=ax.transAxes, va="top", color=INK, zorder=20)
-    if ax.get_legend() is None:
-        by_name = {str(artist.get_label()): artist for artist in ax.lines}
-        frames = [Line2D([], [], color=GREY, linewidth=1.2, label=box.name) for box in boxes]
-        ax.legend(
-            handles=[by_name[name] for name in LEGEND] + frames,
-            loc="upper center",
-            bbox_to_anchor=(0.5, 0.0),
-            ncols=3,
-            columnspacing=1.6,
-        )
+    _legend(ax, edges)
     return ax
+
+
+def _legend(ax: Axes, edges: list[Line2D]) -> None:
+    """What the lines are, below the picture; the edges of the boxes in the colour that they have now."""
+    by_name = {str(artist.get_label()): artist for artist in ax.lines}
+    handles = [by_name[name] for name in LEGEND] + edges
+    place: Any = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3, "columnspacing": 1.6}
+    shown = (ax.get_legend() or ax.legend(handles=handles, **place)).get_lines()
+    for one, edge in zip(shown[len(shown) - len(edges) :], edges, strict=True):
+        one.set_color(edge.get_color())
 
 
 def _middle(analysis: Any) -> float:
@@ -145,11 +147,12 @@ def _sweeps(scene: Turntable, analysis: Any) -> None:
     scene.path("limits", limits, color=WARNING, linestyle="none", marker="o", markersize=6, zorder=5, label="_")
 
 
-def _box(scene: Turntable, box: Any, broken: bool) -> None:
+def _box(scene: Turntable, box: Any, broken: bool) -> Line2D:
     edges = scene.box(
         box.name, np.divide(box.low, mm), np.divide(box.high, mm), linewidth=1.2, zorder=3, label=box.name
     )
     edges.set_color(WARNING if broken else GREY)
+    return edges
 
 
 def _door(scene: Turntable, here: Any) -> None:

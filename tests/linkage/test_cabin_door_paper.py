@@ -26,6 +26,11 @@ def test_everything_printed_is_reproduced(comparison):
     assert len(verdicts) == {"optima": 3, "adams": 9}[comparison.__name__]
 
 
+def test_nobody_printed_the_optima():
+    assert "from 15 to 105 deg [deg]: evaluated apart 213.29848, computed 213.298476" in repr(paper.optima())
+    assert "printed" not in repr(paper.optima())
+
+
 def test_the_printed_closure_holds_at_right_angles_only():
     assert paper.printed_joint_distance(RSSR(), 1.0) == pytest.approx(180 * mm, abs=1e-12)
     assert abs(paper.printed_joint_distance(RSSR(axis_angle=80 * deg), 1.0) - 180 * mm) > 8 * mm

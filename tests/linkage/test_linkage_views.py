@@ -165,8 +165,8 @@ def test_a_box_turns_vermilion_when_a_link_breaks_it():
         linkage_in_space(design.analyse(), ax, inside=HOUSING)
         broken = room_in(HOUSING)(design.analyse()) < 0
         assert artist(ax, "the housing").get_color() == (WARNING if broken else GREY)
-    assert ax.get_legend().get_texts()[-1].get_text() == "the housing"
-    assert same_color(ax.get_legend().get_lines()[-1].get_color(), GREY)
+        assert ax.get_legend().get_texts()[-1].get_text() == "the housing"
+        assert same_color(ax.get_legend().get_lines()[-1].get_color(), WARNING if broken else GREY)
     optimum = rssr_study().design(np.array([80, 141.914, 130, 136.787, 100.344]) * mm)
     assert artist(shown(optimum, partial(linkage_in_space, outside=pipe)), "the pipe").get_color() == WARNING
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from camkit.linkage.cabin_door_paper import adams_linkage
 from camkit.linkage.rssr import RSSR, inclination
 from camkit.units import deg, mm
 
@@ -322,53 +323,46 @@ ADAMS = {0: (1.71, 1.16), 1: (1.69, 1.13), 5: (1.61, 1.02), 20: (1.39, 0.683), 6
 """ADAMS run beside Mech. Mach. Theory 142 (2019) 106163: crank turn [deg] -> alpha_c [rad], inverse torque ratio."""
 
 
-def adams_linkage():
-    """The sizes of that RSSR, and the turns that lead from its angles to ours.
+def rocker_turned(turned):
+    """``alpha_c`` of that RSSR, rad, without any linkage of ours: ``|D - A + C| = B``, solved near 1.71 rad.
 
-    It gives vectors: crank A = 201.6318 from the origin, frame D = 403.1627, rocker C = 201.6318 from the end of D,
-    coupler 350 between their ends, all mm.  Neither A nor C stands square to its axis: what is across the axis
-    is our crank and rocker, what is along it shifts our offset.  The crank turns clockwise about e1; the rocker
-    about x, by alpha_c from ``(-sin, cos, 0)`` of theta = 7.294 deg.  Our x axis is the common perpendicular.
+    Crank A = 201.6318 from the origin turns clockwise about e1 by ``turned`` (rad); frame D = 403.1627; rocker
+    C = 201.6318 from the end of D turns about x; coupler B = 350 between their ends, all mm.
     """
     theta = np.radians(7.294)
     e1 = np.array([0.009243, -0.951003, 0.309043])
-    e1, e3 = e1 / np.linalg.norm(e1), np.array([1.0, 0, 0])
-    a = 201.6318 * np.array([-0.379646, 0.400777, 0.833815])
     d = 403.1627 * np.array([0.524328, 0.835662, -0.163552])
-    c = 201.6318 * np.array([-np.sin(theta), np.cos(theta), 0])
+    a = 201.6318 * np.array([-0.379646, 0.400777, 0.833815])
+    a = Rotation.from_rotvec(-turned * e1 / np.linalg.norm(e1)).apply(a)
 
-    normal = np.cross(e1, e3)
-    normal *= np.sign(normal @ d) / np.linalg.norm(normal)
-    # the feet of the common perpendicular: t e1 + h normal = d + u e3
-    t, h, u = np.linalg.solve(np.transpose([e1, normal, -e3]), d)
-    across_a, across_c = a - (a @ e1) * e1, c - (c @ e3) * e3
-    linkage = RSSR(
-        crank=np.linalg.norm(across_a) * mm,
-        coupler=350 * mm,
-        rocker=np.linalg.norm(across_c) * mm,
-        crank_offset=(a @ e1 - t) * mm,
-        rocker_offset=(c @ e3 - u) * mm,
-        axis_distance=h * mm,
-        # e3 = (0, sin L, cos L) in the frame of normal, e1 x normal, e1
-        axis_angle=np.arctan2(e3 @ np.cross(e1, normal), e3 @ e1),
-    )
+    def gap(alpha):
+        c = [-np.sin(theta), np.cos(theta) * np.cos(alpha), np.cos(theta) * np.sin(alpha)]
+        return np.linalg.norm(d - a + 201.6318 * np.array(c)) - 350
 
-    def about(axis, vector):
-        return np.arctan2(vector @ np.cross(axis, normal), vector @ normal)
-
-    return linkage, about(e1, across_a), about(e3, across_c)
+    return brentq(gap, 0.8, 2.2, xtol=1e-14)
 
 
 @pytest.mark.parametrize("turned", ADAMS)
 def test_an_adams_run(turned):
+    """The vectors turned directly against the linkage that camkit makes of them, and against what is printed."""
     linkage, crank_zero, rocker_zero = adams_linkage()
-    clockwise = crank_zero - np.linspace(0, turned, 30 * turned + 1) * deg
-    both = [linkage.analyse(clockwise, branch) for branch in (1, -1)]
-    a = min(both, key=lambda a: abs(same_angle(a.rocker_angle[0] - rocker_zero, 1.71)))
-    alpha_c, torque_ratio = ADAMS[turned]
-    if alpha_c:
-        assert float(f"{same_angle(a.rocker_angle[-1], rocker_zero):.2f}") == alpha_c
-    assert float(f"{abs(a.ratio[-1]):.3g}") == torque_ratio
+    a = linkage.analyse(crank_zero - turned * deg)
+    alpha_c = rocker_turned(turned * deg)
+    h = 1e-5
+    slope = (rocker_turned(turned * deg + h) - rocker_turned(turned * deg - h)) / (2 * h)
+    assert same_angle(a.rocker_angle[0], rocker_zero) == pytest.approx(alpha_c, abs=1e-9)
+    assert -a.ratio[0] == pytest.approx(slope, abs=1e-8)  # the crank turns clockwise
+    printed_angle, printed_ratio = ADAMS[turned]
+    assert printed_angle is None or float(f"{alpha_c:.2f}") == printed_angle
+    assert float(f"{-slope:.3g}") == printed_ratio
+
+
+def test_the_adams_run_by_other_hands():
+    """Angles and slopes of the same equation, computed apart."""
+    turned = np.radians(list(ADAMS))
+    assert [rocker_turned(t) for t in turned[:4]] == pytest.approx([1.7073, 1.6872, 1.6123, 1.3921], abs=6e-5)
+    slopes = [(rocker_turned(t + 1e-5) - rocker_turned(t - 1e-5)) / 2e-5 for t in turned]
+    assert slopes == pytest.approx([-1.1646, -1.1328, -1.0174, -0.6828, -0.01026], abs=6e-5)
 
 
 def test_the_printed_closure_holds_at_right_angles_only():
