@@ -1,11 +1,13 @@
 """How many evaluations different optimisers need: measures camkit/reference/optimiser_comparison.json anew.
 
     python benchmarks/compare_optimisers.py
+    python benchmarks/compare_optimisers.py --methods "GA (pymoo)"      measures these alone, the others stay
 
 Every method searches every problem once for each seed, with the same budget of evaluations.  What counts is the
 number of designs evaluated until the best feasible one so far lies within each target above the known optimum.
 A design asked for twice in a row of questions (objective, then limits) counts once.  Methods keep the defaults of
-their library; those that end before the budget is spent start again from another random design.
+their library but where their function or `METHODS` says otherwise; those that end before the budget is spent start
+again from another random design.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ import contextlib
 import json
 import os
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -126,7 +128,10 @@ def slsqp(study: CountedStudy, seed: int) -> None:
 
 
 def scipy_de(study: CountedStudy, seed: int) -> None:
-    """Differential evolution best/1/bin, 15 designs for each free value (scipy); it goes on without a last polish."""
+    """Differential evolution best/1/bin, CR 0.7, 15 designs for each free value (scipy).
+
+    It goes on until the budget is spent (``tol=0``), without a last descent (``polish=False``).
+    """
     ask = Scaled(study)
     differential_evolution(
         lambda u: ask(u)[0],
@@ -175,6 +180,7 @@ METHODS: dict[str, Callable[[CountedStudy, int], None]] = {
     "penalty method": penalty,
     "DE (scipy)": scipy_de,
     "DE (pymoo)": partial(with_pymoo, DE),
+    "DE (pymoo), CR 0.7": partial(with_pymoo, partial(DE, CR=0.7)),
     "GA (pymoo)": partial(with_pymoo, GA),
     "competitive": partial(with_pymoo, CompetitiveAlgorithm),
     "competitive, narrowing": partial(with_pymoo, partial(CompetitiveAlgorithm, narrowing=0.9)),
@@ -205,15 +211,9 @@ def described(problem: Problem) -> dict[str, float]:
     return {"free": len(study.free), "limits": len(study.limits), "optimum": problem.optimum, "feasible_share": share}
 
 
-def compare(seeds: int = SEEDS, processes: int = 2) -> dict[str, Any]:
-    """Every method on every problem; what the data file holds."""
-    tasks = [(problem, method, seeds) for problem in PROBLEMS for method in METHODS]
-    with ProcessPoolExecutor(processes) as pool:
-        measured = dict(zip(tasks, pool.map(_trials, tasks), strict=True))
+def measured_with() -> dict[str, Any]:
+    """All that counts may depend on but problems and methods."""
     return {
-        "about": "evaluations until the best feasible design is within each target above the known optimum; "
-        "null: not within the budget",
-        "rebuild": "python benchmarks/compare_optimisers.py",
         "made_with": {
             "camkit": __version__,
             "python": platform.python_version(),
@@ -222,24 +222,55 @@ def compare(seeds: int = SEEDS, processes: int = 2) -> dict[str, Any]:
             "pymoo": pymoo.__version__,
             "machine": platform.machine(),
         },
-        "seeds": seeds,
         "budget": BUDGET,
         "tolerance": TOLERANCE,
         "targets": list(TARGETS),
+    }
+
+
+def measure(methods: Collection[str], seeds: int, processes: int) -> dict[str, dict[str, Any]]:
+    """Evaluations of some methods on every problem: for each problem and method a row for each target."""
+    tasks = [(problem, method, seeds) for problem in PROBLEMS for method in methods]
+    with ProcessPoolExecutor(processes) as pool:
+        measured = dict(zip(tasks, pool.map(_trials, tasks), strict=True))
+    return {p: {m: np.transpose(measured[p, m, seeds]).tolist() for m in methods} for p in PROBLEMS}
+
+
+def joined(known: dict[str, Any], measured: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """For each problem the methods in the order of `METHODS`, measured now or else known."""
+    rows = {problem: known.get(problem, {}) | measured[problem] for problem in PROBLEMS}
+    return {problem: {method: rows[problem][method] for method in METHODS} for problem in PROBLEMS}
+
+
+def data(seeds: int, evaluations: dict[str, Any]) -> dict[str, Any]:
+    """What the data file holds."""
+    return {
+        "about": "evaluations until the best feasible design is within each target above the known optimum; "
+        "null: not within the budget",
+        "rebuild": "python benchmarks/compare_optimisers.py",
+        "seeds": seeds,
+        **measured_with(),
         "problems": {name: described(problem) for name, problem in PROBLEMS.items()},
-        "evaluations": {
-            problem: {method: np.transpose(measured[problem, method, seeds]).tolist() for method in METHODS}
-            for problem in PROBLEMS
-        },
+        "evaluations": evaluations,
     }
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--methods", nargs="+", choices=METHODS, default=list(METHODS))
     parser.add_argument("--seeds", type=int, default=SEEDS)
     parser.add_argument("--out", type=Path, default=CACHE)
     arguments = parser.parse_args()
-    text = json.dumps(compare(arguments.seeds, min(2, os.cpu_count() or 1)), indent=1)
+    known: dict[str, Any] = {}
+    if set(arguments.methods) != set(METHODS):
+        old = json.loads(arguments.out.read_text(encoding="utf-8"))
+        now = {"seeds": arguments.seeds, **measured_with()}
+        changed = [name for name, value in now.items() if old[name] != value]
+        if changed:
+            parser.error(f"the other methods were measured with another {', '.join(changed)}: measure all of them")
+        known = old["evaluations"]
+    measured = measure(arguments.methods, arguments.seeds, min(2, os.cpu_count() or 1))
+    text = json.dumps(data(arguments.seeds, joined(known, measured)), indent=1)
     arguments.out.write_text(_in_rows(text) + "\n", encoding="utf-8")
 
 

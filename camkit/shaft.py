@@ -7,7 +7,7 @@ paper sizes outer diameter ``D`` and inner diameter ``d`` of the tube for the le
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from typing import Any
 
 import numpy as np
@@ -114,13 +114,14 @@ class UniversalJointShaft(Design):
         """``M = K_A P / omega`` in SI, N m."""
         return self.service_factor * self.power / self.speed
 
-    def stiff_diameter(self, inner_diameter: Any) -> Any:
-        """Outer diameter at which the twist is just what is allowed, m.
+    @property
+    def stiff_difference(self) -> Any:
+        """``D^4 - d^4`` at which the twist is just what is allowed, m^4: ``32 M / (pi G theta_p)``."""
+        return 32 * self.torque / (np.pi * self.shear_modulus * self.allowable_twist)
 
-        ``D = (32 M / (pi G theta_p) + d^4)^(1/4)``
-        """
-        stiffness = 32 * self.torque / (np.pi * self.shear_modulus * self.allowable_twist)
-        return (stiffness + inner_diameter**4) ** 0.25
+    def stiff_diameter(self, inner_diameter: Any) -> Any:
+        """Outer diameter at which the twist is just what is allowed, m (see `stiff_difference`)."""
+        return (self.stiff_difference + inner_diameter**4) ** 0.25
 
     @property
     def twist_governs_below(self) -> Any:
@@ -235,35 +236,10 @@ class ShaftAnalysis:
             "buckling": self.buckling_utilisation,
         }
 
-    @cached_property
-    def plane(self) -> Plane:
-        """The paper's problem with this shaft's data, over the plane of both diameters; for one design."""
-        inside = np.clip(
-            [self.shaft.outer_diameter, self.shaft.inner_diameter], *np.transpose(list(PAPER_SPACE.values()))
-        )
-        start = self.shaft.replace(outer_diameter=float(inside[0]), inner_diameter=float(inside[1]))
-        return Plane(shaft_study(start), PLANE_WINDOW)
-
-    @cached_property
-    def lightest(self) -> np.ndarray:
-        """Both diameters of `lightest_shaft`, ``(2,)`` m; ``nan`` where it does not hold within the paper's bounds."""
-        low, high = np.transpose(list(PAPER_SPACE.values()))
-        try:
-            tube = lightest_shaft(self.shaft, float(high[1]))
-        except ValueError:
-            return np.full(2, np.nan)
-        x = np.array([tube.outer_diameter, tube.inner_diameter])
-        return x if ((low <= x) & (x <= high)).all() else np.full(2, np.nan)
-
-    @cached_property
-    def standard_tubes(self) -> dict[str, np.ndarray]:
-        """The sizes of each series of `standard_tubes`, by the series' name."""
-        return {series: standard_tubes(series) for series in TUBE_FILES}
-
-    @cached_property
-    def nearest_tubes(self) -> dict[str, UniversalJointShaft]:
-        """The shaft with the `nearest_tube` of each series, by the series' name; for one design."""
-        return {series: nearest_tube(self.shaft, tubes) for series, tubes in self.standard_tubes.items()}
+    @property
+    def sizes(self) -> TubeSizes:
+        """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
+        return _sizes(self.shaft.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
 
 
 def _measure(name: str, unit: str, attribute: str) -> Measure:
@@ -292,7 +268,10 @@ UTILISATIONS = (shear_utilisation, twist_utilisation, speed_utilisation, bucklin
 MARGINS = tuple(_margin(use) for use in UTILISATIONS)
 """What each limit leaves."""
 
-SHAFT_MEASURES = (tube_area, tube_mass, shear_stress, twist, critical_speed, buckling_stress, *UTILISATIONS, *MARGINS)
+TUBE_NUMBERS = (tube_area, tube_mass, shear_stress, twist, critical_speed, buckling_stress, *UTILISATIONS)
+"""What a designer of the tube wants to read."""
+
+SHAFT_MEASURES = (*TUBE_NUMBERS, *MARGINS)
 """Every measure of the tube, for tables."""
 
 PAPER_SPACE = {"outer_diameter": (108 * mm, 140 * mm), "inner_diameter": (87 * mm, 103 * mm)}
@@ -322,27 +301,34 @@ def shaft_study(start: UniversalJointShaft | None = None, *, space: Any = None) 
     )
 
 
-def lightest_shaft(
-    start: UniversalJointShaft | None = None, max_inner_diameter: float = 103 * mm
-) -> UniversalJointShaft:
-    """The lightest tube in closed form, where the twist governs.
+def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Any = None) -> UniversalJointShaft:
+    """The lightest tube within bounds (``space`` as in `shaft_study`), in closed form where the twist governs.
 
     Stiffness fixes ``D^4 - d^4``, so the area ``pi/4 (D^4 - d^4) / (D^2 + d^2)`` falls as the bore grows: the
-    bore is the widest that is allowed, and the outer diameter follows (`UniversalJointShaft.stiff_diameter`).
+    bore is the widest that is allowed, or that leaves a tube of the widest ``D`` stiff enough.  The outer diameter
+    follows (`UniversalJointShaft.stiff_diameter`); where it would be below its bound it is there.
 
     >>> tube = lightest_shaft()
     >>> print(f"{tube.outer_diameter / mm:.6f} mm, {tube.analyse().area / mm**2:.6f} mm^2")
     129.190698 mm, 4776.191895 mm^2
 
-    Raises ``ValueError`` where another limit than the twist governs.
+    Raises ``ValueError`` where no tube within the bounds is stiff enough, or another limit than the twist governs.
     """
-    start = start or UniversalJointShaft()
-    tube = start.replace(outer_diameter=start.stiff_diameter(max_inner_diameter), inner_diameter=max_inner_diameter)
+    start, space = start or UniversalJointShaft(), space or PAPER_SPACE
+    (narrowest, widest), (least_bore, bore) = space["outer_diameter"], space["inner_diameter"]
+    if widest**4 - least_bore**4 < start.stiff_difference:
+        stiffest = start.replace(outer_diameter=widest, inner_diameter=least_bore).analyse()
+        raise ValueError(
+            f"even the stiffest tube within the bounds, {widest / mm:.6g} mm outside and {least_bore / mm:.6g} mm "
+            f"inside, takes {100 * stiffest.twist_utilisation:.4g} % of its limit on twist"
+        )
+    bore = min(bore, (widest**4 - start.stiff_difference) ** 0.25)
+    tube = start.replace(outer_diameter=max(start.stiff_diameter(bore), narrowest), inner_diameter=bore)
     others = {name: use for name, use in tube.analyse().utilisation.items() if name != "twist"}
     worst = max(others, key=others.__getitem__)
     if others[worst] > 1:
         raise ValueError(
-            f"the tube that just keeps the twist takes {100 * others[worst]:.4g} % of its limit on {worst}; "
+            f"the lightest tube that keeps the twist takes {100 * others[worst]:.4g} % of its limit on {worst}; "
             "the closed form holds where the twist governs"
         )
     return tube
@@ -353,7 +339,7 @@ TUBE_FILES = {"EN 10210-2": "tubes_en10210", "GB/T 17395": "tubes_gbt17395"}
 
 
 def standard_tubes(series: str = "EN 10210-2") -> np.ndarray:
-    """Outer and inner diameters of the standard tubes that mills sell, ``(n, 2)``, m.
+    """Outer and inner diameters of the standard tubes of a series, ``(n, 2)``, m.
 
     ``series``: ``"EN 10210-2"`` (hot finished, metric of inch sizes) or ``"GB/T 17395"`` (seamless); the data files
     in ``camkit/reference`` say where the sizes come from.
@@ -367,13 +353,32 @@ def standard_tubes(series: str = "EN 10210-2") -> np.ndarray:
     return np.array([(float(D), round(float(D) - 2 * t, 6)) for D, row in walls.items() for t in row]) * mm
 
 
+def tubes_that_hold(shaft: UniversalJointShaft, tubes: np.ndarray) -> np.ndarray:
+    """Those of some tubes, ``(n, 2)`` m, with which ``shaft`` keeps every limit, whatever bounds there are.
+
+    >>> len(tubes_that_hold(UniversalJointShaft(), standard_tubes()))
+    52
+    """
+    analysis = shaft.replace(outer_diameter=tubes[:, :1], inner_diameter=tubes[:, 1:]).analyse()
+    return tubes[np.max(list(analysis.utilisation.values()), axis=0)[:, 0] <= 1]
+
+
 def nearest_tube(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJointShaft:
-    """``shaft`` with the standard tube whose two diameters lie nearest, whether it keeps the limits or not.
+    """``shaft`` with the standard tube whose two diameters lie nearest among those that keep every limit.
 
     >>> tube = nearest_tube(UniversalJointShaft(), standard_tubes("GB/T 17395"))
     >>> print(f"{tube.outer_diameter / mm:.0f} x {tube.inner_diameter / mm:.0f} mm")
-    127 x 101 mm
+    133 x 101 mm
+
+    Raises ``ValueError`` if there is none.
     """
+    holding = tubes_that_hold(shaft, tubes)
+    if not len(holding):
+        raise ValueError(f"none of the {len(tubes)} standard tubes keeps every limit")
+    return _with_nearest(shaft, holding)
+
+
+def _with_nearest(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJointShaft:
     gap = np.hypot(tubes[:, 0] - shaft.outer_diameter, tubes[:, 1] - shaft.inner_diameter)
     D, d = tubes[np.argmin(gap)]
     return shaft.replace(outer_diameter=float(D), inner_diameter=float(d))
@@ -393,3 +398,46 @@ def lightest_tube(study: Study, tubes: np.ndarray) -> UniversalJointShaft:
             f"{low[1] / mm:.4g} to {high[1] / mm:.4g} mm inside keeps every limit"
         )
     return study.design(inside[np.argmin(np.where(evaluation.feasible, evaluation.f[:, 0], np.inf))])
+
+
+@dataclass(frozen=True)
+class TubeSizes:
+    """Which diameters a shaft's power, speeds, length and material allow; its own diameters do not matter.
+
+    >>> sizes = UniversalJointShaft().analyse().sizes
+    >>> (1e3 * sizes.lightest).round(4).tolist(), sizes is UniversalJointShaft(inner_diameter=90*mm).analyse().sizes
+    ([129.1907, 103.0], True)
+    """
+
+    shaft: UniversalJointShaft
+
+    @cached_property
+    def plane(self) -> Plane:
+        """The paper's problem over the plane of both diameters."""
+        return Plane(shaft_study(self.shaft), PLANE_WINDOW)
+
+    @cached_property
+    def lightest(self) -> np.ndarray:
+        """Both diameters of `lightest_shaft`, ``(2,)`` m; ``nan`` where there is none in closed form."""
+        try:
+            tube = lightest_shaft(self.shaft)
+        except ValueError:
+            return np.full(2, np.nan)
+        return np.array([tube.outer_diameter, tube.inner_diameter])
+
+    @cached_property
+    def standard_tubes(self) -> dict[str, np.ndarray]:
+        """The sizes of each series of `standard_tubes`, by the series' name."""
+        return {series: standard_tubes(series) for series in TUBE_FILES}
+
+    @cached_property
+    def holding(self) -> dict[str, np.ndarray]:
+        """`tubes_that_hold` of each series."""
+        return {series: tubes_that_hold(self.shaft, tubes) for series, tubes in self.standard_tubes.items()}
+
+    def nearest(self, shaft: UniversalJointShaft) -> dict[str, UniversalJointShaft | None]:
+        """The `nearest_tube` of each series to a shaft with this data; ``None`` where no tube keeps every limit."""
+        return {series: _with_nearest(shaft, t) if len(t) else None for series, t in self.holding.items()}
+
+
+_sizes = lru_cache(maxsize=16)(TubeSizes)

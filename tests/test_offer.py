@@ -66,8 +66,8 @@ def test_the_other_numbers_stay_when_the_material_changes(panel) -> None:
 def test_a_button_snaps_to_the_nearest_tube(panel) -> None:
     panel.buttons["snap"].click()
     design = panel.explorer.design
-    assert (design.outer_diameter / mm, design.inner_diameter / mm) == pytest.approx((127, 101))
-    assert panel.explorer.controls["outer_diameter"].box.value == 127
+    assert (design.outer_diameter / mm, design.inner_diameter / mm) == pytest.approx((133, 101))
+    assert panel.explorer.controls["outer_diameter"].box.value == 133
     panel.buttons["snap"].click()
     assert panel.explorer.design == design
 
@@ -96,3 +96,11 @@ def test_it_has_the_explorers_picture(panel) -> None:
     data = bundle[0] if isinstance(bundle, tuple) else bundle
     assert data["text/plain"] == panel.explorer.summary()
     assert data["image/png"]
+
+
+def test_a_menu_with_an_option_that_cannot_be_made_is_shown_and_refuses_it_in_a_sentence() -> None:
+    app = explore(UniversalJointShaft(), utilisation, measures=(tube_area,), width=5.0, height=3.0)
+    panel = offer(app, {"bore": {"none": lambda shaft: shaft.replace(inner_diameter=-1 * mm), "as it is": lambda s: s}})
+    assert panel.menus["bore"].label == "as it is"
+    panel.menus["bore"].label = "none"
+    assert "This cannot be offered: the inner diameter" in said(panel)

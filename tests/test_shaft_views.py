@@ -86,8 +86,8 @@ def test_every_limits_curve_is_where_it_is_just_kept() -> None:
         for i in range(4):
             x = xy(ax, f"limit {i}").T * mm
             x = x[np.isfinite(x).all(axis=1)]
-            g = a.plane.study.evaluate(x).g[:, i] if len(x) else np.zeros(1)
-            assert abs(g).max() < 0.02, a.plane.measures[i].name
+            g = a.sizes.plane.study.evaluate(x).g[:, i] if len(x) else np.zeros(1)
+            assert abs(g).max() < 0.02, a.sizes.plane.measures[i].name
 
 
 @pytest.mark.parametrize("data", [{}, {"power": 330 * kW}, {"length": 3.3, "power": 150 * kW}])
@@ -171,13 +171,16 @@ def test_the_section_is_to_scale() -> None:
     assert np.hypot(*xy(ax, "outside")) == pytest.approx(128.64 / 2)
     assert np.hypot(*xy(ax, "inside")) == pytest.approx(101.78 / 2)
     assert ax.get_aspect() == 1
-    for series, tube in a.nearest_tubes.items():
+    for series, tube in a.sizes.nearest(a.shaft).items():
         radius = np.hypot(*xy(ax, series))
         assert np.nanmax(radius) == pytest.approx(tube.outer_diameter / mm / 2)
         assert np.nanmin(radius) == pytest.approx(tube.inner_diameter / mm / 2)
-    assert _find(ax, "GB/T 17395 size").get_text() == "nearest GB/T 17395: 127 × 13 mm"
+    assert _find(ax, "GB/T 17395 size").get_text() == "nearest GB/T 17395: 133 × 16 mm"
     section(OTHERS[2].analyse(), ax)
     assert ax.get_xlim()[1] > 130
+    section(UniversalJointShaft(max_speed=5000 * rpm, length=5.0).analyse(), ax)
+    assert _find(ax, "GB/T 17395 size").get_text() == "no GB/T 17395 tube keeps every limit"
+    assert np.isnan(xy(ax, "GB/T 17395")).all()
 
 
 def test_named_tubes_on_a_part_of_the_plane() -> None:

@@ -67,13 +67,20 @@ class Offers(Panel):
         self._silent = True
         try:
             for menu in self.menus.values():
-                menu.value = next((change for _, change in menu.options if change(design) == design), None)
+                menu.value = next((change for _, change in menu.options if _leads_to(change, design)), None)
         finally:
             self._silent = False
 
     def summary(self) -> str:
         """The explorer's numbers."""
         return self.explorer.summary()
+
+
+def _leads_to(change: Change, design: Any) -> bool:
+    try:
+        return bool(change(design) == design)
+    except ValueError:  # an offer that cannot be made now
+        return False
 
 
 def offer(

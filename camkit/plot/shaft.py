@@ -49,8 +49,9 @@ def _millimetres(shaft: Any) -> list[list[float]]:
 def diameters(analysis: Any, ax: Axes) -> Axes:
     """The plane of both diameters: limits, area, the paper's bounds, standard tubes, the lightest tube and this one."""
     first = new(ax)
-    design_plane(analysis.plane, ax, _limit_names(analysis.shaft))
-    for (series, tubes), colour in zip(analysis.standard_tubes.items(), TUBE_COLOURS, strict=True):
+    sizes = analysis.sizes
+    design_plane(sizes.plane, ax, _limit_names(analysis.shaft))
+    for (series, tubes), colour in zip(sizes.standard_tubes.items(), TUBE_COLOURS, strict=True):
         line(
             ax,
             series,
@@ -62,7 +63,7 @@ def diameters(analysis: Any, ax: Axes) -> Axes:
             zorder=2,
             label=series,
         )
-    line(ax, "closed form", *(analysis.lightest[:, None] / mm), linestyle="none", marker="+", markersize=15, color=INK,
+    line(ax, "closed form", *(sizes.lightest[:, None] / mm), linestyle="none", marker="+", markersize=15, color=INK,
          markeredgewidth=1.6, zorder=6.5, label="in closed form")  # fmt: skip
     broken = max(analysis.utilisation.values()) > 1
     point = line(
@@ -85,7 +86,7 @@ def on_the_plane(tubes: Mapping[str, Any], window: Any) -> Callable[[Any, Axes],
     """A view of part of the plane of both diameters (``window``, ``(2, 2)`` m) with named tubes on it."""
 
     def marked(analysis: Any, ax: Axes) -> Axes:
-        design_plane(replace(analysis.plane, window=window), ax, _limit_names(analysis.shaft))
+        design_plane(replace(analysis.sizes.plane, window=window), ax, _limit_names(analysis.shaft))
         for (name, shaft), colour in zip(tubes.items(), COLOURS, strict=False):
             (x,), (y,) = _millimetres(shaft)
             line(ax, name, [x], [y], markersize=12, color=colour, markeredgecolor="white", **POINT)
@@ -113,7 +114,7 @@ def utilisation(analysis: Any, ax: Axes) -> Axes:
 
 
 def section(analysis: Any, ax: Axes) -> Axes:
-    """The tube's section to scale, with the nearest standard tube of each series around it."""
+    """The tube's section to scale, with the nearest standard tube of each series that keeps every limit."""
     shaft = analysis.shaft
     D, d = shaft.outer_diameter / mm, shaft.inner_diameter / mm
     first = new(ax)
@@ -126,7 +127,8 @@ def section(analysis: Any, ax: Axes) -> Axes:
     area(ax, "wall", np.hstack([outer, inner[:, ::-1]]), facecolor=SKY, alpha=0.55, edgecolor="none", zorder=2)
     for key, edge in (("outside", outer), ("inside", inner)):
         line(ax, key, *edge, color=BLUE, linewidth=2, zorder=3)
-    for (series, tube), colour, y in zip(analysis.nearest_tubes.items(), TUBE_COLOURS, (-0.24, -0.33), strict=True):
+    nearest = analysis.sizes.nearest(shaft)
+    for (series, tube), colour, y in zip(nearest.items(), TUBE_COLOURS, (-0.24, -0.33), strict=True):
         _standard(ax, series, tube, colour, y)
     text(
         ax,
@@ -142,13 +144,15 @@ def section(analysis: Any, ax: Axes) -> Axes:
 
 
 def _standard(ax: Axes, series: str, tube: Any, colour: str, y: float) -> None:
-    """The outlines of a standard tube, its size told at the height ``y`` below the axes."""
-    D, d = tube.outer_diameter / mm, tube.inner_diameter / mm
-    both = np.hstack([circle((0, 0), D / 2), [[np.nan], [np.nan]], circle((0, 0), d / 2)])
+    """The outlines of a standard tube, its size told at the height ``y`` below the axes; ``None``: that none holds."""
+    both, words = np.full((2, 1), np.nan), f"no {series} tube keeps every limit"
+    if tube is not None:
+        D, d = tube.outer_diameter / mm, tube.inner_diameter / mm
+        both = np.hstack([circle((0, 0), D / 2), [[np.nan], [np.nan]], circle((0, 0), d / 2)])
+        words = f"nearest {series}: {D:.5g} × {(D - d) / 2:.4g} mm"
     line(ax, series, *both, color=colour, linewidth=1.3, linestyle="--", zorder=4)
     below: Any = {"transform": ax.transAxes, "clip_on": False}
     line(ax, f"{series} sample", [0.0, 0.10], [y, y], color=colour, linewidth=1.6, linestyle="--", **below)
-    words = f"nearest {series}: {D:.5g} × {(D - d) / 2:.4g} mm"
     text(ax, f"{series} size", 0.13, y, words, va="center", color=INK, fontsize=9.5, **below)
 
 

@@ -15,6 +15,7 @@ STYLES: Any = (
     {"color": SKY, "linestyle": "--"},
     {"color": GREEN},
     {"color": GREEN, "linestyle": "--"},
+    {"color": GREEN, "linestyle": "-."},
     {"color": ORANGE},
     {"color": PURPLE},
     {"color": PURPLE, "linestyle": "--"},
@@ -45,7 +46,7 @@ def evaluations_needed(trials: Sequence[Any], ax: Axes) -> Axes:
         ax.axvline(budget, color=GREY, linewidth=1.2)
         ax.text(0.93 * budget, 0.62, "budget", ha="right", va="center", color=GREY, fontsize=9.5)
         ax.text(2.4 * budget, 0.62, "runs that arrived", ha="center", va="center", color=GREY, fontsize=9.5)
-    for i, (one, style) in enumerate(zip(trials, STYLES, strict=False)):
+    for i, (one, style) in enumerate(zip(trials, STYLES[: len(trials)], strict=True)):
         for target, y, fill in zip(TARGETS, (0.2 - i, -0.2 - i), (style["color"], "white"), strict=True):
             _box(ax, f"{i} {target}", y, one, target, style["color"], fill)
     return ax
@@ -81,7 +82,7 @@ def solved_within(target: float, problem: str | None = None) -> Callable[[Sequen
     def shares(trials: Sequence[Any], ax: Axes) -> Axes:
         first, budget = new(ax), trials[0].budget
         methods = dict.fromkeys(t.method for t in trials)
-        for method, style in zip(methods, STYLES, strict=False):
+        for method, style in zip(methods, STYLES[: len(methods)], strict=True):
             mine = [t for t in trials if t.method == method and problem in (None, t.problem)]
             needed = np.sort(np.concatenate([t.to(target) for t in mine]))
             line(ax, method, *_steps(needed, budget), drawstyle="steps-post", label=method, **style)
