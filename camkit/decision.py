@@ -1,16 +1,20 @@
-"""From judgements to weights, and from a front to one design.
+"""From judgements to weights, and from a front to one design; and how sure that choice is.
 
-`ahp` is Saaty's analytic hierarchy process.  The choosers take a front (anything with an ``f``, or the array
-itself: ``(p, k)``, every objective to be small) and return the index of the chosen design.
+`ahp` is Saaty's analytic hierarchy process; not every pair needs to be judged.  The choosers take a front (anything
+with an ``f``, or the array itself: ``(p, k)``, every objective to be small) and return the index of the chosen design:
+one for weights ``(k,)``, an array ``(m,)`` for many at once ``(m, k)``.  `judgement_ranges` says how far each judgement
+may move before another design wins, `winner_map` which design wins at which weights.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
+from scipy.sparse.csgraph import connected_components
 
 RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
 """Saaty (1980): mean consistency index of random reciprocal matrices of order 1..10."""
@@ -18,14 +22,27 @@ RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
 SAATY_SCALE = (*(1 / k for k in range(9, 1, -1)), *map(float, range(1, 10)))
 """The judgements that Saaty's scale knows, 1/9 .. 9."""
 
+ROUNDS, SETTLED = 1000, 1e-13
+"""How often missing judgements are improved at most, and by which share the last round may still move them."""
+
 
 @dataclass(frozen=True)
 class Judgement:
-    """What follows from a matrix of pairwise judgements; unpacks as weights and consistency ratio."""
+    """What follows from a matrix of pairwise judgements; unpacks as weights and consistency ratio.
+
+    ``matrix`` is ``nan`` where nobody has judged; ``completed`` holds there what contradicts the others least (see
+    `completed`).
+    """
 
     matrix: np.ndarray
+    completed: np.ndarray
     weights: np.ndarray
     lambda_max: float
+
+    @property
+    def missing(self) -> int:
+        """How many pairs nobody has judged."""
+        return int(np.isnan(self.matrix).sum()) // 2
 
     @property
     def consistency_index(self) -> float:
@@ -35,14 +52,19 @@ class Judgement:
 
     @property
     def consistency_ratio(self) -> float:
-        """Consistency index over Saaty's (1980) random index; above 0.1 the judgements contradict each other."""
-        random = RANDOM_INDEX[len(self.weights) - 1]
-        return self.consistency_index / random if random else 0.0
+        """Consistency index over Saaty's (1980) random index; above 0.1 the judgements contradict each other.
+
+        Fewer judgements contradict each other less, even at random: with ``m`` pairs missing the random index is
+        ``1 - 2 m / ((n - 1) (n - 2))`` of the full one (Agoston, Csato 2022).
+        """
+        n = len(self.weights)
+        random = RANDOM_INDEX[n - 1] * (1 - 2 * self.missing / ((n - 1) * (n - 2)) if n > 2 else 0)
+        return self.consistency_index / random if random > 1e-9 else 0.0
 
     @property
     def worst(self) -> tuple[int, int]:
         """Row and column of the judgement that lies farthest from what the weights say."""
-        gap = abs(np.log(self.matrix * self.weights / self.weights[:, None]))
+        gap = abs(np.log(self.completed * self.weights / self.weights[:, None]))
         i, j = np.unravel_index(np.argmax(np.triu(gap, 1)), gap.shape)
         return int(i), int(j)
 
@@ -53,10 +75,15 @@ class Judgement:
 def judgement_matrix(judgements: Any) -> np.ndarray:
     """The reciprocal matrix from itself or from its upper triangle, read row by row.
 
+    ``None`` or ``nan`` stands where nobody has judged.
+
     >>> judgement_matrix([4, 3, 1 / 2]).tolist()
     [[1.0, 4.0, 3.0], [0.25, 1.0, 0.5], [0.3333333333333333, 2.0, 1.0]]
+    >>> judgement_matrix([4, None, 1 / 2])[0].tolist()
+    [1.0, 4.0, nan]
 
-    Raises ``ValueError`` naming the entry that is missing, not positive or not reciprocal.
+    Raises ``ValueError`` naming the entry that is not positive or not reciprocal, or the criteria that no judgement
+    connects.
     """
     try:
         a = np.array(judgements, dtype=float)
@@ -68,8 +95,10 @@ def judgement_matrix(judgements: Any) -> np.ndarray:
         raise ValueError(f"the judgements have the shape {a.shape}; they must be a square matrix")
     if len(a) > len(RANDOM_INDEX):
         raise ValueError(f"there are {len(a)} criteria; Saaty's random index is known up to {len(RANDOM_INDEX)}")
+    with np.errstate(divide="ignore"):
+        a = np.where(np.isnan(a), np.where(np.eye(len(a), dtype=bool), 1, 1 / a.T), a)
     for i, j in np.ndindex(a.shape):
-        if not (np.isfinite(a[i, j]) and a[i, j] > 0):
+        if not (np.isnan(a[i, j]) or (np.isfinite(a[i, j]) and a[i, j] > 0)):
             raise ValueError(f"judgement ({i + 1}, {j + 1}) is {a[i, j]:g}; it must be a positive number")
     for i, j in np.ndindex(a.shape):
         if j >= i and abs(a[i, j] * a[j, i] - 1) > 1e-6:
@@ -77,7 +106,16 @@ def judgement_matrix(judgements: Any) -> np.ndarray:
                 f"judgement ({i + 1}, {j + 1}) is {a[i, j]:.6g} and ({j + 1}, {i + 1}) is {a[j, i]:.6g}; "
                 + ("the diagonal must be 1" if i == j else "one must be 1 over the other")
             )
+    _refuse_gaps(a)
     return a
+
+
+def _refuse_gaps(a: np.ndarray) -> None:
+    """Criteria that no chain of judgements connects have no weights among each other."""
+    groups, group = connected_components(~np.isnan(a), directed=False)
+    if groups > 1:
+        first, rest = (", ".join(map(str, np.flatnonzero(side) + 1)) for side in (group == 0, group != 0))
+        raise ValueError(f"no judgement connects criterion {first} with criterion {rest}; judge one such pair")
 
 
 def _from_upper(values: np.ndarray) -> np.ndarray:
@@ -90,29 +128,89 @@ def _from_upper(values: np.ndarray) -> np.ndarray:
         return np.where(np.tri(n, k=-1, dtype=bool), 1 / np.where(a.T == 0, np.nan, a.T), a)
 
 
+def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
+    """Weights ``(..., n)`` of reciprocal matrices ``(..., n, n)``, `completed` where nobody has judged.
+
+    ``"eigenvector"``: the principal eigenvector (Saaty 1980).  ``"geometric"``: the geometric means of the rows
+    (Crawford, Williams 1985).
+    """
+    if method not in METHODS:
+        raise ValueError(f"the method is {method!r}; there are {' and '.join(map(repr, METHODS))}")
+    w = METHODS[method](completed(matrices))
+    return np.asarray(w / w.sum(-1, keepdims=True))
+
+
+def completed(matrices: Any) -> np.ndarray:
+    """Reciprocal matrices ``(..., n, n)`` with the missing judgements (``nan``) that contradict the others least.
+
+    They are those with the least ``lambda_max`` (Bozoki, Fulop, Ronyai 2010: there is one such completion).  With the
+    eigenvectors ``x`` of the matrix and ``y`` of its transpose ``lambda_max`` does not change with ``a_ij`` where
+    ``y_i a_ij x_j = y_j a_ji x_i``; each round puts that ``a_ij`` in.
+
+    >>> completed([[1, 5, np.nan], [1 / 5, 1, 1], [np.nan, 1, 1]]).round(9)[0].tolist()
+    [1.0, 5.0, 5.0]
+    """
+    a = np.asarray(matrices, dtype=float)
+    known = ~np.isnan(a)
+    if known.all():
+        return a
+    full = np.where(known, a, _consistent(a, known))
+    for _ in range(ROUNDS):
+        x, y = _eigenvector(full), _eigenvector(np.swapaxes(full, -1, -2))
+        level = np.sqrt(x[..., :, None] * y[..., None, :] / (x[..., None, :] * y[..., :, None]))
+        before, full = full, np.where(known, a, level)
+        if np.allclose(full, before, rtol=SETTLED, atol=0):
+            break
+    return full
+
+
+def _consistent(a: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Ratios of weights that come nearest to the judgements that there are, in the squares of their logarithms."""
+    n = a.shape[-1]
+    laplacian = known.sum(-1)[..., None] * np.eye(n) - known
+    said = np.log(np.where(known, a, 1)).sum(-1)
+    # The weights' scale is free; a mean logarithm of 0 fixes it.
+    logs = np.linalg.solve(laplacian + 1 / n, said[..., None])
+    return np.asarray(np.exp(logs - np.swapaxes(logs, -1, -2)))
+
+
+def _eigenvector(a: np.ndarray) -> np.ndarray:
+    values, vectors = np.linalg.eig(a)
+    first = np.argmax(values.real, axis=-1)[..., None, None]
+    return np.asarray(abs(np.take_along_axis(vectors, first, axis=-1)[..., 0].real))
+
+
+def _geometric(a: np.ndarray) -> np.ndarray:
+    return np.asarray(np.exp(np.log(a).mean(-1)))
+
+
+METHODS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "eigenvector": _eigenvector,
+    "geometric": _geometric,
+}
+"""Ways from judgements to weights, by name."""
+
+
 def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
     """Weights and consistency of pairwise judgements (Saaty 1980).
 
     ``judgements[i][j]`` says how many times criterion ``i`` matters more than ``j``; a reciprocal matrix, or its
-    upper triangle row by row.  ``method``: ``"eigenvector"`` (principal eigenvector) or ``"geometric"`` (row
-    geometric means).
+    upper triangle row by row, with ``None`` where nobody has judged.  ``method``: ``"eigenvector"`` (principal
+    eigenvector) or ``"geometric"`` (row geometric means); see `judged_weights`.
 
     >>> weights, ratio = ahp([[1, 5, 5], [1 / 5, 1, 1], [1 / 5, 1, 1]])
     >>> (weights * 7).round(6).tolist(), round(ratio, 6)
     ([5.0, 1.0, 1.0], 0.0)
+    >>> (ahp([5, None, 1]).weights * 7).round(6).tolist()
+    [5.0, 1.0, 1.0]
 
-    Raises ``ValueError`` for a matrix that is not square, positive and reciprocal, naming the entry.
+    Raises ``ValueError`` for a matrix that is not square, positive and reciprocal, naming the entry, and for criteria
+    that no judgement connects.
     """
     a = judgement_matrix(judgements)
-    if method == "eigenvector":
-        values, vectors = np.linalg.eig(a)
-        w = abs(vectors[:, np.argmax(values.real)].real)
-    elif method == "geometric":
-        w = np.exp(np.log(a).mean(axis=1))
-    else:
-        raise ValueError(f"the method is {method!r}; there are 'eigenvector' and 'geometric'")
-    w = w / w.sum()
-    return Judgement(a, w, float(np.mean(a @ w / w)))
+    full = completed(a)
+    w = judged_weights(full, method)
+    return Judgement(a, full, w, float(np.mean(full @ w / w)))
 
 
 def _objectives(front: Any) -> np.ndarray:
@@ -132,11 +230,22 @@ def _weights(weights: Any, k: int) -> np.ndarray:
         w = np.full(k, 1 / k) if weights is None else np.asarray(weights, dtype=float)
     except (TypeError, ValueError):
         raise ValueError(f"the weights are {weights!r}; they must be numbers") from None
-    if w.shape != (k,):
-        raise ValueError(f"there are {w.size} weights for {k} objectives")
-    if not (np.isfinite(w).all() and (w >= 0).all() and w.sum() > 0):
+    if w.ndim not in (1, 2) or w.shape[-1] != k:
+        raise ValueError(f"there are {w.shape[-1] if w.ndim else 1} weights for {k} objectives")
+    if not (np.isfinite(w).all() and (w >= 0).all() and (w.sum(-1) > 0).all()):
         raise ValueError("the weights must be finite, none negative, not all 0")
-    return w / w.sum()
+    return w / w.sum(-1, keepdims=True)
+
+
+def _chosen(merit: np.ndarray) -> Any:
+    """The index of the largest merit, for each set of weights."""
+    best = np.argmax(merit, axis=-1)
+    return best if best.ndim else int(best)
+
+
+def _whatever_the_weights(index: int, weights: Any, k: int) -> Any:
+    """The same design for every set of weights."""
+    return index if _weights(weights, k).ndim == 1 else np.full(len(weights), index)
 
 
 def normalised(f: np.ndarray) -> np.ndarray:
@@ -145,28 +254,50 @@ def normalised(f: np.ndarray) -> np.ndarray:
     return (f - f.min(axis=0)) / np.where(span > 0, span, 1)
 
 
-def weighted_sum(front: Any, weights: Any = None) -> int:
+def weighted_sum(front: Any, weights: Any = None) -> Any:
     """The design with the least weighted sum of normalised objectives.
 
     >>> weighted_sum([[0, 1], [0.2, 0.2], [1, 0]])
     1
+    >>> weighted_sum([[0, 1], [0.2, 0.2], [1, 0]], [[1, 9], [1, 1], [9, 1]]).tolist()
+    [2, 1, 0]
     """
     f = _objectives(front)
-    return int(np.argmin(normalised(f) @ _weights(weights, f.shape[1])))
+    return _chosen(-_weights(weights, f.shape[1]) @ normalised(f).T)
 
 
-def topsis(front: Any, weights: Any = None) -> int:
+def topsis(front: Any, weights: Any = None) -> Any:
     """The design nearest the ideal and farthest from the worst (Hwang, Yoon 1981; normalised by the range).
 
     >>> topsis([[0, 1], [0.2, 0.2], [1, 0]])
     1
     """
     f = _objectives(front)
-    y = normalised(f) * _weights(weights, f.shape[1])
-    to_best = np.linalg.norm(y - y.min(axis=0), axis=1)
-    to_worst = np.linalg.norm(y - y.max(axis=0), axis=1)
+    y, squares = normalised(f), _weights(weights, f.shape[1]) ** 2
+    to_best, to_worst = (np.sqrt(squares @ ((y - end) ** 2).T) for end in (y.min(axis=0), y.max(axis=0)))
     total = to_best + to_worst
-    return int(np.argmax(np.divide(to_worst, total, out=np.ones_like(total), where=total > 0)))
+    return _chosen(np.divide(to_worst, total, out=np.ones_like(total), where=total > 0))
+
+
+def knee(front: Any, weights: Any = None) -> Any:
+    """The design farthest from the plane through the best of each objective, towards the ideal (Das 1999).
+
+    Beyond it a little more of one wish costs much of another.  Objectives are normalised.  Of two objectives the plane
+    is the line between the front's ends, and the knee is where a weighted sum with equal weights is least.  Where the
+    best designs are no corners of a plane that faces the ideal, the plane meets every axis at 1.  ``weights`` are not
+    used; they are there so that every chooser is called alike.
+
+    >>> knee([[0, 1], [0.1, 0.3], [0.5, 0.2], [1, 0]])
+    1
+    """
+    f = _objectives(front)
+    y = normalised(f)
+    corners = y[np.argmin(y, axis=0)]
+    normal = np.ones(len(corners))
+    if np.linalg.matrix_rank(corners) == len(corners):
+        through = np.linalg.solve(corners, normal)
+        normal = through if (through > 0).all() else normal
+    return _whatever_the_weights(int(np.argmin(y @ normal)), weights, f.shape[1])
 
 
 def crowding_distance(f: Any) -> np.ndarray:
@@ -181,7 +312,7 @@ def crowding_distance(f: Any) -> np.ndarray:
     return distance
 
 
-def crowding(front: Any, weights: Any = None) -> int:
+def crowding(front: Any, weights: Any = None) -> Any:
     """The inner design that stands most alone on the front, the way in which the door-handle paper chooses.
 
     ``weights`` are not used; they are there so that every chooser is called alike.
@@ -192,8 +323,136 @@ def crowding(front: Any, weights: Any = None) -> int:
     f = _objectives(front)
     distance = crowding_distance(f)
     inner = np.isfinite(distance)
-    return int(np.argmax(np.where(inner, distance, -1))) if inner.any() else 0
+    alone = int(np.argmax(np.where(inner, distance, -1))) if inner.any() else 0
+    return _whatever_the_weights(alone, weights, f.shape[1])
 
 
-CHOOSERS = {"crowding distance": crowding, "weighted sum": weighted_sum, "TOPSIS": topsis}
+CHOOSERS = {"crowding distance": crowding, "weighted sum": weighted_sum, "TOPSIS": topsis, "knee": knee}
 """The ways to choose, by the name that a menu shows."""
+
+WEIGHING = ("weighted sum", "TOPSIS")
+"""Those of them that ask for weights."""
+
+
+# ---------------------------------------------------------------- how sure a choice is
+
+Chooser = Callable[[Any, Any], Any]
+
+LEAST, MOST = SAATY_SCALE[0], SAATY_SCALE[-1]
+STEPS = 100
+"""Steps from a judgement to either end of Saaty's scale, looked at for another winner."""
+HALVINGS = 30
+"""How often the step in which the winner changes is halved: to better than 1e-9 of the judgement."""
+
+
+@dataclass(frozen=True)
+class JudgementRange:
+    """How far one judgement may move, all others staying, before another design wins.
+
+    The winner stays while the judgement of criteria ``pair`` is between ``low`` and ``high``; ``below`` and ``above``
+    are the designs that win beyond them, ``None`` where the winner stays to the end of Saaty's scale, 1/9 or 9.
+    ``judged`` is the judgement now; where nobody has judged, what the others imply.
+    """
+
+    pair: tuple[int, int]
+    judged: float
+    low: float
+    high: float
+    below: int | None
+    above: int | None
+
+
+def judgement_ranges(
+    front: Any, judgements: Any, choose: Chooser = weighted_sum, method: str = "eigenvector"
+) -> tuple[JudgementRange, ...]:
+    """How far each judgement of the objectives may move before ``choose`` takes another design.
+
+    Each judgement is moved by itself on the continuous scale 1/9 .. 9, in even steps of its logarithm; the step in
+    which the winner changes is then halved.  A design that wins for less than a step (1/100 of the way to the scale's
+    end) may be passed over.
+
+    >>> two = judgement_ranges([[0, 1], [0.2, 0.2], [1, 0]], [1])[0]  # 0.2 w1 + 0.2 w2 < w2 where w1 < 4 w2
+    >>> two.pair, round(two.low, 6), round(two.high, 6), two.below, two.above
+    ((0, 1), 0.25, 4.0, 2, 0)
+
+    Raises ``ValueError`` if there are not as many criteria as objectives.
+    """
+    judged = ahp(judgements, method)
+    winner = choose(front, judged.weights)
+    pairs = list(combinations(range(len(judged.weights)), 2))
+    if not pairs:
+        return ()
+    now = np.array([judged.completed[pair] for pair in pairs])
+    ends = np.stack([np.minimum(now, LEAST), np.maximum(now, MOST)], axis=-1)
+
+    def winners(values: np.ndarray) -> np.ndarray:
+        """Who wins when each pair is judged ``values``, ``(pairs, 2, m)``."""
+        weights = judged_weights(_rejudged(judged.matrix, pairs, values), method)
+        return np.reshape(choose(front, weights.reshape(-1, weights.shape[-1])), values.shape)
+
+    share = np.linspace(0, 1, STEPS + 1)
+    values = now[:, None, None] ** (1 - share) * ends[..., None] ** share
+    others = winners(values) != winner
+    first = np.maximum(np.argmax(others, axis=-1), 1)[..., None]
+    stays, goes = (np.take_along_axis(values, first - back, axis=-1) for back in (1, 0))
+    for _ in range(HALVINGS):
+        middle = np.sqrt(stays * goes)
+        same = winners(middle) == winner
+        stays, goes = np.where(same, middle, stays), np.where(same, goes, middle)
+    changes, next_ = others.any(-1), winners(goes)[..., 0]
+    far = np.where(changes, stays[..., 0], ends)
+    return tuple(
+        JudgementRange(
+            pair, float(v), float(low), float(high), *(int(n) if c else None for n, c in zip(n2, c2, strict=True))
+        )
+        for pair, v, (low, high), n2, c2 in zip(pairs, now, far, next_, changes, strict=True)
+    )
+
+
+def _rejudged(matrix: np.ndarray, pairs: list[tuple[int, int]], values: np.ndarray) -> np.ndarray:
+    """The matrix once for each value, ``(pairs, 2, m, n, n)``, in which only that pair is judged anew."""
+    many = np.broadcast_to(matrix, (*values.shape, *matrix.shape)).copy()
+    k, (i, j) = np.arange(len(pairs)), np.transpose(pairs)
+    many[k, :, :, i, j], many[k, :, :, j, i] = values, 1 / values
+    return many
+
+
+def weight_lattice(k: int, steps: int) -> np.ndarray:
+    """All weights of ``k`` objectives that are multiples of ``1 / steps`` and add to 1, ``(m, k)``.
+
+    >>> weight_lattice(2, 2).tolist()
+    [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
+    """
+    first = np.indices((steps + 1,) * (k - 1)).reshape(k - 1, (steps + 1) ** (k - 1)).T
+    last = steps - first.sum(axis=1, keepdims=True)
+    return np.column_stack([first, last])[last[:, 0] >= 0] / steps
+
+
+@dataclass(frozen=True)
+class WinnerMap:
+    """Which design wins at which weights: ``weights`` ``(m, k)``, evenly spread, and ``winners`` ``(m,)``."""
+
+    weights: np.ndarray
+    winners: np.ndarray
+
+    @property
+    def shares(self) -> dict[int, float]:
+        """The share of all weights at which each design wins, the largest first."""
+        designs, counts = np.unique(self.winners, return_counts=True)
+        order = np.argsort(-counts, kind="stable")
+        return {int(designs[i]): float(counts[i] / len(self.winners)) for i in order}
+
+
+LATTICE = {1: 1, 2: 1000, 3: 60, 4: 20, 5: 12}
+"""Steps of a `winner_map` for so many objectives; 8 for more."""
+
+
+def winner_map(front: Any, choose: Chooser = weighted_sum) -> WinnerMap:
+    """Who wins at every set of weights, on an even lattice of them.
+
+    >>> {design: round(share, 2) for design, share in winner_map([[0, 1], [0.2, 0.2], [1, 0]]).shares.items()}
+    {1: 0.6, 0: 0.2, 2: 0.2}
+    """
+    k = _objectives(front).shape[1]
+    weights = weight_lattice(k, LATTICE.get(k, 8))
+    return WinnerMap(weights, np.asarray(choose(front, weights)))

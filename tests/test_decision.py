@@ -1,5 +1,7 @@
 """Decisions against published judgements, consistent matrices, worked cases and brute force."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,10 +9,24 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from pymoo.operators.survival.rank_and_crowding.metrics import calc_crowding_distance
+from scipy.optimize import minimize
 
 from camkit import ahp, crowding, topsis, weighted_sum
 from camkit.cam.door_handle import PAPER_JUDGEMENTS
-from camkit.decision import CHOOSERS, RANDOM_INDEX, SAATY_SCALE, crowding_distance, judgement_matrix
+from camkit.decision import (
+    CHOOSERS,
+    RANDOM_INDEX,
+    SAATY_SCALE,
+    WEIGHING,
+    crowding_distance,
+    judged_weights,
+    judgement_matrix,
+    judgement_ranges,
+    knee,
+    normalised,
+    weight_lattice,
+    winner_map,
+)
 from camkit.reference import load
 
 # AHPy 2.1, tests and README.
@@ -193,3 +209,268 @@ def test_every_chooser_takes_an_array_or_a_front_and_weights(choose):
     assert type(choose(WORKED)) is int
     assert choose([[1.0, 1.0]] * 3) in range(3)  # all alike
     assert choose([[1.0, 1.0]]) == 0
+
+
+# ---------------------------------------------------------------- judgements that nobody made
+
+NAN = np.nan
+ways = st.sampled_from(["eigenvector", "geometric"])
+
+
+@st.composite
+def gapped(draw):
+    """Weights, and their consistent matrix with random gaps that leave all criteria connected through a chain."""
+    w = np.array(draw(st.lists(st.floats(0.1, 9), min_size=2, max_size=7)))
+    order = draw(st.permutations(range(len(w))))
+    known = np.eye(len(w), dtype=bool)
+    for place in range(1, len(w)):
+        i, j = order[place], order[draw(st.integers(0, place - 1))]
+        known[i, j] = known[j, i] = True
+    more = np.array(draw(st.lists(st.booleans(), min_size=w.size**2, max_size=w.size**2))).reshape(known.shape)
+    return w, np.where(known | more | more.T, w[:, None] / w, NAN)
+
+
+@given(gapped(), ways)
+@settings(deadline=None)
+def test_consistent_judgements_with_gaps_give_the_exact_weights(case, method):
+    w, matrix = case
+    judgement = ahp(matrix, method)
+    assert_allclose(judgement.weights, w / w.sum(), rtol=1e-9)
+    assert_allclose(judgement.completed, w[:, None] / w, rtol=1e-9)
+    assert judgement.consistency_ratio == pytest.approx(0, abs=1e-8)
+    assert judgement.missing == np.isnan(matrix).sum() / 2
+
+
+def with_gap(upper, *gaps):
+    return [None if k in gaps else value for k, value in enumerate(upper)]
+
+
+@pytest.mark.parametrize("gaps", [(0,), (1,), (5,), (1, 4), (0, 5), (0, 1, 3)])
+def test_gaps_are_filled_so_that_lambda_max_is_least(gaps):
+    """Against a search of all fillings; the least is the only one (Bozoki, Fulop, Ronyai 2010)."""
+
+    def filled(logs):
+        upper = np.array(LEADER, dtype=float)
+        upper[list(gaps)] = np.exp(logs)
+        return upper
+
+    found = minimize(
+        lambda logs: ahp(filled(logs)).lambda_max,
+        np.zeros(len(gaps)),
+        method="Nelder-Mead",
+        options={"xatol": 1e-9, "fatol": 1e-13},
+    )
+    judgement = ahp(with_gap(LEADER, *gaps))
+    assert judgement.lambda_max == pytest.approx(found.fun, rel=1e-12)
+    assert_allclose(judgement.completed, judgement_matrix(filled(found.x)), rtol=1e-5)
+    assert_allclose(judgement.weights, ahp(judgement.completed).weights, rtol=1e-12)
+
+
+def test_geometric_weights_with_gaps_are_those_of_the_completed_matrix():
+    judgement = ahp(with_gap(LEADER, 1, 4), "geometric")
+    means = judgement.completed.prod(axis=1) ** (1 / 4)
+    assert_allclose(judgement.weights, means / means.sum(), rtol=1e-12)
+    assert_allclose(judgement.completed, ahp(with_gap(LEADER, 1, 4)).completed)
+
+
+def test_geometric_weights_of_a_full_matrix_are_row_means():
+    matrix = np.array(DRINKS)
+    means = matrix.prod(axis=1) ** (1 / 7)
+    assert_allclose(ahp(DRINKS, "geometric").weights, means / means.sum(), rtol=1e-10)
+
+
+# Random indices of incomplete matrices with 0, 1, 2, ... gaps: Agoston and Csato (2022), Table 2.
+@pytest.mark.parametrize(
+    ("upper", "gaps", "published"),
+    [
+        (LEADER, (0, 4), (0.884, 0.583, 0.306)),
+        ([2, 5, 1, 7, 3, 1 / 2, 2, 4, 1, 9], (0, 4, 7, 9), (1.109, 0.925, 0.739, 0.557, 0.379)),
+    ],
+    ids=["4", "5"],
+)
+def test_the_random_index_falls_with_every_gap(upper, gaps, published):
+    for count, index in enumerate(published):
+        judgement = ahp(with_gap(upper, *gaps[:count]))
+        assert judgement.missing == count
+        assert judgement.consistency_index > 1e-6
+        assert judgement.consistency_index / judgement.consistency_ratio == pytest.approx(index, rel=0.04)
+
+
+@pytest.mark.parametrize(
+    ("judgements", "sentence"),
+    [
+        ([None], "no judgement connects criterion 1 with criterion 2; judge one such pair"),
+        (
+            [3, None, None, None, None, 2],
+            "no judgement connects criterion 1, 2 with criterion 3, 4; judge one such pair",
+        ),
+        ([None, None, 5], "no judgement connects criterion 1 with criterion 2, 3; judge one such pair"),
+        ([None, 0, 5], r"judgement \(1, 3\) is 0; it must be a positive number"),
+    ],
+)
+def test_criteria_that_no_judgement_connects_are_refused(judgements, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        ahp(judgements)
+
+
+def test_one_side_of_a_pair_is_enough():
+    assert_allclose(judgement_matrix([[1, 2, 4], [None, None, 2], [None, None, None]]), ahp([2, 4, 2]).completed)
+
+
+@given(st.lists(said | st.none(), min_size=6, max_size=6))
+@settings(deadline=None)
+def test_many_matrices_at_once_have_the_weights_of_each(upper):
+    try:
+        matrix = judgement_matrix(upper)
+    except ValueError:
+        return
+    many = np.stack([matrix, judgement_matrix(LEADER), matrix])
+    for method in ("eigenvector", "geometric"):
+        together = judged_weights(many, method)
+        assert_allclose(together[0], ahp(upper, method).weights, rtol=1e-9)
+        assert_allclose(together[1], ahp(LEADER, method).weights, rtol=1e-9)
+
+
+# ---------------------------------------------------------------- the knee
+
+BENT = np.array([[0, 1], [0.05, 0.6], [0.15, 0.2], [0.5, 0.1], [1, 0]])
+
+
+def test_the_knee_is_farthest_from_the_line_through_the_ends():
+    x, y = BENT.T
+    distance = (1 - x - y) / np.sqrt(2)
+    assert knee(BENT) == np.argmax(distance) == 2
+    assert knee(BENT * [7, 0.01] + [3, 5]) == 2
+
+
+@given(st.lists(st.floats(0.01, 0.99).map(lambda x: round(x, 3)), min_size=1, max_size=20, unique=True))
+@settings(deadline=None)
+def test_the_knee_of_two_objectives_is_the_weighted_sum_with_equal_weights(xs):
+    f = np.array([[0, 1], *[[x, (1 - x) ** 3] for x in sorted(xs)], [1, 0]])
+    assert knee(f, [9, 1]) == weighted_sum(f)
+
+
+def test_the_knee_of_a_ball_is_where_its_normal_is_that_of_the_plane_through_the_corners():
+    # On the ball |1 - y| = 1 the point farthest from x + y + z = 1 is y = 1 - 1/sqrt(3); stretching changes nothing.
+    rng = np.random.default_rng(3)
+    u = abs(rng.normal(size=(4000, 3)))
+    f = np.vstack([1 - u / np.linalg.norm(u, axis=1)[:, None], 1 - np.eye(3), np.full(3, 1 - 1 / np.sqrt(3))])
+    assert knee(f * [5, 0.2, 30]) == len(f) - 1
+
+
+def test_a_knee_where_the_corners_make_no_plane():
+    one_is_best_twice = np.array([[0, 0, 1], [1, 1, 0], [0.3, 0.3, 0.3]])
+    assert knee(one_is_best_twice) == 2
+    assert knee([[1.0], [0.0], [2.0]]) == 1
+
+
+# ---------------------------------------------------------------- many weights at once, and how sure a choice is
+
+many_fronts = arrays(float, st.tuples(st.integers(1, 12), st.integers(1, 4)), elements=cents)
+
+
+@given(many_fronts, st.sampled_from(list(CHOOSERS)), st.integers(0, 1000))
+@settings(deadline=None)
+def test_many_weights_at_once_choose_as_one_by_one(f, rule, seed):
+    weights = np.random.default_rng(seed).dirichlet(np.ones(f.shape[1]), 20)
+    together = CHOOSERS[rule](f, weights)
+    assert together.shape == (20,)
+    merits = [normalised(f) @ w for w in weights]
+    for i, w, merit in zip(together, weights, merits, strict=True):
+        one = CHOOSERS[rule](f, w)
+        assert i == one or (rule in WEIGHING and abs(merit[i] - merit[one]) < 1e-9)
+
+
+def test_weights_for_another_number_of_objectives_are_refused_also_when_many():
+    with pytest.raises(ValueError, match="there are 3 weights for 2 objectives"):
+        weighted_sum(WORKED, np.ones((5, 3)))
+    with pytest.raises(ValueError, match="none negative"):
+        topsis(WORKED, [[1, 1], [1, -1]])
+
+
+FRONT3 = np.array([[0, 0.7, 0.9], [0.2, 0.3, 0.5], [0.6, 0.1, 0.3], [0.9, 0.8, 0], [0.4, 0, 0.95], [0.45, 0.35, 0.2]])
+
+
+@pytest.mark.parametrize("choose", [weighted_sum, topsis])
+@pytest.mark.parametrize("method", ["eigenvector", "geometric"])
+@pytest.mark.parametrize("judgements", [[2, 3, 2], [1, 1, 1], [1 / 3, 5, 4], [4, None, 1 / 2]])
+def test_how_far_a_judgement_may_move_against_a_fine_sweep(choose, method, judgements):
+    judged = ahp(judgements, method)
+    winner = choose(FRONT3, judged.weights)
+    for told in judgement_ranges(FRONT3, judgements, choose, method):
+        i, j = told.pair
+        assert told.judged == pytest.approx(judged.completed[i, j])
+        for end, beyond, last in ((told.low, told.below, 1 / 9), (told.high, told.above, 9)):
+            sweep = np.geomspace(told.judged, last, 3000)
+            matrices = np.tile(judged.matrix, (3000, 1, 1))
+            matrices[:, i, j], matrices[:, j, i] = sweep, 1 / sweep
+            wins = np.array([choose(FRONT3, w) for w in judged_weights(matrices[::10], method)])
+            assert beyond is None or beyond != winner
+            if (wins == winner).all():
+                assert beyond is None
+                assert end == pytest.approx(last)
+            else:
+                first = 10 * int(np.argmax(wins != winner))
+                assert sorted(sweep[[first - 10, first]])[0] <= end <= sorted(sweep[[first - 10, first]])[1]
+                just = [ahp(at(judged.matrix, i, j, end * f), method).weights for f in (1 - 1e-7, 1 + 1e-7)]
+                inside, outside = just if last > 1 else just[::-1]
+                assert choose(FRONT3, inside) == winner
+                assert choose(FRONT3, outside) == beyond
+
+
+def at(matrix, i, j, value):
+    changed = matrix.copy()
+    changed[i, j], changed[j, i] = value, 1 / value
+    return changed
+
+
+def test_ranges_of_two_objectives_are_known():
+    # w1 : w2 = r.  Design 1 beats design 0 while 0.1 r + 0.5 < 1 and design 2 while 0.1 r + 0.5 < r.
+    (told,) = judgement_ranges([[0, 1], [0.1, 0.5], [1, 0]], [2])
+    assert (told.below, told.above) == (2, 0)
+    assert told.low == pytest.approx(5 / 9, rel=1e-8)
+    assert told.high == pytest.approx(5, rel=1e-8)
+
+
+def test_rules_that_ask_for_no_weights_stay_to_the_ends_of_the_scale():
+    for choose in (knee, crowding):
+        for told in judgement_ranges(FRONT3, [2, 3, 2], choose):
+            assert (told.low, told.high, told.below, told.above) == (pytest.approx(1 / 9), pytest.approx(9), None, None)
+
+
+def test_a_judgement_off_the_scale_and_one_objective():
+    (told,) = judgement_ranges([[0, 1], [1, 0]], [20])
+    assert (told.high, told.above) == (20, None)
+    assert told.low == pytest.approx(1, rel=1e-8)
+    assert judgement_ranges([[1.0], [2.0]], [[1]]) == ()
+    with pytest.raises(ValueError, match="there are 3 weights for 2 objectives"):
+        judgement_ranges(WORKED, [1, 2, 3])
+
+
+@pytest.mark.parametrize(("k", "steps"), [(1, 5), (2, 7), (3, 6), (4, 5)])
+def test_a_lattice_has_every_weighting_once(k, steps):
+    weights = weight_lattice(k, steps)
+    assert len(weights) == math.comb(steps + k - 1, k - 1)
+    assert_allclose(weights.sum(axis=1), 1)
+    assert len(np.unique((weights * steps).round(), axis=0)) == len(weights)
+    assert_allclose(weights * steps, (weights * steps).round(), atol=1e-12)
+
+
+def test_shares_of_the_triangle_are_areas():
+    # Of the corners of a cube each wins where its objective weighs most: a third of the triangle.
+    corners = winner_map(1 - np.eye(3))
+    assert set(corners.shares) == {0, 1, 2}
+    assert_allclose(list(corners.shares.values()), 1 / 3, atol=0.02)
+    # A design with 0.501 everywhere wins where no weight is above 0.499: the inner triangle, a quarter of the whole.
+    inner = winner_map([*(1 - np.eye(3)), [0.499, 0.499, 0.499]])
+    assert inner.shares[3] == pytest.approx(1 / 4, abs=0.02)
+    assert sum(inner.shares.values()) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4, 5, 6])
+def test_a_map_says_what_the_chooser_says(k):
+    f = np.random.default_rng(k).random((9, k))
+    for choose in (weighted_sum, topsis):
+        chart = winner_map(f, choose)
+        for i in range(0, len(chart.weights), max(len(chart.weights) // 7, 1)):
+            assert chart.winners[i] == choose(f, chart.weights[i])

@@ -1,7 +1,8 @@
-"""`judge`: pairwise judgements under sliders, their weights and consistency at once."""
+"""`judge`: pairwise judgements under sliders or typed, their weights and consistency at once."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import combinations
@@ -16,11 +17,17 @@ from .controls import banner, tell
 from .panel import Panel
 from .picture import LivePicture
 
+Pair = tuple[int, int]
+
+HINT = "A box takes any number or fraction: 3, 1/5, 0.4. Leave it empty where you cannot judge."
+
 
 class Judgements(Panel):
-    """Saaty's judgements among ``names``, one slider from 1/9 to 9 for each pair.
+    """Saaty's judgements among ``names``: for each pair a slider from 1/9 to 9 and a box to type in.
 
-    ``weights`` and ``judgement`` follow at once; ``on_change(f)`` calls ``f()`` after every change.
+    A pair may be left without a judgement (an empty box; its slider then shows, pale, what the others imply) as long
+    as the rest connect all criteria.  ``weights`` and ``judgement`` follow at once; ``on_change(f)`` calls ``f()``
+    after every change.
     """
 
     def __init__(self, names: Sequence[str], judgements: Any, title: str = "") -> None:
@@ -28,11 +35,16 @@ class Judgements(Panel):
         self.start = judgement_matrix(judgements)
         if len(self.start) != len(self.names):
             raise ValueError(f"there are {len(self.start)} rows of judgements for {len(self.names)} criteria")
-        self.judgement = ahp(self.start)
         self._followers: list[Callable[[], None]] = []
         self._silent = False
+        self.method = w.Dropdown(
+            options=[("eigenvector", "eigenvector"), ("geometric mean", "geometric")], description="weights by",
+            layout=w.Layout(width="230px"), style={"description_width": "initial"},
+        )  # fmt: skip
+        self.method.observe(lambda _: self._judge(self._said), "value")
         pairs = list(combinations(range(len(self.names)), 2))
-        self.sliders = {(i, j): self._slider(self.start[i, j]) for i, j in pairs}
+        self.sliders = {pair: self._slider(pair) for pair in pairs}
+        self.boxes = {pair: self._box(pair) for pair in pairs}
         self.picture = LivePicture(
             (weight_bars,), f"Weights of {', '.join(names)}", width=7.2, height=0.9 + 0.5 * len(names)
         )
@@ -40,24 +52,35 @@ class Judgements(Panel):
         reset = w.Button(description="Reset", icon="undo", tooltip="back to the judgements that the panel began with")
         reset.on_click(lambda _: self.load(self.start))
         rows = [self._row(pair) for pair in pairs]
-        left = w.VBox([*rows, reset, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
+        hint = w.HTML(f"<span class='camkit-unit'>{HINT}</span>")
+        buttons = w.HBox([reset, self.method])
+        left = w.VBox([*rows, hint, buttons, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
         right = w.Box([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="720px"))
         body = w.HBox([left, right], layout=w.Layout(flex_flow="row wrap", align_items="flex-start"))
         super().__init__([w.HTML(f"<b>{title}</b>"), body])
-        self._show()
+        self.load(self.start)
 
-    def _slider(self, value: float) -> w.SelectionSlider:
-        options = sorted({*SAATY_SCALE, float(value)})
+    def _slider(self, pair: Pair) -> w.SelectionSlider:
         slider = w.SelectionSlider(
-            options=[(_fraction(v), v) for v in options], value=_nearest(options, value), layout=w.Layout(width="190px")
+            options=[(_fraction(v), v) for v in SAATY_SCALE], value=1.0, readout=False, layout=w.Layout(width="170px")
         )
-        slider.observe(lambda _: self._changed(), "value")
+        slider.observe(lambda change: self._say(pair, change.new), "value")
         return slider
 
-    def _row(self, pair: tuple[int, int]) -> w.Widget:
+    def _box(self, pair: Pair) -> w.Text:
+        first, second = (self.names[k] for k in pair)
+        box = w.Text(
+            continuous_update=False, placeholder="not judged", layout=w.Layout(width="88px"),
+            tooltip=f"how many times {first} matters more than {second}",
+        )  # fmt: skip
+        box.observe(lambda change: self._typed(pair, change.new), "value")
+        return box
+
+    def _row(self, pair: Pair) -> w.Widget:
         first, second = (w.HTML(self.names[k], layout=w.Layout(flex="0 0 118px")) for k in pair)
         first.add_class("camkit-right")
-        return w.HBox([first, self.sliders[pair], second], layout=w.Layout(align_items="center"))
+        cells = [first, self.sliders[pair], second, self.boxes[pair]]
+        return w.HBox(cells, layout=w.Layout(align_items="center"))
 
     @property
     def weights(self) -> np.ndarray:
@@ -65,38 +88,73 @@ class Judgements(Panel):
         return self.judgement.weights
 
     @property
-    def upper(self) -> list[float]:
-        """The judgements as the matrix's upper triangle, row by row."""
-        return [float(slider.value) for slider in self.sliders.values()]
+    def upper(self) -> list[float | None]:
+        """The judgements as the matrix's upper triangle, row by row; ``None`` where there is none."""
+        return [None if math.isnan(value) else value for value in self._said.values()]
 
     def load(self, judgements: Any) -> None:
-        """Show other judgements (matrix or upper triangle)."""
+        """Show other judgements (matrix or upper triangle, ``None`` where there is none)."""
         matrix = judgement_matrix(judgements)
         if len(matrix) != len(self.names):
             raise ValueError(
                 f"there are judgements for {len(matrix)} criteria; this panel has {len(self.names)} criteria"
             )
-        self._silent = True
-        try:
-            for (i, j), slider in self.sliders.items():
-                values = sorted({*SAATY_SCALE, float(matrix[i, j])})
-                slider.options = [(_fraction(v), v) for v in values]
-                slider.value = _nearest(values, matrix[i, j])
-        finally:
-            self._silent = False
-        self._changed()
+        self._judge({pair: float(matrix[pair]) for pair in self.sliders})
 
     def on_change(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after every change of a judgement."""
         self._followers.append(act)
 
-    def _changed(self) -> None:
+    def _typed(self, pair: Pair, words: str) -> None:
         if self._silent:
             return
-        self.judgement = ahp(self.upper)
+        try:
+            value = _number(words)
+        except ValueError:
+            self._refuse(pair, f"{words!r} is no number above 0; 3, 1/5 or 0.4 are, and an empty box leaves it open")
+        else:
+            self._say(pair, value)
+
+    def _say(self, pair: Pair, value: float) -> None:
+        """Judge one pair anew; ``nan``: leave it open."""
+        if self._silent:
+            return
+        try:
+            self._judge(self._said | {pair: value})
+        except ValueError as refusal:
+            self._refuse(pair, str(refusal))
+
+    def _refuse(self, pair: Pair, sentence: str) -> None:
+        """Say why a judgement cannot be, and go back to the last one that could."""
+        self._place(pair)
+        first, second = (self.names[k] for k in pair)
+        tell(self._banner, f"The judgement of {first} against {second} stays as it was: {sentence}.")
+
+    def _judge(self, said: dict[Pair, float]) -> None:
+        """Take up judgements, if they connect all criteria."""
+        self.judgement = ahp(list(said.values()) or [[1]], self.method.value)
+        self._said = said
+        for pair in said:
+            self._place(pair)
         self._show()
         for act in self._followers:
             act()
+
+    def _place(self, pair: Pair) -> None:
+        """Slider and box of a pair show its judgement, or what the others imply."""
+        value, slider = self._said[pair], self.sliders[pair]
+        options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value})
+        at = _nearest(options, float(self.judgement.completed[pair]))
+        shown = tuple((_fraction(v), v) for v in options)
+        (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
+        self._silent = True
+        try:
+            if slider.options != shown:
+                slider.options = shown
+            slider.value = at
+            self.boxes[pair].value = "" if math.isnan(value) else _fraction(value)
+        finally:
+            self._silent = False
 
     def _show(self) -> None:
         self.picture.show((self.names, self.judgement))
@@ -120,20 +178,41 @@ class Judgements(Panel):
     def _matrix_html(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in self.names)
         rows = "".join(
-            f"<tr><td>{name}</td>{''.join(f'<td>{_fraction(v)}</td>' for v in row)}<td><b>{weight:.4f}</b></td></tr>"
-            for name, row, weight in zip(self.names, self.judgement.matrix, self.weights, strict=True)
+            f"<tr><td>{name}</td>{self._row_html(i)}<td><b>{weight:.4f}</b></td></tr>"
+            for i, (name, weight) in enumerate(zip(self.names, self.weights, strict=True))
         )
         return f"<div class='camkit-tables'><table><tr><th></th>{head}<th>weight</th></tr>{rows}</table></div>"
+
+    def _row_html(self, i: int) -> str:
+        """A row of the matrix; what nobody has judged is in brackets, as the others imply it."""
+        cells = zip(self.judgement.matrix[i], self.judgement.completed[i], strict=True)
+        return "".join(f"<td>{f'({c:.2g})' if math.isnan(v) else _fraction(v)}</td>" for v, c in cells)
 
     def summary(self) -> str:
         """Weights and consistency ratio."""
         lines = [f"{name}: {weight:.4f}" for name, weight in zip(self.names, self.weights, strict=True)]
-        return "\n".join([*lines, f"consistency ratio: {self.judgement.consistency_ratio:.4f}"])
+        missing = [f"not judged: {self.judgement.missing}"] if self.judgement.missing else []
+        return "\n".join([*lines, f"consistency ratio: {self.judgement.consistency_ratio:.4f}", *missing])
+
+
+def _number(words: str) -> float:
+    """A judgement as it is typed, ``nan`` for none."""
+    if words.strip() in ("", "?"):
+        return math.nan
+    try:
+        value = float(Fraction(words.replace(",", ".").replace(" ", "")))
+    except (ZeroDivisionError, OverflowError):
+        raise ValueError(words) from None
+    if not 0 < value < math.inf:
+        raise ValueError(words)
+    return value
 
 
 def _fraction(value: float) -> str:
+    """``1/3`` and ``3``, as Saaty writes them; four digits of anything else."""
     whole = Fraction(float(value)).limit_denominator(99)
-    return str(whole) if abs(float(whole) - value) < 1e-9 else f"{value:.3g}"
+    exact = abs(float(whole) - value) < 1e-9 and 1 in (whole.numerator, whole.denominator)
+    return str(whole) if exact else f"{value:.4g}"
 
 
 def _nearest(options: Sequence[float], value: float) -> float:
@@ -141,9 +220,9 @@ def _nearest(options: Sequence[float], value: float) -> float:
 
 
 def judge(names: Sequence[str], judgements: Any, title: str = "") -> Judgements:
-    """Sliders for pairwise judgements among ``names``: "the left matters 5 times as much as the right".
+    """Sliders and boxes for pairwise judgements among ``names``: "the left matters 5 times as much as the right".
 
-    ``judgements`` is a reciprocal matrix or its upper triangle row by row.  The result's ``.weights`` feed the
-    next cell.
+    ``judgements`` is a reciprocal matrix or its upper triangle row by row, ``None`` where there is no judgement yet.
+    The result's ``.weights`` feed the next cell.
     """
     return Judgements(names, judgements, title)

@@ -1,0 +1,151 @@
+"""The decision notebook in JupyterLab: judging by keyboard, brushing, the tray; the page against the package."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+
+from camkit import DoorHandleCam, ahp, door_handle_study
+from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE
+from camkit.decision import CHOOSERS, judgement_ranges
+from camkit.side_by_side import side_by_side
+from lab import LabServer, kernel_value, open_notebook, run_all, screenshot
+
+ANGLE, FORCE, RADIUS, TORQUE = (CURVE_TABLE[i] for i in (0, 5, 2, 6))
+SPACE = {name: EXPANDED_SPACE[name] for name in ("lift_arm", "lift_start_angle", "lift_centre_distance")}
+STUDY = door_handle_study(DoorHandleCam(), space=SPACE).replace(minimise=(ANGLE, FORCE, -RADIUS))
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+    """The notebook opened and run once."""
+    page = context.new_page()
+    open_notebook(page, "16_decision.ipynb")
+    # The cells that move every control have tests of their own, and take long.
+    page.evaluate(
+        """() => window.jupyterapp.shell.currentWidget.content.widgets.forEach(cell => {
+            const source = cell.model.sharedModel;
+            if (source.getSource().includes('try_everything(')) source.setSource('');
+        })"""
+    )
+    run_all(page)
+    yield page
+    page.close()
+    server.end_kernels()
+
+
+@pytest.fixture(autouse=True)
+def _kept_if_it_fails(page: Page, request: pytest.FixtureRequest) -> Iterator[None]:
+    failed = request.session.testsfailed
+    yield
+    if request.session.testsfailed > failed:
+        screenshot(page, Path(__file__).parents[2] / ".browser" / f"{request.node.name}.png")
+
+
+def panel(page: Page, words: str) -> Any:
+    return page.locator(".camkit-panel").filter(has_text=words)
+
+
+def front(page: Page) -> np.ndarray:
+    """Objectives of the kernel's front, computed here."""
+    return STUDY.evaluate(np.array(kernel_value(page, "finder.front.x"))).f
+
+
+def decided(page: Page, judgements: list[Any]) -> None:
+    """Weights, winners and how far the judgements may move are on the page as the package has them."""
+    f, weights = front(page), ahp(judgements).weights
+    expect(panel(page, "What matters more?").locator("td b")).to_have_text([f"{w:.4f}" for w in weights])
+    decision = panel(page, "load the winner by")
+    for rule, choose in CHOOSERS.items():
+        i = choose(f, weights)
+        row = decision.locator("tr").filter(has=page.locator("td:first-child", has_text=re.compile(f"^{rule}$")))
+        told = [str(i), *(m.text(m.sign * v) for m, v in zip(STUDY.minimise, f[i], strict=True))]
+        for k, text in enumerate(told, start=1):
+            expect(row.locator("td").nth(k)).to_have_text(text)
+    first = judgement_ranges(f, judgements)[0]
+    expect(decision).to_contain_text(f"from {first.low:.3g} to {first.high:.3g} (now {first.judged:.3g})")
+
+
+def test_judging_by_keyboard_moves_weights_and_winners(page: Page) -> None:
+    decided(page, [2, 1, None])
+    judge = panel(page, "What matters more?")
+    slider = judge.get_by_role("slider").nth(0)
+    slider.press("ArrowRight")
+    decided(page, [3, 1, None])
+    box = judge.get_by_placeholder("not judged").nth(2)
+    expect(box).to_have_value("")
+    box.fill("1/3")
+    box.press("Enter")
+    decided(page, [3, 1, 1 / 3])
+    box.fill("")
+    box.press("Enter")
+    decided(page, [3, 1, None])
+    box = judge.get_by_placeholder("not judged").nth(0)
+    box.fill("two")
+    box.press("Enter")
+    expect(judge.get_by_role("alert")).to_contain_text("'two' is no number above 0")
+    expect(box).to_have_value("3")
+    judge.get_by_role("button", name="Reset").click()
+    decided(page, [2, 1, None])
+
+
+def test_a_drag_along_an_axis_brushes_the_front(page: Page) -> None:
+    decision = panel(page, "load the winner by")
+    image = decision.locator("img.camkit-image").first
+    image.scroll_into_view_if_needed()
+    box = image.bounding_box()
+    assert box
+    size = kernel_value(page, "panel._pictures[0].figure.canvas.get_width_height()")
+    points = kernel_value(page, "panel._pictures[0].axes[0].transData.transform([[1, 0.25], [1, 0.7]])")
+    (x, y0), (_, y1) = [(box["x"] + p / size[0] * box["width"], box["y"] + (1 - q / size[1]) * box["height"])
+                        for p, q in points]  # fmt: skip
+    shown = image.get_attribute("src")
+    page.mouse.move(x, y0)
+    page.mouse.down()
+    page.mouse.move(x, y1, steps=6)
+    page.mouse.up()
+
+    forces = front(page)[:, 1]
+    low, high = (forces.min() + share * np.ptp(forces) for share in (0.25, 0.7))
+    expect(decision).to_contain_text(re.compile(r"\d+ of 72 designs kept"))
+    expect(decision).not_to_contain_text("72 of 72 designs kept")
+    band = kernel_value(page, "panel.designs.bands[1]")
+    np.testing.assert_allclose(band, (low, high), atol=0.02 * np.ptp(forces))
+    inside = int(((band[0] <= forces) & (forces <= band[1])).sum())
+    expect(decision).to_contain_text(f"{inside} of 72 designs kept")
+    assert image.get_attribute("src") != shown
+    decision.get_by_role("button", name="Keep all").click()
+    expect(decision).to_contain_text("72 of 72 designs kept")
+
+
+def test_the_tray_exports_what_it_shows(page: Page) -> None:
+    tray = panel(page, "Keep this design")
+    panel(page, "load the winner by").get_by_role("button", name="knee").click()
+    tray.get_by_role("button", name="Remove").nth(1).click()
+    expect(tray.get_by_role("button", name="Remove")).to_have_count(4)
+    designs = kernel_value(page, "{p: [getattr(d, n) for n in space] for p, d in kept.designs.items()}")
+    assert list(designs) == ["A", "C", "D", "E"]
+    named = {f"design {p}": DoorHandleCam(**dict(zip(SPACE, x, strict=True))) for p, x in designs.items()}
+    table = side_by_side(named, (ANGLE, FORCE, RADIUS, TORQUE), STUDY)
+    cells = [text for line in table.lines for text in (line.name, *line.texts, line.limit)]
+    expect(tray.locator(".camkit-tables td")).to_have_text(cells)
+
+    for button, name, content in (
+        ("Save as Markdown", "designs.md", table.markdown()),
+        ("Save as HTML", "designs.html", table.html()),
+    ):
+        with page.expect_download() as expected:
+            tray.get_by_role("button", name=button).click()
+        assert expected.value.suggested_filename == name
+        text = Path(expected.value.path()).read_text(encoding="utf-8")
+        assert content in text
+    assert "data:image/png;base64,iVBOR" in text
+    assert "http" not in text
+
+    tray.get_by_role("button", name="Load").nth(0).click()
+    page.wait_for_timeout(300)
+    assert kernel_value(page, "app.design == kept.designs['A']")
