@@ -1,7 +1,8 @@
-"""Views of a decision: the Pareto front, the weights."""
+"""Views of a decision: the Pareto front, several fronts laid over each other, the weights."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..units import factor
-from .artists import BLUE, GREY, INK, WARNING, line, new, text
+from .artists import BLUE, COLOURS, GREY, INK, WARNING, line, new, text
 
 
 @dataclass(frozen=True)
@@ -25,8 +26,13 @@ class ShownFront:
 
 def shown_objectives(front: Any) -> np.ndarray:
     """The first two objectives as a person reads them: in their units, large is large; ``(2, p)``."""
-    pairs = zip(front.study.minimise[:2], np.transpose(front.f)[:2], strict=True)
-    return np.array([m.sign * f / factor(m.unit) for m, f in pairs]).reshape(2, -1)
+    return _shown(front.study.minimise, np.reshape(front.f, (-1, len(front.study.minimise))).T)
+
+
+def _shown(objectives: Any, f: Any) -> np.ndarray:
+    """Two rows, the second of them 0 where there is one objective only."""
+    rows = [m.sign * np.asarray(values) / factor(m.unit) for m, values in zip(objectives, f, strict=True)]
+    return np.array([*rows, 0 * rows[0]])[:2]
 
 
 def _better(measure: Any) -> str:
@@ -38,8 +44,8 @@ def pareto(shown: ShownFront, ax: Axes) -> Axes:
     first, objectives = new(ax), shown.front.study.minimise
     x, y = shown_objectives(shown.front)
     line(ax, "front", x, y, linestyle="none", marker="o", markersize=6, color=BLUE, alpha=0.75, label="front")
-    begin = [] if shown.start is None else [m.sign * v / factor(m.unit) for m, v in zip(objectives, shown.start)][:2]  # noqa: B905
-    line(ax, "start", begin[:1], begin[1:], linestyle="none", marker="s", markersize=8, color=GREY, label="start")
+    begin: Any = ([], []) if shown.start is None else _shown(objectives, np.reshape(shown.start, (-1, 1)))
+    line(ax, "start", *begin, linestyle="none", marker="s", markersize=8, color=GREY, label="start")
     for key, index, style in (
         ("in the sliders", shown.selected, {"marker": "o", "markersize": 14, "markeredgecolor": INK}),
         ("winner", shown.winner, {"marker": "*", "markersize": 19, "markeredgecolor": WARNING}),
@@ -48,9 +54,51 @@ def pareto(shown: ShownFront, ax: Axes) -> Axes:
         line(ax, key, x[at], y[at], linestyle="none", markerfacecolor="none", markeredgewidth=2, label=key, **style)
     if first:
         ax.set_title("Pareto front")
-        ax.set_xlabel(f"{objectives[0].label}\n({_better(objectives[0])})")
-        ax.set_ylabel(f"{objectives[1].label}\n({_better(objectives[1])})")
+        _name_axes(ax, objectives)
         ax.legend(loc="best")
+    return ax
+
+
+def _name_axes(ax: Axes, objectives: Any) -> None:
+    ax.set_xlabel(f"{objectives[0].label}\n({_better(objectives[0])})")
+    if len(objectives) > 1:
+        ax.set_ylabel(f"{objectives[1].label}\n({_better(objectives[1])})")
+
+
+@dataclass(frozen=True)
+class ShownFronts:
+    """Fronts of the same objectives by name, and the objectives of two single designs, ``(k,)``."""
+
+    fronts: Mapping[str, Any]
+    start: Any = None
+    here: Any = None
+    """Of the design in the sliders."""
+
+
+MARKS: Any = (
+    {"marker": "o", "markersize": 8, "markerfacecolor": "none", "markeredgewidth": 1.6},
+    {"marker": ".", "markersize": 5},
+)
+"""Fronts take turns: rings, and dots that fit into them."""
+
+
+def fronts_overlaid(shown: ShownFronts, ax: Axes) -> Axes:
+    """Several fronts of the same two objectives, the start and the design in the sliders."""
+    first, objectives = new(ax), next(iter(shown.fronts.values())).study.minimise[:2]
+    for i, (name, front) in enumerate(shown.fronts.items()):
+        style = {"linestyle": "none", "color": COLOURS[i % len(COLOURS)], **MARKS[i % len(MARKS)]}
+        line(ax, f"front {name}", *shown_objectives(front), label=name, **style)
+    for key, f, style in (
+        ("start", shown.start, {"marker": "s", "markersize": 8, "color": GREY}),
+        ("in the sliders", shown.here, {"marker": "P", "markersize": 11, "color": INK, "markerfacecolor": "white"}),
+    ):
+        x, y = [] if f is None else [f[0]], [] if f is None else [f[1]]
+        at = [m.sign * np.array(v) / factor(m.unit) for m, v in zip(objectives, (x, y), strict=True)]
+        line(ax, key, *at, linestyle="none", label=key if f is not None else "_", zorder=6, **style)
+    if first:
+        ax.set_title("What one objective costs the other")
+        _name_axes(ax, objectives)
+        ax.legend(loc="upper right")
     return ax
 
 

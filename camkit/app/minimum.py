@@ -1,0 +1,128 @@
+"""`improve`: from the design in the sliders to a better one, in the background, and why it is no better still."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import ipywidgets as w
+
+from ..minimum import Minimum, minimise
+from ..plot.progress import ShownLooks, best_so_far
+from ..quantities import Measure
+from ..study import Study
+from ..watch import Stopped, Watch, watched
+from .explore import Explorer
+from .panel import Panel
+from .picture import LivePicture
+from .runner import Choices, Runner, told
+
+MakeStudy = Callable[..., Study]
+
+
+class Improvement(Panel):
+    """*Optimise from here*: `minimise` from the design of an `Explorer`, whose sliders then show what was found.
+
+    ``make(start, method, **choices)`` gives the `Study`; there is a menu for each of the ``choices``, and one for the
+    ``methods`` if there are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so
+    far is then in the sliders.  *Put back* loads the design from which the search began.
+    """
+
+    def __init__(
+        self,
+        explorer: Explorer,
+        make: MakeStudy,
+        choices: Mapping[str, Mapping[str, Any]],
+        methods: Sequence[str],
+    ) -> None:
+        self.explorer, self.make = explorer, make
+        self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
+        self.starts = w.BoundedIntText(
+            1, 1, 100, description="starts", layout=w.Layout(width="190px"), style={"description_width": "112px"}
+        )
+        self.study = self._study()
+        self.minimum: Minimum | None = None
+        self.before: Any = None
+        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report)
+        self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
+        self.back.on_click(lambda _: self.explorer.load(self.before))
+        self.verdict = w.HTML()
+        self._lines: tuple[str, ...] = ()
+        self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
+        self.picture.show(ShownLooks(self._measure, ()))
+        super().__init__([self._body()])
+
+    def _body(self) -> w.Widget:
+        runner, menus = self.runner, self.choices.menus
+        asked = [menu for menu in menus.values() if len(menu.options) > 1]
+        buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
+        left = [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
+        return w.HBox(
+            [
+                w.VBox(left, layout=w.Layout(flex="1 1 400px", max_width="620px")),
+                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="660px")),
+            ],
+            layout=w.Layout(flex_flow="row wrap"),
+        )
+
+    def _study(self) -> Study:
+        return self.make(self.explorer.design, **self.choices.values)
+
+    def run(self) -> None:
+        """Start the search; returns at once."""
+        self.runner.run()
+
+    def stop(self) -> None:
+        """Stop; the best so far goes into the sliders."""
+        self.runner.stop()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Until the search has ended."""
+        self.runner.wait(seconds)
+
+    def _prepare(self) -> tuple[Study, Any, str, int]:
+        study = self._study()
+        return study, self.explorer.design, self.choices.values["method"], self.starts.value
+
+    def _job(self, task: tuple[Study, Any, str, int], watch: Watch) -> None:
+        self.study, self.before, method, starts = task
+        self.minimum, self.back.disabled = None, False
+        try:
+            self.minimum = minimise(watched(self.study, watch), method, starts=starts)
+        except Stopped:
+            self._finish(watch.best, f"The search was stopped after {watch.looked} designs.")
+        else:
+            self._finish(self.minimum.x, self.minimum.message)
+        self._report(watch)
+
+    def _finish(self, x: Any, why: str) -> None:
+        """Say what was found, and show it."""
+        if x is None:
+            self._lines = (why, "None of them keeps every limit; the design in the sliders stays.")
+        else:
+            first, last = self.study.evaluate([self.study.x0, x]).f[:, 0]
+            self._lines = (f"{self._measure.name}: {self._text(first)} → {self._text(last)}", why)
+            self.explorer.load(self.study.design(x))
+        self.verdict.value = told(*self._lines)
+
+    @property
+    def _measure(self) -> Measure:
+        return self.study.minimise[0]
+
+    def _text(self, f: float) -> str:
+        return self._measure.text(self._measure.sign * f)
+
+    def _report(self, watch: Watch) -> None:
+        best = f", best so far {self._text(watch.f)}" if watch.best is not None else ""
+        self.runner.status.value = f"{watch.looked} designs looked at{best}"
+        self.picture.show(ShownLooks(self._measure, tuple(watch.looks)))
+
+    def summary(self) -> str:
+        """What was asked, and what was found."""
+        lines = self._lines or ("not run yet",)
+        return "\n".join([self.choices.words, *lines])
+
+
+def improve(explorer: Explorer, make: MakeStudy, *, methods: Sequence[str] = ("slsqp",), **choices: Any) -> Improvement:
+    """A panel that optimises from the design in ``explorer`` (see `Improvement`); each choice maps words to values."""
+    return Improvement(explorer, make, choices, methods)

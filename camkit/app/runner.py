@@ -1,0 +1,113 @@
+"""`Runner`: two buttons around a job in a thread of its own; `Choices`: the menus that say what the job is."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ipywidgets as w
+
+from ..quantities import words
+from ..watch import Watch
+from .controls import banner, tell
+from .search import REPORT
+
+
+def told(result: str, why: str) -> str:
+    """A result and what there is to say about it, for a page."""
+    return f"<div style='line-height: 1.45'><b>{result}</b><br>{why}</div>"
+
+
+class Choices:
+    """A menu for each of some questions; ``values`` are the answers by the question's name."""
+
+    def __init__(self, choices: Mapping[str, Mapping[str, Any]]) -> None:
+        self.menus = {name: self._menu(name, options) for name, options in choices.items()}
+
+    def _menu(self, name: str, options: Mapping[str, Any]) -> w.Dropdown:
+        style = {"description_width": "112px"}
+        layout = w.Layout(width="100%", max_width="400px")
+        return w.Dropdown(options=list(options.items()), description=words(name), layout=layout, style=style)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """What is chosen in each menu."""
+        return {name: menu.value for name, menu in self.menus.items()}
+
+    @property
+    def words(self) -> str:
+        """What is chosen, in the menus' words."""
+        return ", ".join(f"{menu.description}: {menu.label}" for menu in self.menus.values())
+
+
+class Runner:
+    """Run and Stop, a line that says how far the job is, and a banner for what is impossible.
+
+    ``prepare()`` says what is to be done, ``ValueError`` if it cannot be.  ``job(task, watch)`` does it in a thread of
+    its own, on studies under ``watch``: the page stays alive, and Stop takes effect before the next design.
+    ``report(watch)`` is called now and then meanwhile.
+    """
+
+    def __init__(
+        self,
+        description: str,
+        prepare: Callable[[], Any],
+        job: Callable[[Any, Watch], None],
+        report: Callable[[Watch], None],
+    ) -> None:
+        self._prepare, self._job, self._report, self._reported = prepare, job, report, 0.0
+        self.watch = Watch()
+        self._thread: threading.Thread | None = None
+        fits = w.Layout(width="auto")
+        self.run_button = w.Button(description=description, icon="play", button_style="primary", layout=fits)
+        self.stop_button = w.Button(description="Stop", icon="stop", disabled=True, layout=fits)
+        self.status, self.banner = w.HTML("not run yet"), banner()
+        self.status.add_class("camkit-status")
+        self.run_button.on_click(lambda _: self.run())
+        self.stop_button.on_click(lambda _: self.stop())
+
+    def run(self) -> None:
+        """Start the job; returns at once."""
+        if self._thread and self._thread.is_alive():
+            return
+        try:
+            task = self._prepare()
+        except ValueError as refusal:
+            self._refuse(refusal)
+            return
+        tell(self.banner, "")
+        self.run_button.disabled, self.stop_button.disabled = True, False
+        self.watch = Watch(self._look)
+        self._thread = threading.Thread(target=self._work, args=(task, self.watch))
+        self._thread.start()
+
+    def _refuse(self, refusal: ValueError) -> None:
+        tell(self.banner, f"This cannot be searched: {refusal}.")
+
+    def _look(self, watch: Watch) -> None:
+        if not threading.main_thread().is_alive():  # the kernel is going, and nobody waits for the result
+            watch.stop()
+        if time.monotonic() - self._reported > REPORT:
+            self._report(watch)
+            self._reported = time.monotonic()
+
+    def _work(self, task: Any, watch: Watch) -> None:
+        try:
+            self._job(task, watch)
+        except ValueError as refusal:
+            self._refuse(refusal)
+        except Exception as error:  # shown to the user: a thread has no other way to speak
+            tell(self.banner, f"The search ended early: {error}.")
+        finally:
+            self.run_button.disabled, self.stop_button.disabled = False, True
+
+    def stop(self) -> None:
+        """Stop before the next design; the best so far stays."""
+        self.watch.stop()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Until the job has ended."""
+        if self._thread:
+            self._thread.join(seconds)

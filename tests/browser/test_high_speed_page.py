@@ -1,0 +1,146 @@
+"""The high-speed cam's workbook in JupyterLab: what the page shows against what camkit computes in this process."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+
+from camkit import deg, mm
+from camkit.cam.cam_lever import CamLever, lever_stress
+from camkit.cam.high_speed import HighSpeedCam
+from camkit.cam.high_speed_load import ConstantTorque
+from camkit.cam.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
+from camkit.minimum import minimise
+from lab import LabServer, kernel_value, open_notebook, run_all
+
+START = HighSpeedCam()
+LIMITS = high_speed_study().at_least or {}
+
+
+@dataclass(frozen=True)
+class Workbook:
+    """The opened notebook and its panels."""
+
+    page: Page
+    bench: Locator
+    better: Locator
+    faster: Locator
+
+    def value(self, expression: str) -> Any:
+        return kernel_value(self.page, expression)
+
+    def row(self, panel: Locator, name: str) -> Locator:
+        label = self.page.locator("span[title]", has_text=re.compile(rf"(^|\s){name}$"))
+        return panel.locator(".camkit-knob").filter(has=label)
+
+
+@pytest.fixture(scope="module")
+def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
+    page = context.new_page()
+    open_notebook(page, "06_high_speed_cam.ipynb")
+    run_all(page)
+    panels = page.locator(".camkit-panel")
+    optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
+    shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
+    # a panel inside a panel: the outer one, with the buttons, comes first
+    yield Workbook(page, panels.filter(has_text="return c3").first, optimise.first, shorten.first)
+    page.close()
+    server.end_kernels()
+
+
+@pytest.fixture(autouse=True)
+def _from_the_start(book: Workbook) -> None:
+    book.bench.get_by_role("button", name="Reset").click()
+    shows(book, START)
+
+
+def shows(book: Workbook, cam: HighSpeedCam) -> None:
+    """Boxes and table show ``cam``, computed here."""
+    for name, field in (("arm length", "arm_length"), ("roller radius", "roller_radius"), ("max radius", "max_radius")):
+        expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{getattr(cam, field) / mm:.6g}")
+    now, first, expected = cam.analyse(), START.analyse(), []
+    for measure in HIGH_SPEED_MEASURES:
+        value, start = float(measure(now)), float(measure(first))
+        verdict = ""
+        if measure in LIMITS:
+            limit = LIMITS[measure]
+            verdict = f"≥ {measure.text(limit)}" + ("met" if value >= limit else "not met")
+        change = f"{100 * (value - start) / abs(start):+.1f} %"
+        expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
+
+
+def test_a_slider_changes_the_roller_and_all_that_follows(book: Workbook) -> None:
+    slider = book.row(book.bench, "roller radius").get_by_role("slider")
+    slider.focus()
+    for _ in range(5):
+        slider.press("ArrowRight")
+    r = float(slider.get_attribute("aria-valuetext") or 0)
+    assert r > 30
+    cam = START.replace(roller_radius=r * mm)
+    shows(book, cam)
+    top = book.value("app.picture.axes[3].lines[2].get_ydata().tolist()")  # the dot on the way out
+    np.testing.assert_allclose(top, cam.analyse().rise.stress_between.max() * mm**0.5, rtol=1e-9)
+
+
+def test_coefficients_and_the_load_case_from_the_menu(book: Workbook) -> None:
+    box = book.row(book.bench, "rise c1").get_by_role("spinbutton")
+    box.fill("-0.15")
+    box.press("Enter")
+    shows(book, START.replace(rise_c1=-0.15))
+    menu = book.bench.locator("select").filter(has_text="constant torque")
+    menu.select_option(label="constant torque")
+    shows(book, START.replace(rise_c1=-0.15, load=ConstantTorque()))
+
+
+def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> None:
+    menus = book.better.locator("select")
+    menus.nth(0).select_option(label="wear")
+    menus.nth(1).select_option(label="sizes")
+    book.better.get_by_role("button", name="Optimise from here").click()
+    best = minimise(high_speed_study(objective=peak_wear))
+    first = peak_wear.text(float(best.study.evaluate([best.study.x0]).f[0, 0]))
+    expect(book.better).to_contain_text(f"wear F_wear: {first} → {peak_wear.text(best.f)}")
+    expect(book.better).to_contain_text("no neighbour of the design is better")
+    expect(book.better).to_contain_text("max radius 140 mm (upper bound)")
+    found = book.value("[app.design.arm_length, app.design.roller_radius, app.design.max_radius]")
+    np.testing.assert_allclose(found, [getattr(best.design, name) for name in GEOMETRY], rtol=1e-4)
+    assert book.value("float(app.measures[1](app.analysis))") < 0.6 * float(peak_wear(START.analyse()))
+    book.better.get_by_role("button", name="Put back").click()
+    shows(book, START)
+
+
+def test_a_long_search_can_be_stopped_and_keeps_the_best(book: Workbook) -> None:
+    menus = book.better.locator("select")
+    menus.nth(0).select_option(label="contact stress")
+    menus.nth(1).select_option(label="sizes and laws")
+    menus.nth(4).select_option(label="de")
+    book.better.get_by_role("button", name="Optimise from here").click()
+    expect(book.better).to_contain_text(re.compile(r"\d+ designs looked at, best so far"))
+    book.better.get_by_role("button", name="Stop").click()
+    expect(book.better).to_contain_text(re.compile(r"The search was stopped after \d+ designs"))
+    assert book.value("float(app.measures[0](app.analysis))") <= float(peak_stress(START.analyse())) * 1.001
+
+
+def test_the_cycle_time_search_can_be_stopped(book: Workbook) -> None:
+    run = book.faster.get_by_role("button", name="Shorten the cycle")
+    run.click()
+    book.faster.get_by_role("button", name="Stop").click()
+    expect(book.faster).to_contain_text("(stopped)")
+    expect(run).to_be_enabled()
+    stopped = book.value("len(faster.steps)")
+    run.click()
+    expect(book.faster).to_contain_text(re.compile(r"An interval of [\d.]+ deg keeps .* % more output"))
+    expect(run).to_be_enabled()
+    assert book.value("len(faster.steps)") > stopped
+    book.faster.get_by_role("button", name="Load the design").click()
+    phi = book.value("press_app.design.rise_angle")
+    assert phi == pytest.approx(book.value("faster.step.high"))
+    assert 40 * deg < phi < 54 * deg
+    assert book.value("float(press_app.measures[0](press_app.analysis))") < float(lever_stress(CamLever().analyse()))
