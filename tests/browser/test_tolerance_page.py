@@ -1,0 +1,114 @@
+"""The notebook of tolerances in JupyterLab: what the page shows against what camkit computes in this process."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+
+from camkit import deg, door_handle_study, mm
+from camkit.app.tolerance import SETTLED
+from camkit.tolerance import Tolerances
+from lab import LabServer, kernel_value, open_notebook, run_all
+
+MEDIUM = {"lift_arm": 0.3 * mm, "lift_centre_distance": 0.3 * mm, "lift_start_angle": 0.5 * deg}
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+    page = context.new_page()
+    open_notebook(page, "17_tolerances.ipynb")
+    run_all(page)
+    yield page
+    page.close()
+    server.end_kernels()
+
+
+@pytest.fixture
+def explorer(page: Page) -> Locator:
+    return page.locator(".camkit-panel").filter(has_text="cam angle shown").first
+
+
+@pytest.fixture
+def panel(page: Page, explorer: Locator) -> Locator:
+    """As it was before the notebook's last cell tried everything: that leaves sliders on their nearest step."""
+    panel = page.locator(".camkit-panel").filter(has_text="Tolerances").first
+    for one in (explorer, panel):
+        one.get_by_role("button", name="Reset").click()
+    panel.scroll_into_view_if_needed()
+    shows(panel, MEDIUM)  # or what is typed next would be undone when the reset comes back from the kernel
+    return panel
+
+
+def row(panel: Locator, name: str) -> Locator:
+    return panel.locator(".camkit-knob").filter(has_text=re.compile(rf"\s{name}"))
+
+
+def shows(panel: Locator, half_widths: dict[str, float], start: object = None) -> None:
+    """The table holds the parts' measures, computed here."""
+    study = door_handle_study()
+    study = study.replace(start=start or study.start, at_most=dict.fromkeys(study.at_most, 44 * deg))
+    made = Tolerances(study, half_widths, parts=SETTLED)
+    for i, measure in enumerate(made.measures, start=1):
+        low, high = made.percentiles(measure, (2.5, 97.5))
+        expect(panel.locator("tr").nth(i).locator("td").nth(2)).to_have_text(measure.text(low))
+        expect(panel.locator("tr").nth(i).locator("td").nth(3)).to_have_text(measure.text(high))
+    (steepest,) = study.at_most
+    expect(panel.locator("tr").nth(3).locator("td").nth(4)).to_have_text(f"{100 * made.missed[steepest]:.1f} %")
+
+
+def test_a_typed_tolerance_and_a_key_on_the_slider_change_the_parts(panel: Locator) -> None:
+    image = panel.locator("img.camkit-image")
+    before = image.get_attribute("src")
+    box = row(panel, "lift arm").get_by_role("spinbutton")
+    box.fill("1.2")
+    box.press("Enter")
+    shows(panel, MEDIUM | {"lift_arm": 1.2 * mm})
+    assert image.get_attribute("src") != before
+    handle = row(panel, "lift arm").get_by_role("slider")
+    handle.focus()
+    handle.press("ArrowLeft")
+    expect(box).to_have_value("1.199")
+    shows(panel, MEDIUM | {"lift_arm": 1.199 * mm})
+
+
+def test_what_cannot_be_made_is_said_in_place_of_the_picture(panel: Locator) -> None:
+    box = row(panel, "lift arm").get_by_role("spinbutton")
+    box.fill("60")
+    box.press("Enter")
+    sentence = "the lift arm of 50 mm less its tolerance of 60 mm is -10 mm; it must be a finite number above 0 mm"
+    expect(panel.get_by_role("alert")).to_have_text(f"This cannot be made: {sentence}.")
+    expect(panel.locator("img.camkit-image")).to_be_hidden()
+    panel.get_by_role("button", name="Reset").click()
+    expect(panel.get_by_role("alert")).to_have_count(0)
+    shows(panel, MEDIUM)
+
+
+def test_the_parts_follow_the_design_in_the_sliders(explorer: Locator, panel: Locator) -> None:
+    box = row(explorer, "lift arm").get_by_role("spinbutton")
+    box.fill("51")
+    box.press("Enter")
+    shows(panel, MEDIUM, door_handle_study().start.replace(lift_arm=51 * mm))
+    explorer.get_by_role("button", name="Reset").click()
+    shows(panel, MEDIUM)
+
+
+def test_a_drag_leaves_nothing_queued(page: Page, panel: Locator) -> None:
+    """When the pointer is let go, the last of thirty places soon counts, and nothing comes after it."""
+    place = row(panel, "lift arm").locator(".noUi-base").bounding_box()
+    handle = row(panel, "lift arm").locator(".noUi-handle").bounding_box()
+    assert place
+    assert handle
+    page.mouse.move(handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(place["x"] + place["width"] * 0.6, handle["y"] + handle["height"] / 2, steps=30)
+    page.mouse.up()
+    time.sleep(1.5)
+    half = kernel_value(page, "tolerances.knobs['lift_arm'].value")
+    assert half == pytest.approx(0.9 * mm, rel=0.05)
+    expect(row(panel, "lift arm").get_by_role("spinbutton")).to_have_value(f"{half / mm:.6g}")
+    shows(panel, MEDIUM | {"lift_arm": half})
+    assert kernel_value(page, "tolerances.knobs['lift_arm'].value") == half
