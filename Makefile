@@ -13,10 +13,11 @@ AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
 
-.PHONY: help lab test lint bench notebooks constraints clean
+.PHONY: help lab app test lint bench notebooks constraints clean
 
 help:
 	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
+	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila)"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
 	@echo "make lint       run the quick checks only: style, types, imports"
 	@echo "make bench      measure speed"
@@ -26,6 +27,10 @@ help:
 lab: $(VENV)/.lab
 	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
 	$(BIN)/jupyter lab $(AS_ROOT) notebooks/00_start_here.ipynb
+
+app: $(VENV)/.app
+	@echo "Opening the list of notebooks in your browser; a page appears when its notebook has run. Ctrl-C here ends it."
+	$(BIN)/voila notebooks
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
@@ -59,15 +64,15 @@ notebooks: $(VENV)/.test
 # After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out.
 constraints: $(VENV)/.test
 	$(BIN)/python -m pip freeze --exclude-editable --exclude camkit | LC_ALL=C sort -f > constraints.txt
-	touch $(VENV)/.lab $(VENV)/.test
+	touch $(VENV)/.lab $(VENV)/.app $(VENV)/.test
 
 clean:
-	rm -rf build dist .browser .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build dist .browser .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find camkit tests benchmarks notebooks -name __pycache__ -o -name .ipynb_checkpoints | xargs rm -rf
 
 
 # A stamp file says that its extra is installed, so a second call starts at once.
-$(VENV)/.lab $(VENV)/.test: $(VENV)/.%: pyproject.toml constraints.txt | $(BIN)/python
+$(VENV)/.lab $(VENV)/.app $(VENV)/.test: $(VENV)/.%: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "Installing camkit with all that 'make $*' needs into $(VENV); the first time takes a minute or two."
 	$(PIP_INSTALL) -e '.[$*]'
 	@touch $@

@@ -7,8 +7,12 @@ matplotlib or ipywidgets is loaded when it is first asked for.
 from importlib import import_module
 from typing import Any
 
+from .cam.cam_lever import CamLever, cam_lever_study
 from .cam.closing import ContactPair
 from .cam.door_handle import DoorHandleCam, door_handle_study
+from .cam.high_speed import HighSpeedCam
+from .cam.high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
+from .cam.high_speed_study import high_speed_study
 from .cam.load import ArmLoad, Friction
 from .cam.oscillating_flat import OscillatingFlatCam
 from .cam.oscillating_roller import OscillatingRollerCam
@@ -18,7 +22,7 @@ from .cam.translating_roller import TranslatingRollerCam
 from .cam.valve import ValveCam
 from .cam.valve_study import corrected_valve_study, valve_front_study, valve_study
 from .contact import hertz_line
-from .decision import ahp, crowding, topsis, weighted_sum
+from .decision import ahp, crowding, judgement_ranges, knee, topsis, weighted_sum, winner_map
 from .export import load, profile_csv, save
 from .linkage.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
 from .linkage.load import RockerLoad
@@ -27,11 +31,13 @@ from .linkage.space import Box
 from .motion import *  # noqa: F403
 from .motion import __all__ as _motion_names
 from .plane import Plane
-from .polish import polish
-from .quantities import Measure, quantity
+from .polish import SumOfResiduals, polish
+from .quantities import Measure, PeakMeasure, quantity
 from .shaft import UniversalJointShaft, lightest_shaft, shaft_study
+from .side_by_side import side_by_side
 from .study import Study, weighted
 from .sweep import Sweep
+from .tolerance import Curve, Tolerances
 from .units import GPa, MPa, N, cm, deg, kg, kN, kW, m, mm, rad, rpm
 from .universal_joint import DoubleUniversalJoint, UniversalJoint
 
@@ -39,73 +45,100 @@ __version__ = "0.1.0"
 
 _LATER = {
     "CompetitiveAlgorithm": "competitive",
-    "Front": "optimise",
-    "minimise": "minimise",
-    "offer": "app",
-    "nsga2": "optimise",
-    "explore": "app",
-    "judge": "app",
-    "search": "app",
+    "decide": "app",
     "edit_program": "app",
-    "try_everything": "app",
+    "explore": "app",
+    "Front": "optimise",
+    "improve": "app",
+    "judge": "app",
+    "live_front": "app",
+    "minimise": "minimum",
+    "nsga2": "optimise",
+    "offer": "app",
     "picture": "plot.picture",
+    "quick_front": "archive",
+    "search": "app",
+    "shorten": "app",
+    "shortest_interval": "cycle_time",
+    "survey": "app",
+    "tolerate": "app",
+    "trade": "app",
+    "trade_off": "trade_offs",
+    "trade_off_steps": "trade_offs",
+    "tray": "app",
+    "try_everything": "app",
 }
 """Names whose modules need more than numpy and scipy, and where they live."""
 
 __all__ = [
-    "CabinDoorLinkage",
-    "ninety_degree_study",
-    "rssr_study",
-    "RockerLoad",
-    "RSSR",
-    "Box",
-    "Plane",
-    "polish",
-    "UniversalJointShaft",
-    "lightest_shaft",
-    "shaft_study",
-    "Sweep",
-    "hertz_line",
-    "ValveCam",
-    "corrected_valve_study",
-    "valve_front_study",
-    "valve_study",
-    "DoubleUniversalJoint",
-    "UniversalJoint",
     "ArmLoad",
+    "Box",
+    "CabinDoorLinkage",
+    "CamLever",
+    "ConstantTorque",
     "ContactPair",
+    "Curve",
     "DoorHandleCam",
+    "DoubleUniversalJoint",
     "Friction",
     "GPa",
+    "HighSpeedCam",
+    "InertialSpringLoad",
     "MPa",
     "Measure",
     "N",
     "OscillatingFlatCam",
     "OscillatingRollerCam",
+    "PeakMeasure",
+    "Plane",
+    "RSSR",
+    "RockerLoad",
     "SlideFriction",
     "SlideLoad",
+    "SliderLoad",
     "Study",
+    "SumOfResiduals",
+    "Sweep",
+    "Tolerances",
     "TranslatingFlatCam",
     "TranslatingRollerCam",
+    "UniversalJoint",
+    "UniversalJointShaft",
+    "ValveCam",
     "ahp",
-    "load",
-    "profile_csv",
-    "save",
+    "cam_lever_study",
     "cm",
+    "corrected_valve_study",
     "crowding",
     "deg",
     "door_handle_study",
+    "hertz_line",
+    "high_speed_study",
+    "judgement_ranges",
     "kN",
     "kW",
     "kg",
+    "knee",
+    "lightest_shaft",
+    "load",
     "m",
     "mm",
+    "ninety_degree_study",
+    "polish",
+    "profile_csv",
     "quantity",
     "rad",
     "rpm",
+    "rssr_study",
+    "save",
+    "shaft_study",
+    "side_by_side",
     "topsis",
+    "valve_front_study",
+    "valve_study",
     "weighted",
     "weighted_sum",
+    "winner_map",
     *_LATER,
     *_motion_names,
 ]

@@ -4,12 +4,16 @@ import base64
 import gc
 import io
 import json
+import os
+import re
+import shutil
 import sys
 import threading
 import time
 import tracemalloc
 import weakref
 from functools import partial
+from pathlib import Path
 
 import ipywidgets as w
 import matplotlib.figure
@@ -32,15 +36,16 @@ from camkit import (
     try_everything,
 )
 from camkit.app import picture as live
-from camkit.app.controls import Download, Upload
+from camkit.app.controls import Download, Upload, label_html
 from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
 from camkit.decision import CHOOSERS
 from camkit.export import from_json, profile_csv, to_json
 from camkit.motion import Cycloidal, Poly345
-from camkit.optimise import Front
+from camkit.optimise import Front, Generation
 from camkit.plot.artists import _find
 from camkit.plot.cam import cam_mechanism, curvature, pressure_angle
 from camkit.plot.front import shown_objectives
+from camkit.quantities import Quantity
 from camkit.units import deg, mm
 
 SMALL = {"width": 4.0, "height": 2.6}
@@ -66,6 +71,14 @@ def _no_drawing_goes_on():
         if isinstance(thread, threading.Timer):
             thread.cancel()
             thread.join()
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _searches_are_kept_elsewhere(tmp_path_factory):
+    before = os.getcwd()
+    os.chdir(tmp_path_factory.mktemp("notebooks"))
+    yield
+    os.chdir(before)
 
 
 def an_explorer():
@@ -119,6 +132,8 @@ def finder(workshop):
     workshop.front = Front(workshop.study, workshop._x, np.zeros((0, 2)))
     workshop.importance.load([1])
     workshop.criteria.load(PAPER_JUDGEMENTS)
+    shutil.rmtree(".camkit", ignore_errors=True)
+    workshop.resume_button.disabled = True
 
 
 @pytest.fixture(scope="module")
@@ -296,6 +311,56 @@ def test_a_picture_is_blitted_at_once_and_redrawn_when_all_is_quiet(app, monkeyp
     x, y = app.picture.axes[0].get_ylim()
     highest = np.abs(app.analysis.lift.pressure_angle / deg).max()
     assert max(abs(x), abs(y)) >= highest  # the axes fit again
+
+
+def test_slow_moves_wait_longer_for_the_full_drawing_which_would_delay_them(app, monkeypatch):
+    at = [100.0]
+    monkeypatch.setattr(live.time, "monotonic", lambda: at[0])
+    waits = []
+    for after in (10.0, 0.02, 0.4, 0.9, 1.1):
+        at[0] += after
+        waits.append(app.picture._patience())
+    assert_allclose(waits, [live.SETTLE, live.SETTLE + 0.04, live.SETTLE + 0.8, live.SETTLE + 1.8, live.SETTLE])
+
+
+def test_the_jpeg_of_a_move_is_the_canvas():
+    """A frame is encoded from the canvas's own memory; it must be that frame, and not the one before."""
+    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
+    app.controls["lift_arm"].slider.value = 46.0
+    shown = np.asarray(Image.open(io.BytesIO(app.picture.widget.data)), float)
+    canvas = np.asarray(app.picture.figure.canvas.buffer_rgba())[..., :3]
+    assert shown.shape == canvas.shape
+    assert np.abs(shown - canvas).mean() < 3
+    close(app)
+
+
+def test_a_symbol_that_is_the_name_is_shown_once():
+    exponent, arm = Quantity("n", 3, 1, 9, "", "exponent"), Quantity("l_1", 50, 40, 60, "mm", "lift arm")
+    assert label_html("n", exponent) == "<span title='exponent' data-name='n'><i>n</i></span>"
+    assert label_html("lift_arm", arm).endswith("data-name='lift arm, mm'><i>l</i><sub>1</sub>&ensp;lift arm</span>")
+
+
+def test_the_picture_is_described_by_its_titles_and_numbers(app, monkeypatch):
+    monkeypatch.setattr(live, "SETTLE", 0.02)
+    app.controls["lift_arm"].slider.value = 47.0
+    deadline = time.monotonic() + 5
+    while app.picture._later and time.monotonic() < deadline:
+        time.sleep(0.01)
+    time.sleep(0.1)
+    assert app.picture.widget.description == f"Pictures of the DoorHandleCam\nPressure angle\n{app.summary()}"
+
+
+def test_without_a_kernel_the_mechanism_stands_in_four_positions():
+    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], **SMALL)
+    plain, still = (Image.open(io.BytesIO(data)).convert("RGB") for data in (app.picture.png(), app.still()))
+    assert still.width == plain.width
+    assert still.height > plain.height
+    below = np.asarray(still)[plain.height :]
+    four = np.array_split(np.asarray(below, int), 4, axis=1)
+    assert all((part.min(axis=-1) < 200).sum() > 100 for part in four)
+    assert all((a[:, : b.shape[1]] != b[:, : a.shape[1]]).any() for a, b in zip(four[1:], four, strict=False))
+    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
+    assert app.still() == app.picture.png()
 
 
 def test_the_picture_shows_the_numbers_of_the_analysis(app):
@@ -493,6 +558,7 @@ def test_stop_takes_effect_within_half_a_second_and_keeps_the_front(finder):
     shown = finder.progress.value
     began = time.monotonic()
     press(finder, "Stop")
+    assert finder.status.value == "stopping"
     finder.wait(10)
     assert time.monotonic() - began < 0.5
     assert len(finder.front) > 0
@@ -503,6 +569,133 @@ def test_stop_takes_effect_within_half_a_second_and_keeps_the_front(finder):
     assert finder.winner is not None
     run(finder, population=12, generations=3)  # and another can be run
     assert finder.status.value.startswith("generation 3 of 3: ")
+
+
+def test_a_panel_that_follows_the_front_is_called_after_it_is_shown(finder):
+    seen = []
+    finder.on_front(lambda: seen.append((len(finder.front), finder.winner, finder.pick.max + 1)))
+    run(finder)
+    assert len(seen) >= 1
+    assert seen[-1] == (len(finder.front), finder.winner, len(finder.front))
+    before = len(seen)
+    finder.criteria.sliders[(0, 1)].value = 1 / 9
+    assert len(seen) > before
+    finder._followers.clear()
+
+
+# ---------------------------------------------------------------- a search that was stopped or killed
+
+
+def stopped(finder, after=3):
+    """A search that was stopped some generations before its end; the files that it left."""
+    press(finder, "Optimise")
+    deadline = time.monotonic() + 30
+    while finder.progress.value < after and time.monotonic() < deadline:
+        time.sleep(0.005)
+    press(finder, "Stop")
+    finder.wait(10)
+    return sorted(os.listdir(".camkit"))
+
+
+def test_a_stopped_search_is_resumed_to_the_same_front(finder):
+    """Also from a page that was opened anew, and after everything on it was changed: all is put back."""
+    typed = explore(DoorHandleCam(lift_start_angle=0.371234567890123), pressure_angle, free=SLIDERS, **SMALL).design
+    finder.explorer.load(typed)
+    finder.bounds["relief_arm"].free.value = False
+    finder.bounds["lift_arm"].set((45.123456789 * mm, 54.987654321 * mm))
+    finder.criteria.sliders[(0, 2)].value = 3.0
+    finder.population.value, finder.generations.value, finder.seed.value = 40, 60, 4
+    study = finder._study()
+    files = stopped(finder)
+    assert "(stopped)" in finder.status.value
+    assert (len(files), files[0]) == (3, ".gitignore")
+    assert not finder.resume_button.disabled
+    left = finder.progress.value
+
+    other = fresh()
+    assert not other.resume_button.disabled
+    press(other, "Resume")
+    other.wait(60)
+    assert alert(other) == ""
+    assert other.status.value.startswith("generation 60 of 60: ")
+    assert left < 60
+    uninterrupted = nsga2(study, 40, 60, 4)
+    assert_array_equal(other.front.x, uninterrupted.x)
+    assert_array_equal(other.front.f, uninterrupted.f)
+    assert other.explorer.design == typed
+    assert other.criteria.upper == finder.criteria.upper
+    assert {n: b.value for n, b in other.bounds.items() if b.free.value} == dict(study.free)
+    assert os.listdir(".camkit") == [".gitignore"]  # a search that has ended leaves nothing
+    assert other.resume_button.disabled
+    press(finder, "Resume")
+    assert alert(finder) == "This cannot be resumed: there is no search that did not end."
+
+
+def test_a_search_that_cannot_be_resumed_says_so(finder):
+    finder.population.value, finder.generations.value = 40, 1000
+    files = stopped(finder)
+    folder = Path(".camkit")
+    (folder / files[2]).write_bytes(b"PK")
+    press(finder, "Resume")
+    finder.wait(10)
+    assert alert(finder) == f"The search ended early: the checkpoint {files[2]} is damaged; delete it to begin anew."
+    (folder / files[1]).write_text("{}")
+    press(finder, "Resume")
+    assert alert(finder).startswith("This cannot be resumed: ")
+    for name in files[1:]:
+        (folder / name).unlink()
+
+
+def test_a_folder_that_cannot_be_written_does_not_stop_a_search(finder, monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError("read only")
+
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    run(finder)
+    assert finder.status.value.startswith("generation 12 of 12: ")
+    assert alert(finder) == ""
+    assert finder.resume_button.disabled
+
+
+def test_the_status_tells_the_time_that_is_left():
+    study = door_handle_study()
+    left = sys.modules["camkit.app.search"]._left
+    at = partial(Generation, evaluation=study.evaluate(study.x0), study=study, record={"seconds": 5.0})
+    assert left(at(10, 30)) == ", 10 s left"
+    assert left(at(10, 1010)) == ", 8 min left"
+
+
+def test_a_running_search_tells_the_time_that_is_left(finder):
+    said = []
+    finder.status.observe(lambda change: said.append(change.new), "value")
+    finder.population.value, finder.generations.value = 100, 10000
+    press(finder, "Optimise")
+    while not said:
+        time.sleep(0.01)
+    finder.stop()
+    finder.wait(10)
+    finder.status.unobserve_all()
+    assert re.fullmatch(r"generation \d+ of 10000: .*, hypervolume [\d.e-]+, \d+ (s|min) left", said[0])
+    assert said[-2:-1] == ["stopping"]
+    assert re.fullmatch(r"generation \d+ of 10000 \(stopped\): .*, hypervolume [\d.e-]+", said[-1])
+
+
+def test_the_page_says_how_its_front_was_found_and_saves_it(finder):
+    run(finder, population=40, generations=30, seed=9)
+    record = finder.front.record
+    assert (record["population"], record["generations"], record["seed"]) == (40, 30, 9)
+    assert finder.found.value.startswith("found by NSGA-II in ")
+    assert f"population 40, 30 generations, seed 9; python {sys.version.split()[0]}, camkit 0.1" in finder.found.value
+    saved = downloaded(finder, "Save study")["text"]
+    other = fresh()
+    upload(other, "Load study", saved)
+    assert other.found.value == finder.found.value
+    older = json.loads(saved)
+    del older["work"]["record"]
+    upload(other, "Load study", json.dumps(older))
+    assert alert(other) == ""
+    assert other.found.value == ""
+    assert len(other.front) == len(finder.front)
 
 
 def test_a_second_press_does_not_start_a_second_search(finder):
@@ -646,6 +839,7 @@ def test_a_study_goes_to_a_file_and_back(finder, mode):
     finder.bounds["relief_cam_angle"].free.value = True
     finder.bounds["relief_cam_angle"].low.value = 42.0
     finder.importance.sliders[(0, 1)].value = 3.0
+    finder.rule.value = "TOPSIS"
     run(finder, population=40, generations=30, seed=9)
     assert len(finder.front) > 5
     finder.select(finder.winner)
@@ -666,6 +860,10 @@ def test_a_study_goes_to_a_file_and_back(finder, mode):
     assert_allclose(other.explorer.design.lift_arm, finder.explorer.design.lift_arm, rtol=1e-14)
     assert other.explorer.controls["lift_arm"].value == other.explorer.design.lift_arm
     assert other.mode.value == mode  # or Optimise would go on with another problem
+    assert other.rule.value == "TOPSIS"
+    for name, control in other.explorer.controls.items():
+        assert control.value == getattr(other.explorer.design, name)
+    assert_allclose(other.front.study.bounds, finder.study.bounds, rtol=1e-14)
 
 
 def test_a_study_without_a_front_replaces_the_front_that_was_there(finder):
@@ -685,6 +883,8 @@ BROKEN_STUDIES = {
     "judgements of text": {"judgements": {"criteria": "abc"}},
     "a population of text": {"search": {"population": "many"}},
     "an unknown setting": {"search": {"explorer": 5}},
+    "an unknown problem": {"search": {"mode": "half a cam"}},
+    "an unknown rule": {"search": {"rule": "dice"}},
     "a front of two columns": {"front": [[1, 2]]},
     "another mechanism": {
         "start": OTHER, "design": OTHER, "free": {"arm_length [mm]": [50, 70]}, "minimise": ["peak contact force [N]"],
@@ -748,7 +948,16 @@ def figures():
     return sum(isinstance(thing, matplotlib.figure.Figure) for thing in gc.get_objects())
 
 
-def test_two_hundred_moves_leave_nothing_behind():
+def callbacks(panel):
+    """How many functions wait for a change of anything in the panel."""
+    widgets = [panel, *inside(panel, w.Widget)]
+    waiting = sum(
+        len(acts) for widget in widgets for kinds in widget._trait_notifiers.values() for acts in kinds.values()
+    )
+    return waiting + sum(len(widget._msg_callbacks.callbacks) for widget in widgets)
+
+
+def test_a_thousand_moves_leave_nothing_behind():
     app = explore(DoorHandleCam(), curvature, free=["lift_arm", "relief_arm"], **SMALL)
     slider = app.controls["lift_arm"].slider
 
@@ -759,18 +968,20 @@ def test_two_hundred_moves_leave_nothing_behind():
         gc.collect()
 
     move(10)
-    before, threads = figures(), threading.active_count()
-    artists = sum(len(ax.get_children()) for ax in app.picture.axes)
+    before, threads, waiting = figures(), threading.active_count(), callbacks(app)
+    artists, widgets = sum(len(ax.get_children()) for ax in app.picture.axes), len(inside(app, w.Widget))
     tracemalloc.start()
     move(5)
     start = tracemalloc.get_traced_memory()[0]
-    move(200)
+    move(1000)
     grown = tracemalloc.get_traced_memory()[0] - start
     tracemalloc.stop()
     assert figures() == before
     assert _pylab_helpers.Gcf.get_all_fig_managers() == []
     assert sum(len(ax.get_children()) for ax in app.picture.axes) == artists
-    assert grown < 1_000_000  # one picture left behind at each move would be 20 MB; coverage itself keeps some
+    assert len(inside(app, w.Widget)) == widgets
+    assert callbacks(app) == waiting > 10
+    assert grown < 1_000_000  # one picture left behind at each move would be 100 MB; coverage itself keeps some
     time.sleep(0.05)
     assert threading.active_count() <= threads + 1
     close(app)

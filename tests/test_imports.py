@@ -12,10 +12,12 @@ import numpy
 import pytest
 import scipy
 
+import camkit
+
 REPOSITORY = Path(__file__).parents[1]
 
 # The modules that need the [lab] extra; `import camkit` must not need them.
-LAB = {"app", "plot", "optimise", "competitive", "minimise", "cycle_time", "trade_off"}
+LAB = {"app", "archive", "plot", "optimise", "competitive", "minimum", "cycle_time", "trade_offs"}
 
 # As on a machine where nothing else is installed: an import of anything else fails.
 ONLY_NUMPY_AND_SCIPY = """
@@ -90,3 +92,11 @@ def test_the_wheel_works_beside_numpy_and_scipy_alone(wheel: Path, tmp_path: Pat
         env=clean,
     )
     assert said.split() == [str(site / "camkit/__init__.py"), "0.05"]
+
+
+def test_no_name_that_is_loaded_later_is_that_of_a_module() -> None:
+    """Python binds a submodule to its package as soon as anybody imports it; the name would then be the module."""
+    modules = {path.stem for path in (REPOSITORY / "camkit").iterdir()}
+    assert not modules & camkit._LATER.keys()
+    for name in camkit._LATER:
+        assert callable(getattr(camkit, name))

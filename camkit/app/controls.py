@@ -32,11 +32,24 @@ GREEK = {
 }
 
 
+LABEL = "0 0 13.2em"
+"""Room for a quantity's symbol and name, in the page's own letters."""
+
+
 def symbol_html(symbol: str) -> str:
     """``psi_0`` as a reader expects it."""
     letter, _, index = symbol.partition("_")
     letter = GREEK.get(letter, letter)
     return f"<i>{letter}</i><sub>{index}</sub>" if index else f"<i>{letter}</i>"
+
+
+def label_html(name: str, declared: Quantity | Choice) -> str:
+    """A quantity's symbol and name (once, where they are the same); its meaning to hover, and how it is said aloud."""
+    shown = said = words(name)
+    if isinstance(declared, Quantity):
+        shown = f"{symbol_html(declared.symbol)}&ensp;{said}" if said != declared.symbol else symbol_html(said)
+        said = f"{said}, {declared.unit}" if declared.unit else said
+    return f"<span title='{declared.meaning}' data-name='{said}'>{shown}</span>"
 
 
 class Knob:
@@ -59,12 +72,9 @@ class Knob:
             layout=w.Layout(width="auto", min_width="60px", flex="1 1 80px"),
         )
         self.slider.value = on_grid(self.slider, shown)
-        self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="76px"))
-        label = w.HTML(
-            f"<span title='{declared.meaning}'>{symbol_html(declared.symbol)}&ensp;{words(name)}</span>",
-            layout=w.Layout(flex="0 0 172px"),
-        )
-        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(flex="0 0 54px"))
+        self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="5.9em"))
+        label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
+        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(flex="0 0 4.2em"))
         self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
         self.slider.observe(lambda change: self._moved(change.new), "value")
@@ -143,7 +153,7 @@ class Menu:
             options=[(option.name, option) for option in declared.options], value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
         )  # fmt: skip
-        label = w.HTML(f"<span title='{declared.meaning}'>{words(name)}</span>", layout=w.Layout(flex="0 0 172px"))
+        label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
         self.row = w.HBox([label, self.menu], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
         self.menu.observe(self._chosen, "value")

@@ -11,13 +11,13 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..plot.picture import View, positions_of
+from ..plot.picture import View, below, positions_of, small_png, strip
 from ..quantities import Design, Measure, Quantity, declarations
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tell
 from .orbit import Orbit
 from .panel import Panel
-from .picture import LivePicture
+from .picture import DRAWING, LivePicture
 
 VIEWPOINT = {
     "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
@@ -201,6 +201,17 @@ class Explorer(Panel):
         met = sense * (now - value) <= 0
         sign = "&le;" if sense > 0 else "&ge;"
         return f"{sign} {measure.text(value)}", "met" if met else "<span class='camkit-missed'>not met</span>"
+
+    def still(self) -> bytes:
+        """The picture; below it the mechanism in four positions, if it can be turned."""
+        turning = [view for view in self.picture.views if "turn" in positions_of(view)]
+        if not turning or "azimuth" in self.positions:
+            return super().still()
+        low, high = self._turn_range()[1:]
+        turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
+        with DRAWING:
+            below_it = strip(self.analysis, turning[0], turns, width=self.picture.figure.get_figwidth())
+            return below(super().still(), small_png(below_it))
 
     def summary(self) -> str:
         """Every measure as it is now."""

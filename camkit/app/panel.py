@@ -1,4 +1,4 @@
-"""What every panel shares: a style sheet, and a still picture with numbers where there is no kernel."""
+"""What every panel shares: style, names for screen readers, a still picture with numbers where there is no kernel."""
 
 from __future__ import annotations
 
@@ -7,11 +7,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import anywidget
 import ipywidgets as w
 
 from .picture import LivePicture
 
-CSS = f"<style>{Path(__file__).with_name('panel.css').read_text(encoding='utf-8')}</style>"
+
+class Dress(anywidget.AnyWidget):
+    """Nothing to see: the style sheet of the panel that it is put into, and a name for each of its controls."""
+
+    _esm = Path(__file__).with_name("panel.js").read_text(encoding="utf-8")
+    _css = Path(__file__).with_name("panel.css").read_text(encoding="utf-8")
 
 
 class Panel(w.VBox):
@@ -20,17 +26,24 @@ class Panel(w.VBox):
     picture: LivePicture
 
     def __init__(self, children: Sequence[w.Widget]) -> None:
-        super().__init__([w.HTML(CSS), *children])
+        super().__init__([Dress(layout=w.Layout(display="none")), *children])
         self.add_class("camkit-panel")
+        if self.picture.said is str:  # else the picture is another panel's
+            self.picture.said = self.summary
 
     def summary(self) -> str:
         """The panel's numbers, a line each."""
         raise NotImplementedError
 
+    def still(self) -> bytes:
+        """The picture, as a PNG file, that stands for the panel where there is no kernel."""
+        return self.picture.png()
+
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         """The live panel for a kernel, the picture and the numbers where there is none."""
         bundle = super()._repr_mimebundle_(**kwargs)
         data = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
-        data["image/png"] = base64.b64encode(self.picture.png()).decode("ascii")
+        data["image/png"] = base64.b64encode(self.still()).decode("ascii")
         data["text/plain"] = self.summary()
+        self.picture.describe()
         return data

@@ -3,27 +3,28 @@
 A full drawing takes a few hundred milliseconds, three quarters of them for text.  So while something moves, only
 the curves are drawn, over a stored background (blitting), and a little after the last move everything is
 drawn again with axes that fit.
+
+Nothing queues: the page sends a slider's next value when the kernel is done with the last one, and by then only the
+newest is left.
 """
 
 from __future__ import annotations
 
-import io
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import anywidget
-import numpy as np
 import traitlets
 from matplotlib import rc_context
-from PIL import Image
 
 from ..plot.artists import STYLE, moving
-from ..plot.picture import View, draw, layout, small_png
+from ..plot.picture import View, draw, encoded, layout, pixels, small_png
 
-SETTLE = 0.25
-"""Seconds after the last move until everything is drawn again."""
+SETTLE, PAUSE = 0.25, 1.0
+"""Seconds after the last move until everything is drawn again, and seconds after which a move is no longer a drag."""
 
 
 DRAWING = threading.RLock()
@@ -59,9 +60,12 @@ class LivePicture:
     def __init__(self, views: tuple[View, ...], description: str, **size: Any) -> None:
         self.views = views
         self.figure, self.axes = layout(views, **size)
+        self.description = description
+        self.said: Callable[[], str] = str
         self.widget = ImageWidget(description=description)
         self._background: Any = None
         self._later: threading.Timer | None = None
+        self._moved = 0.0
 
     def show(self, analysis: Any, **position: float) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit."""
@@ -71,7 +75,7 @@ class LivePicture:
                 self.settle()
             else:
                 self._blit()
-                self.widget.put(self._encoded("JPEG", quality=88, subsampling=0), "image/jpeg")
+                self.widget.put(self._jpeg(), "image/jpeg")
                 self._settle_later()
 
     def settle(self) -> None:
@@ -90,7 +94,7 @@ class LivePicture:
             self.figure.set_layout_engine("none")  # the first drawing has laid the axes out; that takes half a second
             self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]
             self._blit()
-            self.widget.put(self._encoded("PNG", compress_level=2), "image/png")
+            self.widget.put(self._png(), "image/png")
 
     def png(self) -> bytes:
         """The picture as a PNG file, settled."""
@@ -102,12 +106,24 @@ class LivePicture:
     def _settle_later(self) -> None:
         if self._later:
             self._later.cancel()
-        self._later = threading.Timer(SETTLE, self._settle_if_alive)
+        self._later = threading.Timer(self._patience(), self._settle_if_alive)
         self._later.start()
+
+    def _patience(self) -> float:
+        """Seconds to wait for the next move; a full drawing would delay it, and on a busy machine it comes late."""
+        now = time.monotonic()
+        since, self._moved = now - self._moved, now
+        return SETTLE + (2 * since if since < PAUSE else 0.0)
 
     def _settle_if_alive(self) -> None:
         if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
             self.settle()
+            self.describe()
+
+    def describe(self) -> None:
+        """Tell those who do not see the picture: the views' titles, and what ``said()`` has to say of the numbers."""
+        titles = ", ".join(filter(None, (ax.get_title(loc="left") for ax in self.axes)))
+        self.widget.description = "\n".join(filter(None, (self.description, titles, self.said())))
 
     def _blit(self) -> None:
         self.figure.canvas.restore_region(self._background)  # type: ignore[attr-defined]
@@ -115,8 +131,8 @@ class LivePicture:
             for artist in moving(ax):
                 ax.draw_artist(artist)
 
-    def _encoded(self, kind: str, **options: Any) -> bytes:
-        image = Image.fromarray(np.asarray(self.figure.canvas.buffer_rgba())[..., :3])  # type: ignore[attr-defined]
-        out = io.BytesIO()
-        image.save(out, kind, **options)
-        return out.getvalue()
+    def _jpeg(self) -> bytes:
+        return encoded(pixels(self.figure), "JPEG", quality=88, subsampling=0)
+
+    def _png(self) -> bytes:
+        return encoded(pixels(self.figure).convert("RGB"), "PNG", compress_level=2)

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from operator import attrgetter
+from pathlib import Path
 from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
 from .. import export
+from ..checkpoint import fingerprint
 from ..decision import CHOOSERS, judgement_matrix
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
 from ..quantities import Quantity, declarations, words
 from ..study import Study
 from ..units import in_unit
-from .controls import Download, Upload, banner, symbol_html, tell
-from .explore import Explorer
+from .controls import Download, Upload, banner, label_html, tell
+from .explore import Explorer, changed, declared_in
 from .judge import Judgements
 from .panel import Panel
 from .picture import LivePicture
 
 REPORT = 0.25
 """Seconds between two reports of a running search."""
+KEPT = Path(".camkit")
+"""Where searches that have not ended are kept: a folder beside the notebook that git does not see."""
 
 MakeStudy = Callable[..., Study]
 
@@ -38,7 +46,7 @@ class Bounds:
         self.free = w.Checkbox(value=free, indent=False, layout=w.Layout(width="22px"), tooltip="free to change")
         self.low, self.high = w.FloatText(layout=narrow), w.FloatText(layout=narrow)
         self._show(bounds)
-        label = w.HTML(f"{symbol_html(declared.symbol)}&ensp;{words(name)}", layout=w.Layout(flex="1 1 170px"))
+        label = w.HTML(label_html(name, declared), layout=w.Layout(flex="1 1 170px"))
         unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(width="44px"))
         self.row = w.HBox([self.free, label, self.low, self.high, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
@@ -69,6 +77,9 @@ class Search(Panel):
     takes ``weights=`` as well if there are ``criteria`` to judge.  ``importance`` judges the objectives among each
     other.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
     generation and keeps the front so far.  Judgements weigh the objectives anew without a new search.
+
+    Each generation is kept in a file until the search has ended.  After Stop or a killed kernel, Resume puts the page
+    back as it was at Optimise and goes on from the last generation, to the same front as without the break.
     """
 
     def __init__(
@@ -92,12 +103,14 @@ class Search(Panel):
         self.winner: int | None = None
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
+        self._followers: list[Callable[[], None]] = []
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(self._clicked)
         super().__init__([self._body()])
         for panel in self._judges().values():
             panel.on_change(self._judged)
         self._show_front()
+        self.resume_button.disabled = self._unfinished() is None
         explorer.on_change(lambda _: self._show_front() if self._selected() != self._marked else None)
 
     def _make_widgets(self, population: int, generations: int) -> None:
@@ -113,6 +126,12 @@ class Search(Panel):
         self.seed = w.BoundedIntText(1, 0, 10**6, description="seed", layout=narrow, style=style)
         self.run_button = w.Button(description="Optimise", icon="play", button_style="primary")
         self.stop_button = w.Button(description="Stop", icon="stop", disabled=True)
+        self.resume_button = w.Button(
+            description="Resume",
+            icon="forward",
+            disabled=True,
+            tooltip="go on with the last search that was stopped or killed",
+        )
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
         self.status = w.HTML("not run yet")
         self.status.add_class("camkit-status")
@@ -123,9 +142,10 @@ class Search(Panel):
             0, 0, 0, description="design", disabled=True, layout=w.Layout(width="430px"), style=style
         )
         self.take = w.Button(description="Load the winner", icon="star", disabled=True)
-        self.verdict, self._banner = w.HTML(), banner()
+        self.found, self.verdict, self._banner = w.HTML(), w.HTML(), banner()
         self.run_button.on_click(lambda _: self.run())
         self.stop_button.on_click(lambda _: self.stop())
+        self.resume_button.on_click(lambda _: self.resume())
         self.take.on_click(lambda _: self.select(self.winner))
         self.rule.observe(lambda _: self._show_front(), "value")
         self._silent = False
@@ -134,7 +154,10 @@ class Search(Panel):
     def _body(self) -> w.Widget:
         save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()))
         settings = w.HBox([self.population, self.generations, self.seed], layout=w.Layout(flex_flow="row wrap"))
-        buttons = w.HBox([self.run_button, self.stop_button, self.progress])
+        buttons = w.HBox(
+            [self.run_button, self.stop_button, self.resume_button, self.progress],
+            layout=w.Layout(flex_flow="row wrap"),
+        )
         rows = [bounds.row for bounds in self.bounds.values()]
         heading = w.HTML("<b>free quantities and their bounds</b>")
         left = [
@@ -144,6 +167,7 @@ class Search(Panel):
             settings,
             buttons,
             self.status,
+            self.found,
             self._banner,
             w.HBox([save, Upload("Load study", self.load_json)]),
         ]
@@ -163,38 +187,116 @@ class Search(Panel):
 
     def run(self) -> None:
         """Start the search; returns at once."""
-        if self._thread and self._thread.is_alive():
+        if self._running():
             return
         try:
             self.study = self._study()
         except ValueError as refusal:
             tell(self._banner, f"This cannot be searched: {refusal}.")
             return
+        self._begin(self._new_file())
+
+    def resume(self) -> None:
+        """Go on with the last search that did not end, under the settings that it had; returns at once."""
+        if self._running():
+            return
+        path = self._unfinished()
+        try:
+            if path is None:
+                raise ValueError("there is no search that did not end")
+            self._load_page(json.loads(path.with_suffix(".json").read_text(encoding="utf-8")))
+            self.study = self._study()
+        except (ValueError, KeyError, TypeError, OSError) as refusal:
+            tell(self._banner, f"This cannot be resumed: {refusal}.")
+        else:
+            self._begin(path)
+
+    def _running(self) -> bool:
+        return self._thread is not None and self._thread.is_alive()
+
+    def _begin(self, path: Path | None) -> None:
         tell(self._banner, "")
         self._stop.clear()
-        self.run_button.disabled, self.stop_button.disabled = True, False
+        self.run_button.disabled = self.resume_button.disabled = True
+        self.stop_button.disabled = False
         self.progress.max, self.progress.value = self.generations.value, 0
-        self._thread = threading.Thread(target=self._search)
+        self._thread = threading.Thread(target=self._search, args=(path,))
         self._thread.start()
+
+    def _new_file(self) -> Path | None:
+        """Where this search is to be kept, with the page beside it; ``None`` where nothing can be written."""
+        settings = f"{fingerprint(self.study)} {self.population.value} {self.seed.value}"
+        name = f"{type(self.study.start).__name__}-{hashlib.sha256(settings.encode()).hexdigest()[:12]}.npz"
+        try:
+            page = json.dumps(self._page())
+            KEPT.mkdir(exist_ok=True)
+            (KEPT / ".gitignore").write_text("*\n", encoding="utf-8")
+            (KEPT / name).unlink(missing_ok=True)
+            (KEPT / name).with_suffix(".json").write_text(page, encoding="utf-8")
+        except (OSError, ValueError):  # a folder that is read only, or a law of one's own, which no file can hold
+            return None
+        return KEPT / name
+
+    def _unfinished(self) -> Path | None:
+        """The latest search on such a design that did not end."""
+        found = KEPT.glob(f"{type(self.explorer.start).__name__}-*.npz")
+        return max((f for f in found if f.with_suffix(".json").exists()), key=lambda f: f.stat().st_mtime, default=None)
+
+    def _page(self) -> dict[str, Any]:
+        """All that the study depends on, to the last bit: numbers in SI, where a saved study has them in units."""
+        design = self.explorer.design
+        numbers = {n: attrgetter(n)(design) for n, d in declared_in(design).items() if isinstance(d, Quantity)}
+        return {
+            "design": export.to_json(design),
+            "numbers": numbers,
+            "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
+            "judgements": {name: panel.upper for name, panel in self._judges().items()},
+            "search": self._settings(),
+        }
+
+    def _check_settings(self, settings: Mapping[str, Any]) -> None:
+        for name, value in settings.items():
+            known = isinstance(value, export.SETTINGS.get(name, ()))
+            if not known or value not in getattr(getattr(self, name), "options", (value,)):
+                raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
+
+    def _load_page(self, page: Mapping[str, Any]) -> None:
+        self._check_settings(page["search"])
+        design = changed(export.from_json(page["design"], type(self.explorer.start)), page["numbers"])
+        for name, panel in self._judges().items():
+            panel.load(page["judgements"][name])
+        for name, bounds in self.bounds.items():
+            bounds.set(tuple(page["space"][name]) if name in page["space"] else None)
+        for name, value in page["search"].items():
+            getattr(self, name).value = value
+        self.explorer.load(design)
 
     def stop(self) -> None:
         """Stop after the running generation; the front so far stays."""
+        if self._thread and self._thread.is_alive():
+            self.status.value = "stopping"
         self._stop.set()
+
+    def on_front(self, act: Callable[[], None]) -> None:
+        """Call ``act()`` after each new front is shown, from whichever thread shows it."""
+        self._followers.append(act)
 
     def wait(self, seconds: float | None = None) -> None:
         """Until the search has ended."""
         if self._thread:
             self._thread.join(seconds)
 
-    def _search(self) -> None:
+    def _search(self, path: Path | None) -> None:
+        ended = False
         try:
             reference = reference_point(self.study)
             reported = 0.0
             for generation in nsga2_generations(
-                self.study, self.population.value, self.generations.value, self.seed.value
+                self.study, self.population.value, self.generations.value, self.seed.value, path
             ):
                 gone = not threading.main_thread().is_alive()
-                last = generation.number == generation.of or self._stop.is_set() or gone
+                ended = generation.number == generation.of
+                last = ended or self._stop.is_set() or gone
                 if last or time.monotonic() - reported > REPORT:
                     self._report(generation, reference, last)
                     reported = time.monotonic()
@@ -203,18 +305,23 @@ class Search(Panel):
         except Exception as error:  # shown to the user: a thread has no other way to speak
             tell(self._banner, f"The search ended early: {error}.")
         finally:
+            if ended and path:
+                path.unlink(missing_ok=True)
+                path.with_suffix(".json").unlink(missing_ok=True)
             self.run_button.disabled, self.stop_button.disabled = False, True
+            self.resume_button.disabled = self._unfinished() is None
 
     def _report(self, generation: Generation, reference: Any, last: bool) -> None:
         self._x = generation.front.x
         self.front = generation.front if self.study is generation.study else generation.front.judged_by(self.study)
         self.progress.value = generation.number
-        stopped = last and generation.number < generation.of
-        self.status.value = (
-            f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
-            f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
-            f"hypervolume {self.front.hypervolume(reference):.6g}"
-        )
+        if last or not self._stop.is_set():  # else it says "stopping"
+            stopped = last and generation.number < generation.of
+            self.status.value = (
+                f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
+                f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
+                f"hypervolume {self.front.hypervolume(reference):.6g}{'' if last else _left(generation)}"
+            )
         tell(self._banner, self.front.message if last else "")
         self._show_front()
 
@@ -222,7 +329,7 @@ class Search(Panel):
         """Weigh the same designs anew."""
         if self.criteria:
             self.study = self.study.weighing(self.criteria.weights)
-        self.front = Front(self.study, self._x, self.front.f).judged_by(self.study)
+        self.front = Front(self.study, self._x, self.front.f, record=self.front.record).judged_by(self.study)
         self._show_front()
 
     def _show_front(self) -> None:
@@ -233,10 +340,12 @@ class Search(Panel):
         self._silent = False
         self._marked = self._selected()
         self.take.disabled = self.winner is None
-        self.verdict.value = self._verdict()
+        self.verdict.value, self.found.value = self._verdict(), _told(self.front.record)
         analysis = self.explorer.start.analyse(self.study.angles)
         start = np.array([measure(analysis) for measure in self.study.minimise])
         self.picture.show(ShownFront(self.front, self._selected(), self.winner, start))
+        for act in self._followers:
+            act()
 
     def _selected(self) -> int | None:
         """The front's design that is in the sliders, if one is."""
@@ -277,13 +386,17 @@ class Search(Panel):
     def work(self) -> export.Work:
         """Everything on the page, to be saved."""
         judgements = {name: panel.upper for name, panel in self._judges().items()}
-        search = {
+        front = self.front
+        return export.Work(self.study, self.explorer.design, judgements, self._settings(), front.x, front.record)
+
+    def _settings(self) -> dict[str, Any]:
+        return {
             "population": self.population.value,
             "generations": self.generations.value,
             "seed": self.seed.value,
             "mode": self.mode.value,
+            "rule": self.rule.value,
         }
-        return export.Work(self.study, self.explorer.design, judgements, search, self.front.x)
 
     def load(self, work: export.Work) -> None:
         """Show a saved study: judgements, bounds, front, and the design in the sliders."""
@@ -294,15 +407,14 @@ class Search(Panel):
                 f"the file holds a {type(work.study.start).__name__}; "
                 f"a {type(self.explorer.start).__name__} is wanted here"
             )
-        for name, value in work.search.items():
-            if name not in ("population", "generations", "seed", "mode") or (name == "mode") != isinstance(value, str):
-                raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of a search")
+        self._check_settings(work.search)
         for name, panel in self._judges().items():
             if name in work.judgements and len(judgement_matrix(work.judgements[name])) != len(panel.names):
                 raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
         self.study, self._x = work.study, np.asarray(work.x)
         empty = Front(work.study, self._x, np.zeros((0, len(work.study.minimise))))
         self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else empty
+        self.front = replace(self.front, record=work.record)
         for name, bounds in self.bounds.items():
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():
@@ -330,6 +442,23 @@ class Search(Panel):
         f = self.front.f[self.winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def _left(generation: Generation) -> str:
+    """How long a search still takes, if its generations go on as they did."""
+    left = generation.record["seconds"] / generation.number * (generation.of - generation.number)
+    return f", {left:.0f} s left" if left < 90 else f", {left / 60:.0f} min left"
+
+
+def _told(record: Mapping[str, Any]) -> str:
+    """How a front was found, in one line."""
+    if not record:
+        return ""
+    packages = ", ".join(f"{name} {version}" for name, version in record["versions"].items())
+    return (
+        f"found by NSGA-II in {record['seconds']:.3g} s: population {record['population']}, "
+        f"{record['generations']} generations, seed {record['seed']}; {packages}"
+    )
 
 
 def search(explorer: Explorer, studies: Mapping[str, MakeStudy], **options: Any) -> Search:

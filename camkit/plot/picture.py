@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ..units import deg
 from .artists import STYLE
 
 View = Callable[..., Axes]
@@ -30,9 +31,24 @@ class Picture(Figure):
 
 def small_png(figure: Figure) -> bytes:
     """The pixels of a drawn figure as a PNG file of 256 colours: a third of the usual size."""
-    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3])  # type: ignore[attr-defined]
+    return encoded(few_colours(pixels(figure).convert("RGB")), "PNG", optimize=True)
+
+
+def few_colours(image: Image.Image) -> Image.Image:
+    """``image`` in 256 colours."""
+    return image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+
+
+def pixels(figure: Figure) -> Image.Image:
+    """What the canvas of ``figure`` holds, not copied; its fourth channel, opaque, is not used."""
+    buffer = figure.canvas.buffer_rgba()  # type: ignore[attr-defined]
+    return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1)
+
+
+def encoded(image: Image.Image, kind: str, **options: Any) -> bytes:
+    """``image`` as a file of a ``kind`` that Pillow knows."""
     out = io.BytesIO()
-    image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    image.save(out, kind, **options)
     return out.getvalue()
 
 
@@ -76,3 +92,39 @@ def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, 
     figure, axes = layout(views, width, height)
     draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **position)
     return figure
+
+
+def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Picture:
+    """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
+    with rc_context(STYLE):
+        turns = tuple(turns)
+        figure = Picture(figsize=(width, height), dpi=100, layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots(1, len(turns))
+        for ax, turn in zip(axes, turns, strict=True):
+            view(analysis, ax, turn=turn)
+            _bare(ax, f"{turn / deg:.0f}°")
+        limits = [np.array([ax.get_xlim(), ax.get_ylim()]) for ax in axes]
+        low, high = np.min(limits, axis=0)[:, 0], np.max(limits, axis=0)[:, 1]
+        for ax in axes:
+            ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), adjustable="box")
+        figure.canvas.draw()
+    return figure
+
+
+def _bare(ax: Axes, title: str) -> None:
+    """Only what is drawn, and a title: the large picture has the scales and the legend."""
+    ax.set_title(title)
+    ax.set_axis_off()
+    legend = ax.get_legend()
+    if legend:
+        legend.remove()
+
+
+def below(first: bytes, second: bytes) -> bytes:
+    """Two pictures (PNG files) of the same width, one below the other, as one."""
+    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in (first, second)]
+    both = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
+    both.paste(images[0], (0, 0))
+    both.paste(images[1], (0, images[0].height))
+    return encoded(few_colours(both), "PNG", optimize=True)

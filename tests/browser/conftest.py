@@ -43,7 +43,7 @@ def server(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     """JupyterLab over a copy of the notebooks (it starts after the browser: no browser, no server)."""
     folder = tmp_path_factory.mktemp("lab")
     root = folder / "notebooks"
-    shutil.copytree(REPOSITORY / "notebooks", root, ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
+    shutil.copytree(REPOSITORY / "notebooks", root, ignore=shutil.ignore_patterns(".ipynb_checkpoints", ".camkit"))
     with lab_server(folder, root, REPOSITORY) as running:
         yield running
 

@@ -18,7 +18,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -79,7 +79,7 @@ def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> I
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     server = LabServer(f"http://127.0.0.1:{port}", secrets.token_hex(16), root)
-    environment = os.environ | _isolation(folder) | {"PYTHONPATH": str(source)}
+    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(source)}
     configuration = {
         "ServerApp": {
             "port": port,
@@ -120,7 +120,7 @@ def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> I
                 process.wait()
 
 
-def _isolation(folder: Path) -> dict[str, str]:
+def isolation(folder: Path) -> dict[str, str]:
     """The environment in which the user's own settings and kernels do not count."""
     homes = {
         "IPYTHONDIR": "ipython",
@@ -229,6 +229,14 @@ def kernel_value(page: Page, expression: str, timeout: float = 30) -> Any:
     if answer["status"] != "ok":
         raise AssertionError(f"{expression}: {answer['ename']}: {answer['evalue']}")
     return json.loads(ast.literal_eval(answer["data"]["text/plain"]))
+
+
+def eventually(check: Callable[[], bool], seconds: float = 15) -> None:
+    """Waits until ``check()`` holds."""
+    end = time.monotonic() + seconds
+    while not check():
+        assert time.monotonic() < end, f"did not come true within {seconds:g} s"
+        time.sleep(0.05)
 
 
 def screenshot(page: Page, path: Path | str) -> None:

@@ -1,0 +1,154 @@
+"""What every panel owes to a person: it follows the hand, it fits the window, it can be read and heard."""
+
+import re
+import time
+from collections.abc import Iterator
+
+import nbformat
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+
+from lab import LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
+
+EXPLORER = """
+from camkit import DoorHandleCam, deg, door_handle_study, explore, judge
+from camkit.cam.door_handle import CURVE_TABLE
+from camkit.plot.cam import DOOR_HANDLE_VIEWS
+
+study = door_handle_study()
+app = explore(DoorHandleCam(), *DOOR_HANDLE_VIEWS, free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,
+              at_most=study.at_most, turn=75 * deg)
+moves = []
+app.on_change(lambda design: moves.append(design.lift_arm))
+app"""
+
+# The contrast of an element's letters with what lies behind them, as WCAG 2 reckons it.
+CONTRAST = """(element) => {
+    const channels = (colour) => colour.match(/[\\d.]+/g).map(Number);
+    const luminance = (colour) => channels(colour).slice(0, 3)
+        .map(c => c / 255).map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+    let behind = element;
+    const seen = (e) => getComputedStyle(e).backgroundColor;
+    while (behind.parentElement && (channels(seen(behind))[3] ?? 1) < 1) behind = behind.parentElement;
+    const [low, high] = [luminance(getComputedStyle(element).color), luminance(seen(behind))].sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+}"""
+
+# Everything in the panel whose content is wider than itself.
+TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
+    .filter(e => e.clientWidth && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== 'visible')
+    .filter(e => !e.matches('.slider-container, .slider-container *, .camkit-knob, .camkit-knob *'))
+    .map(e => `${e.className} ${e.scrollWidth} > ${e.clientWidth}`)"""
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+    cells = [EXPLORER, "judge(['pressure angle', 'contact force', 'cam torque'], [1, 1, 1])"]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in cells])
+    notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    nbformat.write(notebook, server.root / "panels.ipynb")
+    page = context.new_page()
+    open_notebook(page, "panels.ipynb")
+    run_all(page)
+    page.evaluate("window.jupyterapp.commands.execute('application:toggle-left-area')")  # more room for the notebook
+    yield page
+    page.close()
+    server.end_kernels()
+
+
+@pytest.fixture
+def explorer(page: Page) -> Locator:
+    return cell_output(page, 0)
+
+
+def test_after_a_fast_drag_the_last_value_is_shown_and_nothing_queues(page: Page, explorer: Locator) -> None:
+    handle = explorer.get_by_role("slider", name="lift arm, mm")
+    handle.scroll_into_view_if_needed()
+    box = handle.bounding_box()
+    assert box
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for i in range(60):
+        page.mouse.move(x + 40 - abs(i - 40), y)
+    page.mouse.up()
+    last = float(handle.get_attribute("aria-valuetext") or "nan")
+    shown = explorer.get_by_role("spinbutton", name="lift arm, mm")
+    expect(shown).to_have_value(f"{last:g}", timeout=5000)
+    eventually(lambda: kernel_value(page, "app.picture.widget.mime") == "image/png")
+    moves = kernel_value(page, "moves")
+    assert moves[-1] == pytest.approx(last / 1000)
+    assert 1 <= len(moves) < 60  # those in between were left out
+    time.sleep(0.5)
+    assert kernel_value(page, "moves") == moves  # nothing comes after
+
+
+def test_every_control_has_a_name(page: Page, explorer: Locator) -> None:
+    for name in ("lift arm, mm", "relief arm, mm", "cam angle shown, deg"):
+        expect(explorer.get_by_role("slider", name=name, exact=True)).to_have_count(1)
+        expect(explorer.get_by_role("spinbutton", name=name, exact=True)).to_have_count(1)
+    expect(explorer.get_by_role("combobox", name="motion law")).to_have_count(1)
+    judged = "how many times pressure angle matters more than cam torque"
+    for role in ("slider", "textbox"):
+        expect(cell_output(page, 1).get_by_role(role, name=judged)).to_have_count(1)
+    controls = page.locator(".camkit-panel").locator("[role=slider], input:visible, select")
+    for control in controls.all():
+        name = control.get_attribute("aria-label")
+        assert name, control.evaluate("e => e.outerHTML")
+
+
+def test_the_picture_says_what_it_shows(page: Page, explorer: Locator) -> None:
+    words = explorer.get_by_role("img").get_attribute("alt") or ""
+    assert words.startswith("Pictures of the DoorHandleCam\nCam and follower, Motion, Pressure angle")
+    assert kernel_value(page, "app.summary()") in words
+
+
+def test_an_impossible_design_is_announced(page: Page, explorer: Locator) -> None:
+    box = explorer.get_by_role("spinbutton", name="lift arm, mm")
+    box.fill("-3")
+    box.press("Enter")
+    expect(explorer.get_by_role("alert")).to_contain_text("This cannot be built: the lift arm l_1")
+    explorer.get_by_role("button", name="Reset").press("Enter")
+    expect(explorer.get_by_role("alert")).to_have_count(0)
+
+
+def test_everything_can_be_reached_with_the_tab_key(page: Page, explorer: Locator) -> None:
+    wanted = {
+        "lift arm, mm",
+        "relief arm, mm",
+        "motion law",
+        "cam angle shown, deg",
+        "Reset",
+        "Save design",
+        "Load design",
+    }
+    explorer.get_by_role("slider", name="lift arm, mm").focus()
+    met = set()
+    for _ in range(20):
+        met.add(page.evaluate("document.activeElement.ariaLabel || document.activeElement.textContent.trim()"))
+        page.keyboard.press("Tab")
+    assert wanted <= met
+
+
+# 853 x 480 is 1280 x 720 at a zoom of 150 %.
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080), (853, 480)])
+def test_the_panels_fit_the_window(page: Page, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    for i in range(2):
+        panel = cell_output(page, i).locator(".camkit-panel")
+        page.wait_for_timeout(300)  # the page has been laid out anew
+        assert panel.evaluate(TOO_NARROW) == []
+
+
+def test_the_panels_can_be_read_in_the_dark(page: Page, explorer: Locator) -> None:
+    change = "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})"
+    page.evaluate(change, "JupyterLab Dark")
+    expect(page.locator("body")).to_have_attribute("data-jp-theme-light", "false")
+    try:
+        measure = re.compile("^peak contact force, lift")
+        words = (explorer.get_by_text("relief arm"), explorer.get_by_text(measure), explorer.locator("th").first)
+        for word in (*words, explorer.locator(".camkit-unit").first):
+            eventually(lambda word=word: word.evaluate(CONTRAST) > 4.5, seconds=5)
+    finally:
+        page.evaluate(change, "JupyterLab Light")

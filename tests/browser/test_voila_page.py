@@ -1,0 +1,101 @@
+"""The live notebooks as pages without code, served by Voilà: `make app`."""
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import nbformat
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from camkit import DoorHandleCam
+from camkit.cam.door_handle import CURVE_TABLE
+from camkit.quantities import declarations
+from camkit.units import factor
+from lab import eventually, isolation, screenshot
+
+REPOSITORY = Path(__file__).parents[2]
+DOOR_HANDLE = "01_door_handle_cam.ipynb"
+OTHERS = ("04_motion_program.ipynb", "05_cam_size.ipynb", "12_universal_joint_shaft.ipynb")
+"""Those that run quickest; every notebook runs in JupyterLab's own tests."""
+
+ERRORS = "[data-mime-type='application/vnd.jupyter.error'], [data-mime-type='application/vnd.jupyter.stderr']"
+
+
+@pytest.fixture(scope="module")
+def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Page]]:
+    """Every notebook's page, asked for at once so that they run beside each other."""
+    folder = tmp_path_factory.mktemp("voila")
+    shutil.copytree(REPOSITORY / "notebooks", folder / "notebooks", ignore=shutil.ignore_patterns(".*"))
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address = f"http://127.0.0.1:{port}"
+    command = [sys.executable, "-m", "voila", "notebooks", "--no-browser", f"--port={port}"]
+    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(REPOSITORY), "OPENBLAS_NUM_THREADS": "1"}
+    with (folder / "server.log").open("w") as log:
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
+    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    try:
+        eventually(lambda: _answers(address), seconds=60)
+        opened = {name: context.new_page() for name in (DOOR_HANDLE, *OTHERS)}
+        for name, page in opened.items():
+            page.goto(f"{address}/voila/render/{name}", wait_until="commit")
+        yield opened
+    finally:
+        context.close()
+        process.terminate()
+        process.wait(30)
+
+
+def _answers(address: str) -> bool:
+    try:
+        return urllib.request.urlopen(address, timeout=5).status == 200
+    except (urllib.error.URLError, ConnectionError, TimeoutError):
+        return False
+
+
+@pytest.mark.parametrize("name", [DOOR_HANDLE, *OTHERS])
+def test_a_live_notebook_is_a_page_with_its_panels_and_its_prose(pages: dict[str, Page], name: str) -> None:
+    page = pages[name]
+    notebook = nbformat.read(REPOSITORY / "notebooks" / name, as_version=4)
+    shown = sum("widget-view" in str(cell.get("outputs")) for cell in notebook.cells)
+    try:
+        expect(page.locator(".camkit-panel img.camkit-image")).to_have_count(shown, timeout=80_000)
+        expect(page.locator("h1").first).to_contain_text(notebook.cells[0].source.splitlines()[0].lstrip("# "))
+        expect(page.locator(ERRORS)).to_have_count(0)
+        expect(page.get_by_text("There was an error")).to_have_count(0)
+        expect(page.get_by_text("import ")).to_have_count(0)  # the code is left out
+    except AssertionError:
+        screenshot(page, REPOSITORY / ".browser" / f"voila_{name}.png")
+        raise
+
+
+def test_a_slider_of_the_page_moves_picture_and_numbers(pages: dict[str, Page]) -> None:
+    page = pages[DOOR_HANDLE]
+    arm = page.get_by_role("slider", name="lift arm, mm")
+    panel = page.locator(".camkit-panel").filter(has=arm)
+    picture = panel.locator("img.camkit-image")
+    box = panel.get_by_role("spinbutton", name="lift arm, mm")
+    before, first = picture.get_attribute("src"), box.input_value()
+    arm.press("ArrowRight")
+    expect(box).not_to_have_value(first)
+    value = float(box.input_value())
+    assert 0 < value - float(first) < 1
+    design = DoorHandleCam(**{name: _shown(panel, name) for name in ("lift_arm", "lift_start_angle", "relief_arm")})
+    measure, row = CURVE_TABLE[0], panel.locator(".camkit-tables tr:has(td)").first
+    expect(row).to_contain_text(measure.text(measure(design.analyse())))
+    expect(picture).not_to_have_attribute("src", before or "")
+
+
+def _shown(panel: Locator, name: str) -> float:
+    """What the box of a quantity shows, in SI."""
+    unit = declarations(DoorHandleCam())[name].unit
+    box = panel.get_by_role("spinbutton", name=f"{name.replace('_', ' ')}, {unit}")
+    return float(box.input_value()) * factor(unit)
