@@ -23,7 +23,7 @@ from .cam.valve import ValveCam
 from .cam.valve_study import corrected_valve_study, valve_front_study, valve_study
 from .contact import hertz_line
 from .decision import ahp, crowding, judgement_ranges, knee, topsis, weighted_sum, winner_map
-from .export import load, profile_csv, save
+from .export import load, profile_csv, profile_dxf, save
 from .linkage.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
 from .linkage.load import RockerLoad
 from .linkage.rssr import RSSR
@@ -126,6 +126,7 @@ __all__ = [
     "ninety_degree_study",
     "polish",
     "profile_csv",
+    "profile_dxf",
     "quantity",
     "rad",
     "rpm",

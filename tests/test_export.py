@@ -1,11 +1,13 @@
 """Files: what was saved comes back, what a table holds is the analysis, and what is damaged is refused in words."""
 
 import csv
+import io
 import json
 import math
 from dataclasses import replace
 from functools import partial
 
+import ezdxf
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -17,10 +19,13 @@ from camkit import (
     DoorHandleCam,
     Friction,
     OscillatingRollerCam,
+    TranslatingRollerCam,
+    ValveCam,
     door_handle_study,
     load,
     nsga2,
     profile_csv,
+    profile_dxf,
     save,
 )
 from camkit.cam.door_handle import EXPANDED_SPACE
@@ -350,3 +355,22 @@ def test_a_record_that_is_garbled_is_refused(work, record):
     content["work"]["record"] = record
     with pytest.raises(ValueError, match="the file is damaged: "):
         from_json(json.dumps(content))
+
+
+@pytest.mark.parametrize("cam", [DoorHandleCam(), TranslatingRollerCam(groove=False), ValveCam()])
+def test_a_drawing_holds_the_points_of_the_profile_in_mm(cam):
+    """Read back by ezdxf: every point of the profile, in order, closed exactly where the whole cam is."""
+    analysis = cam.analyse()
+    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
+    assert drawing.units == ezdxf.units.MM
+    assert not drawing.audit().errors
+    (curve,) = drawing.modelspace().query('LWPOLYLINE[layer=="profile"]')
+    points = 1e3 * getattr(analysis, "whole", analysis).profile.T
+    assert curve.closed == (np.hypot(*(points[0] - points[-1])) < 1e-6)
+    assert_allclose(np.array(curve.get_points("xy")), points[: len(points) - curve.closed], atol=1e-9)
+
+
+def test_a_population_is_not_drawn():
+    many = TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]]))
+    with pytest.raises(ValueError, match="this is a population; the profile of one design can be written"):
+        profile_dxf(many.analyse())

@@ -118,9 +118,10 @@ class Explorer(Panel):
         name = type(self.design).__name__
         save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
         table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: export.profile_csv(self.analysis))
+        drawing = Download("Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: export.profile_dxf(self.analysis))
         load = Upload("Load design", self.load_json)
         has_profile = hasattr(self.analysis, "profile")
-        return w.HBox([reset, save, load, *([table] if has_profile else [])])
+        return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
 
     def load_json(self, text: str) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
