@@ -61,7 +61,7 @@ def cam_mechanism(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
         face = analysis.face[..., i] / mm
         line(ax, "face", *face, color=COLOURS[0], linewidth=6, solid_capstyle="butt", zorder=6)
     if ax.get_legend() is None:
-        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=4, columnspacing=1.2)
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=4.2, ncols=4, columnspacing=1.2)
     return ax
 
 

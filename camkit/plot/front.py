@@ -52,9 +52,9 @@ def pareto(shown: ShownFront, ax: Axes) -> Axes:
     ):
         at = slice(0, 0) if index is None else slice(index, index + 1)
         line(ax, key, x[at], y[at], linestyle="none", markerfacecolor="none", markeredgewidth=2, label=key, **style)
+    _name_axes(ax, objectives)
     if first:
         ax.set_title("Pareto front")
-        _name_axes(ax, objectives)
         ax.legend(loc="best")
     return ax
 
