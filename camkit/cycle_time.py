@@ -43,7 +43,7 @@ class IntervalStep:
 
     @property
     def gain(self) -> float:
-        """More output per hour, as a share, if the time of a cycle shrinks as the interval does."""
+        """More output per hour, as a share, if the machine's cycle shrinks as the interval does."""
         return self.first / self.high - 1
 
     @property
@@ -55,9 +55,15 @@ class IntervalStep:
             least = f"the least there is {measure.text(self.optimum.f)}" if self.optimum.feasible else "no design fits"
             return f"An interval of {self.tried / deg:.4g} deg does not keep the {limit}: {least}."
         shorter = f", one of {self.low / deg:.4g} deg does not" if self.low else ""
+        return f"An interval of {self.high / deg:.4g} deg keeps the {limit}{shorter}: {self._gained}."
+
+    @property
+    def _gained(self) -> str:
+        if self.high == self.first:
+            return "it is the longest, from which gains count"
         return (
-            f"An interval of {self.high / deg:.4g} deg keeps the {limit}{shorter}: "
-            f"{100 * self.saving:.1f} % less time than {self.first / deg:.4g} deg, {100 * self.gain:.1f} % more output."
+            f"{100 * self.saving:.1f} % less time than {self.first / deg:.4g} deg, and {100 * self.gain:.1f} % more "
+            "output per hour if the machine's cycle shrinks as the interval does"
         )
 
 

@@ -6,8 +6,9 @@ method ``"slsqp"`` (see `Epigraph`), and as one number by the others.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import count, islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,8 @@ SAME = 1e-3
 """Starts whose ends differ by less than this share found the same."""
 ROUGH, EXACT = 1e-6, 1e-10
 """Precision of SLSQP from each start, and from the best of their ends."""
+SPARE = 3
+"""How many more starts there may be if no descent ended at a design that keeps every limit."""
 CROWD = 32
 """How many random designs compete to be a further start."""
 TRIES, INSIDE = 4, 1e-9
@@ -80,7 +83,8 @@ def minimise(
     """The design with the least objective that keeps all limits of ``study``.
 
     - ``"slsqp"`` descends from the study's start and from ``starts - 1`` random designs; seconds.  Where the
-      objective or a limit is a `PeakMeasure` it sees every angle, so that it does not stall on a ridge.
+      objective or a limit is a `PeakMeasure` it sees every angle, so that it does not stall on a ridge.  If no
+      descent ends at a design that keeps every limit, a few more begin at random.
     - ``"de"`` (differential evolution, scipy), ``"ga"`` (pymoo) and ``"competitive"`` (`CompetitiveAlgorithm`, with a
       ``narrowing`` of 0.9 that is not its paper's) need no slopes and no start: they look at about ``designs`` designs.
 
@@ -141,14 +145,16 @@ def _start(study: Study) -> np.ndarray:
 
 
 def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
-    ends, evaluations = [], 0
-    for x in _starts(study, seed, starts):
+    ends, merits, evaluations = [], [], 0
+    for x in islice(_starts(study, seed), starts + SPARE):
         end, used, _ = _descent(study, x, ROUGH)
         ends.append(end)
+        merits.append(_merit(study.evaluate(end)))
         evaluations += used
+        if len(ends) >= starts and min(merits)[0] <= SAME:
+            break
     best, used, finished = _tightened(study, judge, _better(judge, *ends))
-    merits = [_merit(study.evaluate(end)) for end in ends]
-    stopped = "no neighbour of the design is better" if finished else "no step made the design better"
+    stopped = "the slopes show no way down" if finished else "no step made the design better"
     f = tuple(f if broken <= SAME else np.inf for broken, f in merits)
     return _Found(best, evaluations + used, f, stopped)
 
@@ -177,19 +183,20 @@ def _tightened(study: Study, judge: Study, x: np.ndarray) -> tuple[np.ndarray, i
     return _better(judge, *ends), used, finished
 
 
-def _starts(study: Study, seed: int, starts: int) -> list[np.ndarray]:
-    """The study's start, if it has an objective, and random designs: the best of a crowd each.
+def _starts(study: Study, seed: int) -> Iterator[np.ndarray]:
+    """The study's start, if it has an objective, and random designs without end: the best of a crowd each.
 
     Every second crowd is drawn from the whole box, the others from a third of it around the start.
     """
     start, (low, high) = _start(study), study.bounds
-    first = [start] if np.isfinite(study.evaluate(start).f).all() else []
+    built = bool(np.isfinite(study.evaluate(start).f).all())
+    if built:
+        yield start
     draw = qmc.Sobol(len(study.free), rng=seed)
-    for k in range(starts - len(first)):
+    for k in count():
         wide = low + draw.random(CROWD) * (high - low)
         near = start + (wide - start) / 3
-        first.append(_best_of(study, wide, near) if k % 2 or not first else _best_of(study, near, wide))
-    return first
+        yield _best_of(study, wide, near) if k % 2 or not (built or k) else _best_of(study, near, wide)
 
 
 def _best_of(study: Study, crowd: np.ndarray, instead: np.ndarray) -> np.ndarray:
@@ -271,7 +278,7 @@ def _told(study: Study, found: _Found) -> Minimum:
     built, feasible = bool(np.isfinite(evaluation.f).all()), bool(evaluation.feasible[0])
     active = _active(study, evaluation) if built else ()
     words = [f"The search stopped because {found.why}.", _held(active) if feasible else _missed(study, evaluation)]
-    if len(found.ends) > 1:
+    if feasible and len(found.ends) > 1:
         same = sum(abs(end - min(found.ends)) <= SAME * abs(min(found.ends)) for end in found.ends)
         words.append(f"{same} of {len(found.ends)} starts ended with this objective, to {SAME:.1%} of it.")
     f, message = float(evaluation.f[0, 0]), " ".join(words)
@@ -282,7 +289,7 @@ def _held(active: tuple[Active, ...]) -> str:
     """What holds a design that keeps all limits where it is."""
     peaks = [str(a) for a in active if a.kind == "peak"]
     held = [str(a) for a in active if a.kind != "peak"]
-    smallest = [f"Smallest possible: {_listed(peaks)}."] if peaks else []
+    smallest = [f"Smallest found: {_listed(peaks)}."] if peaks else []
     return " ".join([*smallest, f"At their limits: {_listed(held)}." if held else "No limit is reached."])
 
 

@@ -55,7 +55,7 @@ class Watch:
     def after(self, study: Study, x: np.ndarray, analysis: Any) -> None:
         """Take note of designs ``(p, n_free)`` and their analysis."""
         f = np.broadcast_to(study.minimise[0](analysis), len(x))
-        limits = [sense * (m(analysis) - v) <= KEPT * abs(v) for m, v, sense in study.limits]
+        limits = [sense * (m(analysis) - v) <= KEPT * (abs(v) or 1.0) for m, v, sense in study.limits]
         kept = np.logical_and.reduce([np.isfinite(f), *limits])
         self.looked += len(x)
         i = np.lexsort((f, ~kept))[0]

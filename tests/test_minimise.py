@@ -12,8 +12,8 @@ from camkit.cam.high_speed import HighSpeedCam
 from camkit.cam.high_speed_load import ConstantTorque
 from camkit.cam.high_speed_paper import STRESS_CAP, lever_problems, problems, with_printed_sizes
 from camkit.cam.high_speed_study import (
+    COEFFICIENTS,
     GEOMETRY,
-    LAWS_FREE,
     gap,
     high_speed_study,
     peak_stress,
@@ -23,11 +23,12 @@ from camkit.cam.high_speed_study import (
 )
 from camkit.cycle_time import shortest_interval
 from camkit.minimum import METHODS, minimise
+from camkit.motion.shaped import SPLINE
 from camkit.quantities import Design, PeakMeasure, quantity
 from camkit.reference.problems import KNOWN_PROBLEMS
 from camkit.study import Study, weighted
 from camkit.trade_offs import trade_off
-from camkit.units import cm, deg, mm
+from camkit.units import cm, deg, mm, rpm
 
 # ---------------------------------------------------------------- closed forms
 
@@ -69,7 +70,7 @@ def test_the_cubic_of_least_size_is_chebyshevs():
     assert peak.angles == pytest.approx([-1, -1 / 2, 1 / 2, 1], abs=1e-12)
     assert best.feasible
     assert best.design == Polynomial(*best.x)
-    assert "no neighbour of the design is better" in best.message
+    assert "because the slopes show no way down. Smallest found: the size 0.25 at " in best.message
     assert "size 0.25 at -57.3, -28.6, 28.6 and 57.3 deg. No limit is reached." in best.message
 
 
@@ -262,7 +263,7 @@ def test_more_freedom_never_ends_worse(optima):
 def test_every_law_coefficient_that_is_freed_helps_or_does_nothing(objective):
     """Sizes, then one coefficient after the other: each search begins where the last one ended."""
     whole = high_speed_study(objective=objective, free_laws=True)
-    sizes, laws = ({n: b for n, b in whole.free.items() if (n in LAWS_FREE) is free} for free in (False, True))
+    sizes, laws = ({n: b for n, b in whole.free.items() if (n in COEFFICIENTS) is free} for free in (False, True))
     f, start = [], whole.start
     for k in range(0, len(laws) + 1, 2):
         best = minimise(whole.replace(start=start, free={**sizes, **dict(list(laws.items())[:k])}))
@@ -308,7 +309,7 @@ def test_a_bounded_roller_costs_stress():
 
 def test_limits_tighten_monotonically():
     caps = [minimise(high_speed_study(objective=peak_wear, at_most={peak_stress: c / mm**0.5})).f for c in (1.7, 2, 3)]
-    assert caps == sorted(caps, reverse=True)
+    assert (np.diff(caps) < -1e-3 * caps[0]).all()
     flat = minimise(high_speed_study(at_most={steepest: 40 * deg}))
     assert flat.f > minimise(high_speed_study()).f
     assert "the steepest pressure angle 40 deg" in flat.message
@@ -339,6 +340,35 @@ def test_ten_starts_with_eleven_variables_agree():
     assert best.f * mm**0.5 == pytest.approx(1.1826, abs=1e-4)
 
 
+@pytest.mark.parametrize(
+    ("study", "unit", "least"),
+    [
+        (high_speed_study(HighSpeedCam(family=SPLINE), free_laws=True), mm, 1.2069),
+        (cam_lever_study(CamLever(family=SPLINE)), cm, 7.5947),
+    ],
+    ids=["cam", "lever"],
+)
+def test_several_starts_with_splines_agree(study, unit, least):
+    """No coefficient is held by its bound: the family has the room that it needs and random designs can be built."""
+    best = minimise(study, starts=3)
+    assert np.array(best.ends) * unit**0.5 == pytest.approx([least] * 3, abs=1e-3)
+    assert not [a.name for a in best.active if " c" in a.name]
+
+
+@pytest.mark.parametrize(("c0", "angles"), [(-0.4, 101), (-0.4, 201), (-0.6, 201)])
+def test_an_arm_that_passes_its_start_is_led_back(c0, angles):
+    """No spring holds such an arm, ``K = inf``: the search begins with the strongest that it may take.
+
+    Where that descent leads nowhere, others follow.
+    """
+    study = high_speed_study(HighSpeedCam(rise_c0=c0), free_laws=True, angles=angles)
+    assert np.isinf(study.start.replace(spring_factor=0.0).analyse().spring_factor)
+    assert study.start.spring_factor == study.free["spring_factor"][1]
+    best = minimise(study)
+    assert best.feasible
+    assert best.f * mm**0.5 == pytest.approx(1.1826, abs=2e-4)
+
+
 # ---------------------------------------------------------------- cam and lever
 
 
@@ -355,6 +385,19 @@ def test_the_lever_sweep_falls_with_the_largest_radius_and_beats_the_print():
         assert closing_share(analysis) <= 0.4
     assert (np.diff(found) < 0).all()
     assert found == pytest.approx([8.201, 7.924, 7.573, 7.314, 6.961], abs=1e-3)
+
+
+def test_a_fast_press_is_held_by_its_closing_weight():
+    """At 80 rpm inertia takes all that it may of the weight, and no more between the angles of the search."""
+    study = cam_lever_study(CamLever(shaft_speed=80 * rpm))
+    plain, best = minimise(study), minimise(study, recheck=4001)
+    assert closing_share.name in [a.name for a in best.active if a.kind == "limit"]
+    assert closing_share(plain.design.analyse(4001)) == pytest.approx(0.4, rel=1e-5)
+    press, analysis = best.design, best.design.analyse(4001)
+    needed = 15 * press.lever**2 * (80 * rpm) ** 2 * max((-part.acceleration).max() for part in analysis.intervals)
+    assert 0.4 * (1 - 1e-5) <= needed / (147 * press.lever) <= closing_share(analysis) <= 0.4
+    unlimited = {measure: limit for measure, limit in study.at_most.items() if measure is not closing_share}
+    assert minimise(study.replace(at_most=unlimited)).f < best.f * (1 - 1e-3)
 
 
 def test_the_levers_twelve_variables_end_at_the_papers_sizes():
@@ -384,6 +427,8 @@ def test_the_shortest_interval_brackets_the_limit():
     assert all(a.high >= b.high for a, b in pairwise(steps))
     assert last.gain == pytest.approx(61 * deg / last.high - 1)
     assert "less time than 61 deg" in last.message
+    assert last.message.endswith("more output per hour if the machine's cycle shrinks as the interval does.")
+    assert steps[0].message.endswith(": it is the longest, from which gains count.")
 
 
 def test_the_search_for_an_interval_ends_at_once_if_there_is_none_or_nothing_to_gain():

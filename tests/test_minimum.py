@@ -109,6 +109,17 @@ def test_a_limit_may_be_missed_by_a_millionth():
     assert kept == [True, False]
 
 
+def test_a_limit_of_0_may_be_missed_by_a_millionth():
+    study, kept = high_speed_study(), []
+    radius = float(least_radius(FIRST.analyse()))
+    for shift in (0.5, 2):
+        below = Measure("radius less 44.6", "", lambda a, shift=shift: a.min_radius - radius + shift * KEPT)
+        watch = Watch()
+        watched(study.replace(at_most={below: 0.0}, at_least={}), watch).evaluate([study.x0])
+        kept.append(watch.looks[0].kept)
+    assert kept == [True, False]
+
+
 def test_a_stopped_watch_lets_nothing_more_through():
     watch, study = Watch(), high_speed_study()
     watch.stop()
@@ -153,6 +164,26 @@ def test_it_starts_from_the_sliders_and_takes_what_is_chosen(app):
     assert panel.picture.axes[0].get_ylabel().startswith("wear F_wear")
     panel.back.click()
     assert app.design == start
+
+
+def test_an_arm_that_passes_its_start_can_be_optimised():
+    app = app_of(HighSpeedCam(rise_c0=-0.6))
+    panel = improve(app, lambda start, method: high_speed_study(start, free_laws=True, angles=101))
+    panel.run()
+    panel.wait(20)
+    assert panel.runner.banner.value == ""
+    assert panel.minimum.feasible
+    assert not app.analysis.passes_start
+    assert panel.summary().split("\n")[1] == f"contact stress F_sigma: none → {peak_stress.text(panel.minimum.f)}"
+
+
+def test_several_starts_are_asked_of_slsqp_alone(app):
+    panel = improve(app, sizes, minimise=GOALS, methods=("slsqp", "de"))
+    states = [panel.starts.disabled]
+    for method in ("de", "slsqp"):
+        panel.choices.menus["method"].value = method
+        states.append(panel.starts.disabled)
+    assert states == [False, True, False]
 
 
 def test_the_search_is_drawn_in_the_measures_unit(app):

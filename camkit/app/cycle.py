@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from math import ceil, log2
 from typing import Any
 
@@ -16,16 +16,14 @@ from ..units import deg, in_unit
 from ..watch import Stopped, Watch, watched
 from .controls import Knob
 from .explore import Explorer
-from .panel import Panel
 from .picture import LivePicture
-from .runner import Choices, Runner, told
+from .runner import Choices, JobPanel, MakeStudy, Runner, told
 
-MakeStudy = Callable[..., Study]
 TOLERANCE = 0.1 * deg
 """To which the interval is found."""
 
 
-class CycleTime(Panel):
+class CycleTime(JobPanel):
     """How short the intervals may be for the optimum of a study to keep a limit, and what that gains in output.
 
     ``make(start, **choices)`` gives the `Study` around the design of an `Explorer`; its objective is limited to
@@ -56,7 +54,7 @@ class CycleTime(Panel):
         self.verdict = w.HTML()
         self.picture = LivePicture((intervals_tried,), "Intervals tried", width=6.6, height=3.9)
         self.picture.show(ShownIntervals(self.measure, limit, ()))
-        super().__init__([self._body()])
+        super().__init__([self._beside_picture(self._asked())])
 
     def _limit_knob(self, limit: float) -> Knob:
         unit = self.measure.unit
@@ -64,18 +62,11 @@ class CycleTime(Panel):
         declared = Quantity("max", shown, 0, 2 * shown, unit, f"largest {self.measure.name} that is allowed")
         return Knob("limit", declared, limit, lambda: None)
 
-    def _body(self) -> w.Widget:
+    def _asked(self) -> list[w.Widget]:
         runner = self.runner
         knobs = [knob.row for knob in (self.limit, self.longest, self.shortest)]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.take, self.progress])
-        left = [*self.choices.menus.values(), *knobs, buttons, runner.status, runner.banner, self.verdict]
-        return w.HBox(
-            [
-                w.VBox(left, layout=w.Layout(flex="1 1 400px", max_width="620px")),
-                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="660px")),
-            ],
-            layout=w.Layout(flex_flow="row wrap"),
-        )
+        return [*self.choices.menus.values(), *knobs, buttons, runner.status, runner.banner, self.verdict]
 
     def _study(self) -> Study:
         return self.make(self.explorer.design, **self.choices.values)
@@ -84,18 +75,6 @@ class CycleTime(Panel):
     def step(self) -> IntervalStep | None:
         """Where the search stands."""
         return self.steps[-1] if self.steps else None
-
-    def run(self) -> None:
-        """Start the search; returns at once."""
-        self.runner.run()
-
-    def stop(self) -> None:
-        """Stop; the best so far stays."""
-        self.runner.stop()
-
-    def wait(self, seconds: float | None = None) -> None:
-        """Until the search has ended."""
-        self.runner.wait(seconds)
 
     def load(self) -> None:
         """Put the design with the shortest interval so far into the sliders."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import ipywidgets as w
+import numpy as np
 
 from ..minimum import Minimum, minimise
 from ..plot.progress import ShownLooks, best_so_far
@@ -13,14 +14,11 @@ from ..quantities import Measure
 from ..study import Study
 from ..watch import Stopped, Watch, watched
 from .explore import Explorer
-from .panel import Panel
 from .picture import LivePicture
-from .runner import Choices, Runner, told
-
-MakeStudy = Callable[..., Study]
+from .runner import Choices, JobPanel, MakeStudy, Runner, told
 
 
-class Improvement(Panel):
+class Improvement(JobPanel):
     """*Optimise from here*: `minimise` from the design of an `Explorer`, whose sliders then show what was found.
 
     ``make(start, method, **choices)`` gives the `Study`; there is a menu for each of the ``choices``, and one for the
@@ -40,6 +38,8 @@ class Improvement(Panel):
         self.starts = w.BoundedIntText(
             1, 1, 100, description="starts", layout=w.Layout(width="190px"), style={"description_width": "112px"}
         )
+        self.choices.menus["method"].observe(lambda _: self._fit_starts(), "value")
+        self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
@@ -50,35 +50,20 @@ class Improvement(Panel):
         self._lines: tuple[str, ...] = ()
         self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
         self.picture.show(ShownLooks(self._measure, ()))
-        super().__init__([self._body()])
+        super().__init__([self._beside_picture(self._asked())])
 
-    def _body(self) -> w.Widget:
+    def _asked(self) -> list[w.Widget]:
         runner, menus = self.runner, self.choices.menus
         asked = [menu for menu in menus.values() if len(menu.options) > 1]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
-        left = [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
-        return w.HBox(
-            [
-                w.VBox(left, layout=w.Layout(flex="1 1 400px", max_width="620px")),
-                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="660px")),
-            ],
-            layout=w.Layout(flex_flow="row wrap"),
-        )
+        return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
+
+    def _fit_starts(self) -> None:
+        """Other methods than SLSQP have no use for several starts."""
+        self.starts.disabled = self.choices.values["method"] != "slsqp"
 
     def _study(self) -> Study:
         return self.make(self.explorer.design, **self.choices.values)
-
-    def run(self) -> None:
-        """Start the search; returns at once."""
-        self.runner.run()
-
-    def stop(self) -> None:
-        """Stop; the best so far goes into the sliders."""
-        self.runner.stop()
-
-    def wait(self, seconds: float | None = None) -> None:
-        """Until the search has ended."""
-        self.runner.wait(seconds)
 
     def _prepare(self) -> tuple[Study, Any, str, int]:
         study = self._study()
@@ -110,7 +95,7 @@ class Improvement(Panel):
         return self.study.minimise[0]
 
     def _text(self, f: float) -> str:
-        return self._measure.text(self._measure.sign * f)
+        return self._measure.text(self._measure.sign * f) if np.isfinite(f) else "none"
 
     def _report(self, watch: Watch) -> None:
         best = f", best so far {self._text(watch.f)}" if watch.best is not None else ""

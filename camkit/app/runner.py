@@ -1,18 +1,26 @@
-"""`Runner`: two buttons around a job in a thread of its own; `Choices`: the menus that say what the job is."""
+"""`Runner`: two buttons around a job in a thread of its own; `Choices`: the menus that say what the job is.
+
+`JobPanel`: a panel with a `Runner` on the left and its picture on the right.
+"""
 
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import ipywidgets as w
 
 from ..quantities import words
+from ..study import Study
 from ..watch import Watch
 from .controls import banner, tell
+from .panel import Panel
 from .search import REPORT
+
+MakeStudy = Callable[..., Study]
+"""Makes a study around a design, from what is chosen."""
 
 
 def told(result: str, why: str) -> str:
@@ -111,3 +119,32 @@ class Runner:
         """Until the job has ended."""
         if self._thread:
             self._thread.join(seconds)
+
+
+class JobPanel(Panel):
+    """A panel around the job of its ``runner``."""
+
+    runner: Runner
+
+    def _beside_picture(
+        self, asked: Sequence[w.Widget], left: tuple[int, int] = (400, 620), right: tuple[int, int] = (420, 660)
+    ) -> w.Widget:
+        """What is asked, and the picture beside it or below; ``left`` and ``right``: usual and largest widths, px."""
+        sides = ((asked, left), ([self.picture.widget], right))
+        columns = [
+            w.VBox(children, layout=w.Layout(flex=f"1 1 {usual}px", max_width=f"{most}px"))
+            for children, (usual, most) in sides
+        ]
+        return w.HBox(columns, layout=w.Layout(flex_flow="row wrap"))
+
+    def run(self) -> None:
+        """Start the job; returns at once."""
+        self.runner.run()
+
+    def stop(self) -> None:
+        """Stop before the next design; the best so far stays."""
+        self.runner.stop()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Until the job has ended."""
+        self.runner.wait(seconds)

@@ -16,9 +16,8 @@ from ..study import Study
 from ..trade_offs import dominated_shares
 from ..watch import Stopped, Watch, watched
 from .explore import Explorer
-from .panel import Panel
 from .picture import LivePicture
-from .runner import Runner
+from .runner import JobPanel, Runner
 
 Search = Callable[[Study], Iterator[Generation]]
 """Looks for the front of a study step by step: `trade_off_steps`, or `nsga2_generations`."""
@@ -26,7 +25,7 @@ Way = tuple[Callable[[Any], Study], Search]
 """How a study is made around a design, and how it is searched."""
 
 
-class Trade(Panel):
+class Trade(JobPanel):
     """Fronts of the same two objectives by several ways of search, around the design of an `Explorer`.
 
     ``ways`` maps names to searches (see `Way`); ``given`` are fronts that are there already.  The searches run one
@@ -48,7 +47,7 @@ class Trade(Panel):
         self._make_widgets()
         self.picture = LivePicture((fronts_overlaid,), "Fronts laid over each other", width=8.6, height=5.4)
         self.picture.widget.on_click(self._clicked)
-        super().__init__([self._body()])
+        super().__init__([self._beside_picture(self._asked(), (360, 560), (520, 860))])
         self._show()
         explorer.on_change(lambda _: self._show_here())
 
@@ -82,31 +81,12 @@ class Trade(Panel):
         self.menu.observe(lambda _: self._fit_slider(), "value")
         self.pick.observe(lambda change: None if self._silent else self.select(self.menu.value, change.new), "value")
 
-    def _body(self) -> w.Widget:
+    def _asked(self) -> list[w.Widget]:
         runner = self.runner
         buttons = w.HBox([runner.run_button, runner.stop_button, self.progress], layout=w.Layout(flex_flow="row wrap"))
-        left = [*([buttons, runner.status, runner.banner] if self.ways else []), self.menu, self.pick, self.table]
-        return w.HBox(
-            [
-                w.VBox(left, layout=w.Layout(flex="1 1 360px", max_width="560px")),
-                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 520px", max_width="860px")),
-            ],
-            layout=w.Layout(flex_flow="row wrap"),
-        )
+        return [*([buttons, runner.status, runner.banner] if self.ways else []), self.menu, self.pick, self.table]
 
     # ------------------------------------------------------------ the searches
-
-    def run(self) -> None:
-        """Start the searches around the design in the sliders; returns at once."""
-        self.runner.run()
-
-    def stop(self) -> None:
-        """Stop before the next design; the fronts so far stay."""
-        self.runner.stop()
-
-    def wait(self, seconds: float | None = None) -> None:
-        """Until the searches have ended."""
-        self.runner.wait(seconds)
 
     def _search(self, design: Any, watch: Watch) -> None:
         began = time.monotonic()

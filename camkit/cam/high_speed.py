@@ -230,7 +230,8 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     @cached_property
     def resisting_torque(self) -> np.ndarray:
         """``M``: torque about the arm's pivot that the cam has to overcome, N m."""
-        return self.cam.load.resisting_torque(self.motion, self.cam.swing, self.spring_rate, self.cam.speed)
+        rate = np.where(np.isfinite(self.spring_rate), self.spring_rate, np.nan)  # else no spring holds the arm
+        return self.cam.load.resisting_torque(self.motion, self.cam.swing, rate, self.cam.speed)
 
     @property
     def normal_force(self) -> np.ndarray:
@@ -298,8 +299,16 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     @cached_property
     def hertz_pressure(self) -> np.ndarray:
         """``p_0 = sqrt(N E* / (pi b rho_pr))``: largest pressure between cam and roller, Pa."""
+        return self._pressure(self.normal_force, 1 / self.reduced_radius)
+
+    @cached_property
+    def pressure_between(self) -> np.ndarray:
+        """``p_0``, each peak raised to what it is between the angles, Pa: only ``N / rho_pr = F_sigma^2`` counts."""
+        return self._pressure(1.0, self.stress_between**2)
+
+    def _pressure(self, force: Any, curvature: Any) -> np.ndarray:
         modulus = contact_modulus(self.cam.cam_modulus, self.cam.roller_modulus)
-        return hertz_line(self.normal_force / self.cam.contact_width, 1 / self.reduced_radius, modulus).pressure
+        return hertz_line(force / self.cam.contact_width, curvature, modulus).pressure
 
 
 def inverse_root(ease: Any) -> Any:
@@ -417,6 +426,12 @@ class HighSpeedAnalysis(HighSpeedContact):
     def loses_contact(self) -> Any:
         """Whether the roller would lift off somewhere, ``N < 0``."""
         return np.any([(s.normal_force < -s._nothing).any(-1) for s in self.intervals], axis=0)
+
+    @property
+    def beyond(self) -> np.ndarray:
+        """How far the arm is beyond the nearer end over rise and fall, as a share of the swing; 0 between the ends."""
+        over = np.maximum(-self.travel, self.travel - 1)
+        return np.where(over <= AT_REST, 0.0, over)
 
     @property
     def passes_start(self) -> Any:

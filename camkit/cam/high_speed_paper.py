@@ -24,11 +24,13 @@ ANGLES = 4001
 REMARK = {
     ("wear, geometry", "stress", "return"): "near undercut: half a millimetre more or less makes it 4.8 to 6.8",
     ("wear, geometry", "wear", "return"): "near undercut: half a millimetre more or less makes it 198 to 261",
-    ("stress", "lever", ""): "from the printed swing; start angle and smallest radius fit it, not the print",
+    ("stress", "lever", ""): "swing, start angle and smallest radius are those of 201.25, not of 200.1",
     ("stress", "centre_distance", ""): "340.4 for 370.4: a digit",
     ("cycle time", "swing", ""): "5.06 for 5.16: a digit",
     ("initial", "wear", "rise"): "printed to two digits",
 }
+LEVER = {"stress": 201.25 * mm}
+"""Where the printed lever fits nothing else in its row: the one that gives 370.4 mm for ``L`` and all the rest."""
 STRESS_CAP = 2 / mm**0.5
 """``F_sigma`` of at most 2 N^0.5 mm^-0.5."""
 
@@ -75,11 +77,9 @@ def _sizes(name: str, printed: Any, press: CamLever) -> Iterator[Row]:
 
 
 def _press(name: str, printed: Any) -> CamLever:
-    """The cam and lever of a row; where the printed lever fits nothing else, the one that gives the printed swing."""
+    """The cam and lever of a row of table 3, with the lever of `LEVER` if there is one."""
     l, r, k2 = (float(size) * mm for size in printed["sizes"])
-    x = float(printed["lever"]) * mm
-    if (name, "lever", "") in REMARK:
-        x = CamLever().stroke / (2 * np.sin(float(printed["swing"]) * deg / 2))
+    x = LEVER.get(name, float(printed["lever"]) * mm)
     interval = float(printed["interval"]) * deg
     return CamLever(l, r, k2, lever=x, rise_angle=interval, return_angle=interval)
 

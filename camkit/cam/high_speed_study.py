@@ -11,7 +11,7 @@ from typing import Any
 from ..quantities import Measure, PeakMeasure
 from ..study import Study
 from ..units import mm
-from .high_speed import HighSpeedCam, number
+from .high_speed import FreeLawCam, HighSpeedCam, number
 from .high_speed_load import InertialSpringLoad
 
 
@@ -24,10 +24,11 @@ peak_stress = peak("contact stress F_sigma", "N^0.5 mm^-0.5", lambda a: a.along(
 peak_wear = peak("wear F_wear", "N^1.5 mm^-0.5", lambda a: a.along("wear_between"))
 steepest = peak("steepest pressure angle", "deg", lambda a: abs(a.along("pressure_angle")))
 peak_force = peak("peak normal force", "N", lambda a: a.along("normal_force"))
-peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.along("hertz_pressure"))
+peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.along("pressure_between"))
 peak_torque = peak("peak cam torque", "N mm", lambda a: abs(a.along("cam_torque")))
 spring_use = peak("closing spring needed", "%", lambda a: a.along("spring_needed") / a.spring_rate)
-least_lead = -PeakMeasure("least travel / that of 3-4-5", "", lambda a: -a.lead)
+overrun = peak("arm beyond its ends / swing", "%", lambda a: a.beyond)
+least_lead = -PeakMeasure("least travel from the ends (3-4-5: 1)", "", lambda a: -a.lead)
 undercut_margin = -peak("undercut margin 1 - r kappa", "", lambda a: -a.along("margin_between"))
 least_radius = Measure("smallest radius r_k1", "mm", lambda a: a.min_radius)
 gap = Measure("gap from roller to pivot", "mm", lambda a: number(a.cam.arm_length - a.cam.roller_radius))
@@ -45,7 +46,7 @@ HIGH_SPEED_MEASURES = (
     gap,
     spring_factor,
     spring_use,
-    least_lead,
+    overrun,
 )
 """What a table of a high-speed cam shows; peaks are those of rise and fall together."""
 HighSpeedCam.measures = HIGH_SPEED_MEASURES
@@ -57,10 +58,15 @@ GEOMETRY = {
 }
 """The paper's three free sizes; ``l >= 40``, ``r >= 20`` and ``r_k2 <= 140 mm`` are its limits, the others are wide."""
 COEFFICIENTS = tuple(f"{way}_c{i}" for way in ("rise", "return") for i in range(4))
-LAWS_FREE = dict.fromkeys(COEFFICIENTS, (-0.6, 0.6))
-SPRING_FREE = {"spring_factor": (0.2, 12.0)}
+WEAK, STRONG = 0.2, 12.0
+"""Between these the closing spring ``K`` is free."""
 CLEAR = 1e-3
 """Least margin of undercut within a search: where it is 0 the stress is infinite."""
+
+
+def laws_free(start: FreeLawCam) -> dict[str, tuple[float, float]]:
+    """The eight coefficients, as far as their family lets them go."""
+    return dict.fromkeys(COEFFICIENTS, (-start.family.wide, start.family.wide))
 
 
 def high_speed_study(
@@ -79,22 +85,25 @@ def high_speed_study(
     Free are arm, roller and largest radius, with ``free_laws`` the eight coefficients too.  The closing spring is
     then free as well: its weakest rate is a maximum over the angles in turn, which descends better as the limit
     that no more spring is needed than there is.  Methods without slopes do better with ``free_spring=False``, the
-    weakest spring everywhere.  ``space`` replaces the bounds of the sizes; ``at_most`` and ``at_least`` add limits.
+    weakest spring for every law.  ``space`` replaces the bounds of the sizes; ``at_most`` and ``at_least`` add limits.
 
     >>> study = high_speed_study()
     >>> print(f"{study.evaluate(study.x0).f[0, 0] * mm**0.5:.4f}")
     2.4780
     """
     start = start or HighSpeedCam()
-    free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (LAWS_FREE if free_laws else {})
+    free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}
     least: dict[Measure, float] = {least_radius: 30 * mm, undercut_margin: CLEAR}
     if free_laws:
         least[least_lead] = 0.0
     if free_laws and free_spring and isinstance(start.load, InertialSpringLoad):
-        start = start.replace(spring_factor=start.spring_factor or float(start.analyse().spring_factor))
-        free |= SPRING_FREE
+        weakest = float(start.analyse().least_spring_factor)  # inf where the arm passes its start
+        start = start.replace(spring_factor=start.spring_factor or min(weakest, STRONG))
+        free["spring_factor"] = (WEAK, STRONG)
         most[spring_use] = 1.0
+    if free_laws and not free_spring:
+        start = start.replace(spring_factor=0.0)
     return Study(
         start=start,
         free=free,

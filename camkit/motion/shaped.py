@@ -20,18 +20,22 @@ KNOTS = (0.2, 0.4, 0.6, 0.8)
 
 @dataclass(frozen=True)
 class Family:
-    """What four coefficients stand for: ``law(c)`` is linear in ``c``, and so is what it adds to another law."""
+    """What four coefficients stand for: ``law(c)`` is linear in ``c``, and so is what it adds to another law.
+
+    ``wide``: how far from 0 a search may take a coefficient.
+    """
 
     name: str
     law: Callable[[tuple[Any, ...]], Law]
+    wide: float
 
 
 def _spline(c: tuple[Any, ...]) -> Law:
     return SplineLaw(KNOTS, c)
 
 
-DEGREE9 = Family("degree 9", Degree9)
-SPLINE = Family("B-spline", _spline)
+DEGREE9 = Family("degree 9", Degree9, 0.6)
+SPLINE = Family("B-spline", _spline, 0.2)  # with more, next to no random law stays between its ends
 FAMILIES = (DEGREE9, SPLINE)
 
 

@@ -81,13 +81,13 @@ STRESS = Curve(
     lambda part: (part.stress_coefficient / mm**0.5, part.stress_between),
 )
 WEAR = Curve("Wear", r"$F_{wear}$", "N^1.5 mm^-0.5", lambda part: (part.wear_coefficient / mm**0.5, part.wear_between))
-HERTZ = Curve("Hertz pressure", "$p_0$", "MPa", lambda part: (part.hertz_pressure, part.hertz_pressure))
+HERTZ = Curve("Hertz pressure", "$p_0$", "MPa", lambda part: (part.hertz_pressure, part.pressure_between))
 
 
 def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> Axes:
     """A curve with the peaks of away and back, their values and places.
 
-    Vermilion, at 0: there is none, as the roller undercuts the profile or has lost contact.
+    Vermilion, at 0: there is none, as the roller undercuts the profile or has lost contact, or no spring holds the arm.
     """
     if new(ax):
         frame(ax, curve.title, f"{along.name}  [{along.unit}]", f"{curve.letter}  [{unit_text(curve.unit)}]")
@@ -103,7 +103,7 @@ def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> A
         style: Any = {"ha": "center", "va": "top", "fontsize": 10, "linespacing": 1.05, "transform": ax.transAxes}
         text(ax, f"{way} value", middle, 0.985, f"{way} {told}", **style).set_color(INK if there else WARNING)
     line(ax, "none", x, gaps(0 * x, ~np.isfinite(y)), color=WARNING, linewidth=4.5, zorder=4)
-    line(ax, "room", x[[0, -1]], [0, ROOM * np.nanmax(y)], alpha=0)
+    line(ax, "room", x[[0, -1]], [0, ROOM * (np.nanmax(y, initial=0) or 1.0)], alpha=0)
     return ax
 
 
@@ -114,6 +114,8 @@ def _values(part: Any, curve: Curve, along: Along) -> Any:
 
 def _why_none(part: Any) -> str:
     """Why a stress is missing somewhere in an interval."""
+    if not np.isfinite(part.normal_force).all():  # no spring follows an arm that passes its start
+        return "arm passes\nits start"
     return "undercut\n" if part.undercut.any() else "loses\ncontact"
 
 

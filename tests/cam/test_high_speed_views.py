@@ -32,6 +32,7 @@ from camkit.units import MPa, cm, deg, mm
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)
 JUMPING = HighSpeedCam(spring_factor=1.0)
+PASSING = HighSpeedCam(rise_c0=-0.4)
 UNEVEN = HighSpeedCam(rise_angle=70 * deg, return_angle=130 * deg, rise_c1=0.1, return_c0=-0.2, load=ConstantTorque())
 TABLE = ((0.0, 30.0), (12 * mm, 60.0), (18 * mm, 420.0))
 
@@ -56,7 +57,7 @@ def data_of(ax):
 @pytest.mark.parametrize(
     ("first", "others", "views"),
     [
-        (FIRST, (UNDERCUT, JUMPING, UNEVEN), HIGH_SPEED_VIEWS),
+        (FIRST, (UNDERCUT, JUMPING, PASSING, UNEVEN), HIGH_SPEED_VIEWS),
         (PRESS, (PRESS.replace(lever=210 * mm, arm_length=300 * mm, force_curve=TABLE),), CAM_LEVER_VIEWS),
     ],
     ids=["cam", "lever"],
@@ -119,8 +120,15 @@ def test_the_printed_peaks_of_the_first_design():
 
 
 @pytest.mark.parametrize(
-    ("cam", "way", "said"), [(UNDERCUT, "back", "back undercut\n"), (JUMPING, "away", "away loses\ncontact")]
+    ("cam", "way", "said"),
+    [
+        (UNDERCUT, "back", "back undercut\n"),
+        (JUMPING, "away", "away loses\ncontact"),
+        (PASSING, "away", "away arm passes\nits start"),
+        (PASSING, "back", "back arm passes\nits start"),
+    ],
 )
+@pytest.mark.filterwarnings("error")
 def test_where_there_is_no_stress_it_is_said_and_warned_of(cam, way, said):
     analysis, ax = cam.analyse(), drawn(cam, contact_stress)
     missing = np.isfinite(xy(ax, "none")[1])
@@ -128,6 +136,14 @@ def test_where_there_is_no_stress_it_is_said_and_warned_of(cam, way, said):
     assert_array_equal(missing, ~np.isfinite(analysis.stress_coefficient))
     assert _find(ax, f"{way} value").get_text() == said
     assert _find(ax, f"{way} value").get_color() == WARNING
+
+
+def test_axes_without_a_curve_still_have_a_height():
+    for view in (contact_stress, wear, hertz_pressure):
+        ax = drawn(PASSING, view)
+        ax.figure.canvas.draw()
+        assert np.isfinite(ax.get_ylim()).all()
+        assert ax.get_ylim()[1] > 1
 
 
 def test_the_highest_peak_stays_below_its_words():
