@@ -4,7 +4,7 @@
 
 Least contact stress by four methods from ten seeds each (those of `test_minimax`), and contact stress against wear,
 for the sizes alone and with both laws free, by limits on the wear (epsilon-constraint) and by NSGA-II.  Times are
-those of the machine; all else is the same for the same libraries.
+the processor's and depend on the machine; all else is the same for the same libraries.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from camkit.trade_offs import trade_off_steps
 from camkit.units import mm
 
 CACHE = Path(__file__).parents[1] / "camkit" / "reference" / "high_speed_searches.json"
-POINTS, POPULATION = 33, 100
+POINTS, POPULATION, RECHECK = 33, 100, 4001
 GENERATIONS = {"sizes alone": 100, "laws free": 1000}
 
 
@@ -53,9 +53,9 @@ def least_stress() -> dict[str, Any]:
 
 def front(steps: Iterator[Generation]) -> dict[str, Any]:
     """Free values of the front that a search comes to, how many steps and seconds it took."""
-    begun = time.perf_counter()
+    begun = time.process_time()
     *_, last = steps
-    seconds = time.perf_counter() - begun
+    seconds = time.process_time() - begun
     print(f"front of {len(last.front)} designs in {seconds:.1f} s", flush=True)
     return {"seconds": round(seconds, 2), "steps": last.of, "x": last.front.x.tolist()}
 
@@ -66,7 +66,7 @@ def fronts() -> dict[str, Any]:
     for name, generations in GENERATIONS.items():
         smooth, plain = trade_off_studies(free_laws=name == "laws free")
         found[name] = {
-            "epsilon-constraint": front(trade_off_steps(smooth, POINTS)),
+            "epsilon-constraint": front(trade_off_steps(smooth, POINTS, recheck=RECHECK)),
             "NSGA-II": front(nsga2_generations(plain, POPULATION, generations, 1)),
         }
     return found

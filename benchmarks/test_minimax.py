@@ -1,8 +1,8 @@
 """The least contact stress of the high-speed cam by four methods: what each finds, in how many designs and seconds.
 
-SLSQP sees the stress either at every angle (epigraph form) or as one number, the largest, on which it stalls where
+SLSQP sees the stress either at every angle (epigraph form) or as one number, the largest, which has an edge where
 two angles share it.  Differential evolution and a genetic algorithm see the number too.  Ten seeds; both kinds of
-SLSQP begin at the same random designs.
+SLSQP begin at the same random designs, and differ in nothing else.  Seconds are those of the processor.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,9 @@ import pytest
 from scipy.optimize import minimize as scipy_minimize
 
 from camkit.cam.high_speed_study import high_speed_study
-from camkit.minimum import CROWD, minimise
-from camkit.study import Study
+from camkit.epigraph import BAD, STEP
+from camkit.minimum import CROWD, EXACT, minimise
+from camkit.study import Evaluation, Study
 from camkit.units import mm
 
 Report = Callable[[str, str], None]
@@ -29,7 +31,7 @@ DESIGNS = 10_000
 
 @dataclass(frozen=True)
 class Trial:
-    """What one method came to from one seed."""
+    """What one method came to from one seed, and the processor's seconds that it took."""
 
     f: float
     designs: int
@@ -46,9 +48,9 @@ def start_of(study: Study, seed: int) -> np.ndarray:
 
 
 def timed(search: Callable[[], tuple[float, int]]) -> Trial:
-    begun = time.perf_counter()
+    begun = time.process_time()
     f, designs = search()
-    return Trial(f, designs, time.perf_counter() - begun)
+    return Trial(f, designs, time.process_time() - begun)
 
 
 def epigraph(study: Study, seed: int) -> Trial:
@@ -62,29 +64,46 @@ def epigraph(study: Study, seed: int) -> Trial:
 
 
 def on_the_maximum(study: Study, seed: int) -> Trial:
-    """SLSQP of scipy as it comes: the objective and each limit one number, differences for slopes."""
-    low, high = study.bounds
-    looked = 0
+    """SLSQP on the largest stress as one number, and each limit as another.
 
-    def evaluate(u: np.ndarray) -> Any:
-        nonlocal looked
-        looked += 1
-        return study.evaluate(low + np.clip(u, 0, 1) * (high - low))
+    All else is as in the epigraph form: start, scale, differences and precision; no design is evaluated twice, and
+    all neighbours of one are evaluated in one call.  What counts is the best design looked at that keeps all limits.
+    """
+    (low, high), start = study.bounds, start_of(study, seed)
+    size = float(study.evaluate(start).f[0, 0])
+    looked: list[Evaluation] = []
 
-    size = float(study.evaluate(start_of(study, seed)).f[0, 0])
+    def numbers(u: np.ndarray) -> np.ndarray:
+        looked.append(study.evaluate(low + u * (high - low)))
+        return np.minimum(np.column_stack([looked[-1].f / size, looked[-1].g]), BAD)
+
+    @lru_cache(1)
+    def at(u: bytes) -> np.ndarray:
+        return numbers(np.frombuffer(u)[None])[0]
+
+    @lru_cache(1)
+    def slopes(u: bytes) -> np.ndarray:
+        steps, here = STEP * np.eye(len(low)), np.frombuffer(u)
+        up, down = np.clip(here + steps, 0, 1), np.clip(here - steps, 0, 1)
+        above, below = np.split(numbers(np.concatenate([up, down])), 2)
+        return np.ascontiguousarray((above - below).T / (up - down).sum(-1))
 
     def search() -> tuple[float, int]:
-        found = scipy_minimize(
-            lambda u: min(float(evaluate(u).f[0, 0]) / size, 1e3),
-            (start_of(study, seed) - low) / (high - low),
+        scipy_minimize(
+            lambda u: at(u.tobytes())[0],
+            (start - low) / (high - low),
+            jac=lambda u: slopes(u.tobytes())[0],
             bounds=[(0, 1)] * len(low),
-            constraints={"type": "ineq", "fun": lambda u: -np.minimum(evaluate(u).g[0], 1e3)},
+            constraints={
+                "type": "ineq",
+                "fun": lambda u: -at(u.tobytes())[1:],
+                "jac": lambda u: -slopes(u.tobytes())[1:],
+            },
             method="SLSQP",
-            options={"maxiter": 300},
+            options={"maxiter": 300, "ftol": EXACT},
         )
-        at_end = evaluate(found.x)
-        kept = at_end.g.max() <= 1e-6
-        return (float(at_end.f[0, 0]) if kept else np.inf), looked
+        kept = [evaluation.f[evaluation.feasible, 0].min(initial=np.inf) for evaluation in looked]
+        return float(min(kept)), sum(len(evaluation.x) for evaluation in looked)
 
     return timed(search)
 
@@ -135,8 +154,11 @@ def test_least_contact_stress(name: str, method: str, benchmark: Any, report: Re
 
 def test_ten_starts_of_the_eleven_variable_problem(benchmark: Any, report: Report) -> None:
     study = high_speed_study(free_laws=True)
+    begun, worked = time.perf_counter(), time.process_time()
     best = benchmark.pedantic(lambda: minimise(study, starts=10), rounds=1)
-    seconds = benchmark.stats.stats.max if benchmark.stats else float("nan")
+    passed, worked = time.perf_counter() - begun, time.process_time() - worked
     same = sum(end <= best.f * 1.001 for end in best.ends)
-    report("ten starts, 3 sizes, 8 coefficients", f"{seconds:.1f} s, {best.evaluations} designs, {same} ends the same")
+    took = f"{worked:.1f} s of the processor, {passed:.1f} s passed"
+    report("ten starts, 3 sizes, 8 coefficients", f"{took}, {best.evaluations} designs, {same} ends the same")
     assert same >= 8
+    assert worked < 10
