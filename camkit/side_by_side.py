@@ -145,5 +145,6 @@ def _measured(measure: Measure, analyses: Sequence[Any], senses: Mapping[Measure
     leader = texts[int(np.nanargmin(sense * values))] if sense and differ else None
     value, side = limits.get(measure, (np.inf, 1))
     limit = f"{'at most' if side > 0 else 'at least'} {measure.text(value)}" if measure in limits else ""
-    missed = tuple(bool(side * (v - value) > 0) for v in values)
+    # A number that is not there keeps no limit, as in a study.
+    missed = tuple(not side * (v - value) <= 0 for v in values)
     return Line(measure.name, texts, tuple(text == leader for text in texts), missed, limit)

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 import ipywidgets as w
 import numpy as np
 import pytest
+from ipywidgets.widgets.widget import _instances
 from matplotlib.colors import to_rgb
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
 
 from camkit import DoorHandleCam, Measure, Study, ahp, door_handle_study, explore, judge, try_everything
 from camkit.app.decide import decide
+from camkit.app.picture import ImageWidget
 from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
 from camkit.export import Work, from_json, to_json
 from camkit.optimise import Front, front_of
@@ -360,7 +362,40 @@ def test_one_to_four_objectives(k):
     assert len(panel.sureness) == (0 if k == 1 else 2)
     press(panel, "knee")
     assert source.explorer.design == source.front[panel.shown.winners["knee"]]
-    assert try_everything(panel) == "1 controls moved"
+    assert try_everything(panel) == ("1 control moved" if k == 1 else "2 controls moved")  # one design has no band
+    assert panel.designs.bands == {}
+
+
+def test_pictures_are_built_once_and_closed_when_others_take_their_place(source):
+    def alive():
+        return [x for x in _instances.values() if isinstance(x, ImageWidget)]
+
+    before = alive()
+    panel = decide(source)
+    first = [picture.widget for picture in panel._pictures]
+    assert [x for x in alive() if x not in before] == first
+    source.show(a_front(3, n=7))
+    assert [picture.widget for picture in panel._pictures] == first
+    for k in (2, 3, 2):
+        source.show(a_front(k))
+        assert [x for x in alive() if x not in before] == [picture.widget for picture in panel._pictures]
+    assert not set(first) & set(alive())
+
+
+def test_an_empty_front_between_two_studies_leaves_no_axes_of_the_first(source):
+    panel = decide(source)
+    drawn_for_three = panel._pictures[0]
+    study = a_front(2).study
+    source.show(Front(study, np.zeros((0, 2)), np.zeros((0, 2)), "stopped"))
+    source.show(a_front(2))
+    assert panel._pictures[0] is not drawn_for_three
+
+
+def test_the_band_is_called_after_its_axis(source):
+    panel = decide(source)
+    for name, unit in (("width", "mm"), ("slope", "")):
+        panel.axis.value = [c.name for c in panel.designs.columns].index(name)
+        assert f"data-name='{name}{', ' * bool(unit)}{unit}'" in panel._count.value
 
 
 # --- judgements typed and left open -----------------------------------------------------------------------------------

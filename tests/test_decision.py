@@ -1,6 +1,7 @@
 """Decisions against published judgements, consistent matrices, worked cases and brute force."""
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from pymoo.operators.survival.rank_and_crowding.metrics import calc_crowding_distance
-from scipy.optimize import minimize
+from scipy.optimize import minimize, minimize_scalar
 
 from camkit import ahp, crowding, topsis, weighted_sum
 from camkit.cam.door_handle import PAPER_JUDGEMENTS
@@ -102,6 +103,9 @@ def test_any_judgements_of_saatys_scale(upper):
     assert (judgement.weights > 0).all()
     assert judgement.lambda_max >= n - 1e-9
     assert_allclose(ahp(judgement.matrix.tolist()).weights, judgement.weights)
+    largest = max(np.linalg.eigvals(judgement.matrix).real)
+    for method in ("eigenvector", "geometric"):  # the weights differ, the contradiction does not
+        assert ahp(upper, method).lambda_max == pytest.approx(largest, rel=1e-9)
     if n == 3:  # for three criteria both methods agree (Saaty and Vargas 1984)
         assert_allclose(ahp(upper, "geometric").weights, judgement.weights, rtol=1e-6)
     swapped = ahp(judgement.matrix[::-1, ::-1])
@@ -121,8 +125,56 @@ def test_the_worst_judgement_is_the_one_that_was_spoiled():
         a = w[:, None] / w
         a[i, j], a[j, i] = a[i, j] * 6, a[j, i] / 6
         judgement = ahp(a)
-        assert judgement.worst == (i, j)
+        assert judgement.worst == {(i, j): pytest.approx(w[i] / w[j])}
         assert judgement.consistency_ratio > 0.1
+
+
+def by_hand(upper):
+    """For each pair without which all hang together: least ``lambda_max`` over that judgement, and where it is."""
+    told = {}
+    for k, pair in enumerate(combinations(range(len(judgement_matrix(upper))), 2)):
+        if upper[k] is not None:
+            try:
+                ahp(with_gap(upper, k))
+            except ValueError:
+                continue
+            found = minimize_scalar(
+                lambda log, k=k: ahp([np.exp(log) if m == k else v for m, v in enumerate(upper)]).lambda_max,
+                bounds=(-12, 12), options={"xatol": 1e-9},
+            )  # fmt: skip
+            told[pair] = found.fun, np.exp(found.x)
+    return told
+
+
+@pytest.mark.parametrize(
+    "upper",
+    [
+        LEADER,
+        [1 / 2, 7, 3, 2, 5, 1 / 4],
+        [2, 5, 1, 7, 3, 1 / 2, 2, 4, 1, 9],
+        [2, 5, None, 7, 3, 1 / 2, 2, None, 1, 9],
+        [*np.array(DRINKS)[np.triu_indices(7, 1)]],
+    ],
+    ids=["4", "4 random", "5", "5 with gaps", "7"],
+)
+@pytest.mark.parametrize("method", ["eigenvector", "geometric"])
+def test_the_worst_judgement_is_the_one_without_which_lambda_max_is_least(upper, method):
+    told = by_hand(upper)
+    pair = min(told, key=lambda pair: told[pair][0])
+    assert ahp(upper, method).worst == {pair: pytest.approx(told[pair][1], rel=1e-5)}
+
+
+@pytest.mark.parametrize("upper", [[5, 5, 5], [9, 1 / 9, 9], [2, 3, 1 / 7]])
+def test_three_judgements_contradict_each_other_together(upper):
+    a, b, c = upper  # of the pairs 1 2, 1 3, 2 3
+    expected = {(0, 1): b / c, (0, 2): a * c, (1, 2): b / a}
+    assert ahp(upper).worst == {pair: pytest.approx(value) for pair, value in expected.items()}
+    # A fourth criterion that hangs on one judgement changes nothing: that one cannot be left out.
+    assert ahp([a, b, 2, c, None, None]).worst == {pair: pytest.approx(value) for pair, value in expected.items()}
+
+
+def test_too_few_judgements_to_contradict_each_other():
+    assert ahp([3]).worst == ahp([[1]]).worst == ahp([2, None, 3]).worst == {}
 
 
 # ---------------------------------------------------------------- choosing from a front
@@ -432,6 +484,22 @@ def test_ranges_of_two_objectives_are_known():
     assert told.high == pytest.approx(5, rel=1e-8)
 
 
+def test_ranges_with_many_criteria_and_gaps_are_bounded():
+    """Each bound of a large matrix with gaps against the winners just inside and just outside."""
+    upper = [2, 5, None, 7, 3, 1 / 2, 2, None, 1, 9, 4, 1, 3, 1 / 3, 2]
+    ball = abs(np.random.default_rng(6).normal(size=(300, 6)))
+    f = 1 - ball / np.linalg.norm(ball, axis=1)[:, None]  # on a ball nearly every design wins somewhere
+    judged = ahp(upper)
+    winner, bounded = weighted_sum(f, judged.weights), 0
+    for told in judgement_ranges(f, upper):
+        for end, beyond, out in ((told.low, told.below, 1 - 1e-7), (told.high, told.above, 1 + 1e-7)):
+            if beyond is not None:
+                bounded += 1
+                inside, outside = (ahp(at(judged.matrix, *told.pair, end * s)).weights for s in (1 / out, out))
+                assert (weighted_sum(f, inside), weighted_sum(f, outside)) == (winner, beyond)
+    assert bounded > 15
+
+
 def test_rules_that_ask_for_no_weights_stay_to_the_ends_of_the_scale():
     for choose in (knee, crowding):
         for told in judgement_ranges(FRONT3, [2, 3, 2], choose):
@@ -447,7 +515,7 @@ def test_a_judgement_off_the_scale_and_one_objective():
         judgement_ranges(WORKED, [1, 2, 3])
 
 
-@pytest.mark.parametrize(("k", "steps"), [(1, 5), (2, 7), (3, 6), (4, 5)])
+@pytest.mark.parametrize(("k", "steps"), [(1, 5), (2, 7), (3, 6), (4, 5), (10, 8)])
 def test_a_lattice_has_every_weighting_once(k, steps):
     weights = weight_lattice(k, steps)
     assert len(weights) == math.comb(steps + k - 1, k - 1)
@@ -461,7 +529,7 @@ def test_shares_of_the_triangle_are_areas():
     corners = winner_map(1 - np.eye(3))
     assert set(corners.shares) == {0, 1, 2}
     assert_allclose(list(corners.shares.values()), 1 / 3, atol=0.02)
-    # A design with 0.501 everywhere wins where no weight is above 0.499: the inner triangle, a quarter of the whole.
+    # A design with 0.499 everywhere wins where no weight is above 0.501: the inner triangle, a quarter of the whole.
     inner = winner_map([*(1 - np.eye(3)), [0.499, 0.499, 0.499]])
     assert inner.shares[3] == pytest.approx(1 / 4, abs=0.02)
     assert sum(inner.shares.values()) == pytest.approx(1)

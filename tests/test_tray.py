@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from camkit import DoorHandleCam, UniversalJointShaft, door_handle_study, explore, shaft_study
+from camkit import DoorHandleCam, Measure, UniversalJointShaft, door_handle_study, explore, shaft_study
 from camkit.app.controls import Download
 from camkit.app.tray import tray
 from camkit.cam.door_handle import CURVE_TABLE
@@ -59,6 +59,13 @@ def test_the_best_is_least_or_largest_as_the_study_says_and_a_missed_limit_is_to
     assert list(steep.missed) == [STEEPEST(a) > STUDY.at_most[STEEPEST] for a in analyses] == [False, False, True]
     assert not any(line_of(table, "lift arm").best)
     assert not any(line_of(table, CURVE_TABLE[6].name).best)  # nobody said that a small torque is better
+
+
+@pytest.mark.parametrize("side", ["at_most", "at_least"])
+def test_a_number_that_is_not_there_keeps_no_limit(side):
+    unknown = Measure(STEEPEST.name, STEEPEST.unit, lambda analysis: np.nan)
+    study = STUDY.replace(**({"at_most": {}, "at_least": {}} | {side: {unknown: 1.0}}))
+    assert line_of(side_by_side(DESIGNS, (), study), STEEPEST.name).missed == (True, True, True)
 
 
 def test_designs_that_are_alike_have_no_best():

@@ -6,6 +6,7 @@ import io
 import threading
 from collections.abc import Sequence
 from dataclasses import replace
+from html import escape
 from typing import Any
 
 import ipywidgets as w
@@ -44,6 +45,7 @@ class Decide(Panel):
         self.source, self.measures = source, measures
         self.shown: ShownDecision | None = None
         self._key: Any = None
+        self._columns: Any = None
         self._said: Any = None
         self._held: tuple[int, float] | None = None
         self._silent = False
@@ -112,8 +114,9 @@ class Decide(Panel):
         same = self.shown is not None and self.shown.designs.columns == fresh.designs.columns
         bands = self.shown.designs.bands if same and self.shown else {}
         self.shown = replace(fresh, designs=replace(fresh.designs, bands=bands, selected=self._selected(fresh)))
-        if not same:
+        if self._columns not in (None, fresh.designs.columns):  # else there are no others or they are drawn already
             self._make_pictures()
+        self._columns = fresh.designs.columns
         if [label for label, _ in self.axis.options] != (labels := [c.name for c in fresh.designs.columns]):
             self._silent = True
             self.axis.options = [(label, j) for j, label in enumerate(labels)]
@@ -121,7 +124,8 @@ class Decide(Panel):
             self._silent = False
 
     def _make_pictures(self) -> None:
-        """Figures whose axes are named after the columns and objectives of now."""
+        """Figures whose axes are to be named after the columns and objectives of the next decision."""
+        old = (*self._brushed.children, *self._judged.children)
         brushed = LivePicture((brushed_designs, front_winners), "Designs of the front", width=12.6, height=4.5)
         judged = LivePicture((winners_by_weight, judgement_bars), "Winners by weight", width=12.6, height=4.4)
         brushed.widget.on_pointer(self._pointer)
@@ -129,6 +133,8 @@ class Decide(Panel):
         brushed.said = self.summary
         self._pictures, self.picture = [brushed, judged], brushed
         self._brushed.children, self._judged.children = (brushed.widget,), (judged.widget,)
+        for widget in old:
+            widget.close()
 
     def _selected(self, shown: ShownDecision) -> int | None:
         """The front's design that is in the sliders, if one is."""
@@ -185,7 +191,10 @@ class Decide(Panel):
         finally:
             self._silent = False
         self.band.disabled = high <= low
-        self._count.value = f"&ensp;{designs.kept.sum()} of {len(designs.kept)} designs kept"
+        column = designs.columns[j]
+        name = escape(f"{column.name}, {column.unit}" if column.unit else column.name, quote=True)
+        count = f"{designs.kept.sum()} of {len(designs.kept)} designs kept"
+        self._count.value = f"<span data-name='{name}'>&ensp;{count}</span>"
 
     def _pointer(self, kind: str, x: float, y: float) -> None:
         """Drag a band, drop it or load a design."""

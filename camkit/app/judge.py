@@ -19,7 +19,10 @@ from .picture import LivePicture
 
 Pair = tuple[int, int]
 
-HINT = "A box takes any number or fraction: 3, 1/5, 0.4. Leave it empty where you cannot judge."
+HINT = (
+    "A knob stands nearer to what matters more. "
+    "A box takes any number or fraction: 3, 1/5, 0.4. Leave it empty where you cannot judge."
+)
 
 
 class Judgements(Panel):
@@ -62,7 +65,10 @@ class Judgements(Panel):
 
     def _slider(self, pair: Pair) -> w.SelectionSlider:
         slider = w.SelectionSlider(
-            options=[(_fraction(v), v) for v in SAATY_SCALE], value=1.0, readout=False, layout=w.Layout(width="170px")
+            options=[(_fraction(v), v) for v in SAATY_SCALE[::-1]],
+            value=1.0,
+            readout=False,
+            layout=w.Layout(width="170px"),
         )
         slider.observe(lambda change: self._say(pair, change.new), "value")
         return slider
@@ -143,7 +149,7 @@ class Judgements(Panel):
     def _place(self, pair: Pair) -> None:
         """Slider and box of a pair show its judgement, or what the others imply."""
         value, slider = self._said[pair], self.sliders[pair]
-        options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value})
+        options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value}, reverse=True)
         at = _nearest(options, float(self.judgement.completed[pair]))
         shown = tuple((_fraction(v), v) for v in options)
         (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
@@ -164,16 +170,18 @@ class Judgements(Panel):
     @property
     def advice(self) -> str:
         """What to look at again when the judgements contradict each other; empty when they do not."""
-        judgement = self.judgement
-        if judgement.consistency_ratio <= 0.1:
+        ratio = self.judgement.consistency_ratio
+        if ratio <= 0.1:
             return ""
-        i, j = judgement.worst
-        implied = judgement.weights[i] / judgement.weights[j]
-        return (
-            f"The judgements contradict each other (consistency ratio {judgement.consistency_ratio:.2f}, above 0.10). "
-            f"Look again at {self.names[i]} against {self.names[j]}: {_fraction(judgement.matrix[i, j])} was said, "
-            f"the others imply about {implied:.2g}."
+        worst = self.judgement.worst
+        named = {f"{self.names[i]} against {self.names[j]}": (i, j) for i, j in worst}
+        first, *others = named
+        said, implied = _fraction(self.judgement.matrix[named[first]]), _about(worst[named[first]])
+        told = f"{first}: {said} was said, the {'rest implies' if others else 'others imply'} about {implied}"
+        advice = (
+            f"Each of {', '.join(named)} may be the one that is off; take {told}" if others else f"Look again at {told}"
         )
+        return f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10). {advice}."
 
     def _matrix_html(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in self.names)
@@ -213,6 +221,12 @@ def _fraction(value: float) -> str:
     whole = Fraction(float(value)).limit_denominator(99)
     exact = abs(float(whole) - value) < 1e-9 and 1 in (whole.numerator, whole.denominator)
     return str(whole) if exact else f"{value:.4g}"
+
+
+def _about(value: float) -> str:
+    """Two digits of a judgement, below 1 as ``1/81``."""
+    there, back = (float(f"{v:.2g}") for v in (value, 1 / value))
+    return f"1/{back:g}" if back > 1 else f"{there:g}"
 
 
 def _nearest(options: Sequence[float], value: float) -> float:

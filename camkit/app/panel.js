@@ -1,7 +1,15 @@
 // Tells a screen reader what each slider, box and menu of the panel is: the words that stand beside it.
-const NAMELESS = ["[role=slider]", "input", "select"].map((kind) => `.jupyter-widgets ${kind}:not([aria-label])`).join();
+// What has been named here is named again when the words change.
+const NAMED = ["[role=slider]", "input", "select"]
+  .flatMap((kind) => [":not([aria-label])", "[data-named]"].map((state) => `.jupyter-widgets ${kind}${state}`)).join();
 
 function nameOf(control) {
+  const handles = [...(control.closest(".noUi-base")?.querySelectorAll("[role=slider]") ?? [])];
+  const end = handles.length === 2 ? `, ${control === handles[0] ? "least" : "greatest"}` : "";
+  return `${wordsFor(control)}${end}`;
+}
+
+function wordsFor(control) {
   const label = control.closest(".jupyter-widgets").querySelector(".widget-label, .widget-label-basic");
   const own = label && label.style.display !== "none" ? label.textContent.trim() : "";
   const row = control.closest(".widget-hbox");
@@ -18,9 +26,11 @@ function nameOf(control) {
 function render({ el }) {
   let panel = null;
   const name = () => {
-    for (const control of panel.querySelectorAll(NAMELESS)) {
+    for (const control of panel.querySelectorAll(NAMED)) {
       const words = nameOf(control);
-      if (words) control.setAttribute("aria-label", words);
+      if (!words || words === control.ariaLabel) continue;
+      control.setAttribute("aria-label", words);
+      control.dataset.named = "";
     }
   };
   const observer = new MutationObserver(name); // controls arrive one by one, and a slider with new ends is a new one

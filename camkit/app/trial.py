@@ -1,4 +1,4 @@
-"""`try_everything`: move every control of a panel, so that a callback that fails is seen."""
+"""`try_everything`: move every slider, box and menu of a panel, so that a callback that fails is seen."""
 
 from __future__ import annotations
 
@@ -7,6 +7,12 @@ from typing import Any
 
 import ipywidgets as w
 
+KINDS = (
+    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, w.FloatText, w.BoundedIntText, w.Text,
+    w.Dropdown, w.SelectionSlider, w.Checkbox,
+)  # fmt: skip
+"""What is moved; a button is not, for what it does may not be undone."""
+
 
 def _others(control: Any) -> list[Any]:
     """Values that a control can take besides its own: a step up for a number, every option for a menu."""
@@ -14,9 +20,20 @@ def _others(control: Any) -> list[Any]:
         return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
     if isinstance(control, w.Checkbox):
         return [not control.value]
+    if isinstance(control, w.Text):
+        return ["" if control.value else "1"]
+    if isinstance(control, w.FloatRangeSlider):
+        return _narrower(control)
     step, top = control.step or 1, getattr(control, "max", None)
     up = round(control.value + step, 9)
     return [up if top is None or up <= top else round(control.value - step, 9)]
+
+
+def _narrower(band: w.FloatRangeSlider) -> list[Any]:
+    """The band without its lower, then without its upper half."""
+    low, high = band.value
+    middle = (low + high) / 2
+    return [(middle, high), (low, middle)]
 
 
 def try_everything(panel: w.Box) -> str:
@@ -24,8 +41,7 @@ def try_everything(panel: w.Box) -> str:
 
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back.
     """
-    kinds = (w.FloatSlider, w.IntSlider, w.FloatText, w.BoundedIntText, w.Dropdown, w.SelectionSlider, w.Checkbox)
-    controls = [c for c in _inside(panel) if isinstance(c, kinds) and not getattr(c, "disabled", False)]
+    controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
     with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
         for control in controls:
             quiet.enter_context(control.hold_sync())
@@ -34,7 +50,7 @@ def try_everything(panel: w.Box) -> str:
             for value in [*_others(control), before]:
                 control.value = value
             assert control.value == before, f"{control.description or type(control).__name__} did not come back"
-    return f"{len(controls)} controls moved"
+    return f"{len(controls)} control{'' if len(controls) == 1 else 's'} moved"
 
 
 def _inside(box: w.Widget) -> list[w.Widget]:

@@ -74,7 +74,7 @@ def test_judging_by_keyboard_moves_weights_and_winners(page: Page) -> None:
     decided(page, [2, 1, None])
     judge = panel(page, "What matters more?")
     slider = judge.get_by_role("slider").nth(0)
-    slider.press("ArrowRight")
+    slider.press("ArrowLeft")
     decided(page, [3, 1, None])
     box = judge.get_by_placeholder("not judged").nth(2)
     expect(box).to_have_value("")
@@ -118,6 +118,24 @@ def test_a_drag_along_an_axis_brushes_the_front(page: Page) -> None:
     inside = int(((band[0] <= forces) & (forces <= band[1])).sum())
     expect(decision).to_contain_text(f"{inside} of 72 designs kept")
     assert image.get_attribute("src") != shown
+    decision.get_by_role("button", name="Keep all").click()
+    expect(decision).to_contain_text("72 of 72 designs kept")
+
+
+def test_the_bands_handles_are_called_after_the_axis_and_move_with_the_keys(page: Page) -> None:
+    decision = panel(page, "load the winner by")
+    axis = decision.get_by_role("combobox", name="keep of the")
+    for measure in (FORCE, ANGLE):
+        axis.select_option(label=measure.name)
+        for end in ("least", "greatest"):
+            expect(decision.get_by_role("slider", name=f"{measure.name}, {measure.unit}, {end}")).to_have_count(1)
+        expect(decision.get_by_role("slider")).to_have_count(2)
+    handle = decision.get_by_role("slider", name=f"{ANGLE.name}, {ANGLE.unit}, greatest", exact=True)
+    handle.focus()
+    handle.press("ArrowLeft")
+    expect(decision).not_to_contain_text("72 of 72 designs kept")
+    name = f"{ANGLE.name}, {ANGLE.unit}, greatest"  # the same, whatever is counted
+    expect(decision.get_by_role("slider", name=name, exact=True)).to_have_count(1)
     decision.get_by_role("button", name="Keep all").click()
     expect(decision).to_contain_text("72 of 72 designs kept")
 
