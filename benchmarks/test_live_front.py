@@ -17,13 +17,54 @@ import pytest
 from live_front_searches import PROBLEMS, pygmo_nsga2
 
 from camkit import DoorHandleCam, door_handle_study, mm
-from camkit.archive import quick_front
-from camkit.optimise import front_of, reference_point
+from camkit.archive import Archive, _thinned, quick_front
+from camkit.optimise import Front, front_of, reference_point
 from camkit.reference import load
+from camkit.study import Study
+from camkit.trade_offs import trade_off
 
 Report = Callable[[str, str], None]
 CACHED = load("live_front_searches")["problems"]
 ROUNDS = 15
+
+
+GRID, DESIGNS, POINTS = 13, 7000, 100
+"""Designs along a side of the first grid; designs in all, as many as `quick_front` looks at; limits, one by one."""
+
+
+def refined_sweep(study: Study) -> Front:
+    """A grid over the box, then half its steps around every design that none beats, and half of those again."""
+    low, high = study.bounds
+    u = np.stack(np.meshgrid(*[np.linspace(0, 1, GRID)] * len(low)), axis=-1).reshape(-1, len(low))
+    around = np.stack(np.meshgrid(*[[-1, 0, 1]] * len(low)), axis=-1).reshape(-1, len(low)) / (GRID - 1)
+    front, looked, near = front_of(study.evaluate(low + u * (high - low)), study), len(u), around
+    while looked < DESIGNS:
+        near = near / 2
+        shares = ((front.x - low) / (high - low))[:, None] + near
+        u = np.unique(np.clip(shares.reshape(-1, len(low)), 0, 1), axis=0)[: DESIGNS - looked]
+        front = front_of(study.evaluate(np.vstack([front.x, low + u * (high - low)])), study)
+        looked += len(u)
+    kept = _thinned(Archive(front.x, front.f, np.zeros(len(front))), 100)
+    return Front(study, kept.u, kept.f)
+
+
+def epsilon_constraint(study: Study) -> Front:
+    """The less effort under ever tighter limits on the radius."""
+    return front_of(study.evaluate(np.array([best.x for best in trade_off(study, POINTS)])), study)
+
+
+@pytest.mark.parametrize("search", [refined_sweep, epsilon_constraint])
+def test_a_sweep_reaches_less_and_limits_on_one_objective_take_longer(
+    search: Callable[[Study], Front], report: Report
+) -> None:
+    study, cached, times = door_handle_study(), CACHED["three free quantities"], []
+    quick, front = (_timed(times, lambda find=find: find(study)) for find in (quick_front, search))
+    share, reached = (one.hypervolume(cached["reference"]) / cached["best"] for one in (front, quick))
+    told = f"{times[1]:.2f} s, {share:.5f}, {len(front)}"
+    report(f"{search.__name__}: processor time, share of the hypervolume, designs on the front", told)
+    report(f"    quick_front, which looks at {quick.record['designs']} designs", f"{times[0]:.2f} s, {reached:.5f}")
+    assert times[1] > 2 * times[0]
+    assert share < reached or times[1] > 10 * times[0]
 
 
 @pytest.mark.parametrize("name", PROBLEMS)

@@ -10,15 +10,18 @@ It knows studies, not mechanisms.  `nsga2` serves any number of free quantities.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.stats import qmc
 
-from .optimise import Front, dominated, front_of
+from .checkpoint import versions
+from .decision import normalised
+from .optimise import Front, dominated, front_of, on_grid
 from .quantities import counted
 from .study import Study
 
@@ -38,9 +41,8 @@ COARSE, LEAST_ANGLES = 4, 61
 """The other rounds look at one of so many angles, but not at fewer than these."""
 GROWN = 3
 """At how many times its size the archive is thinned."""
-GRID, DIGITS = 2.0**20, 2.0**36
-"""Free values are whole shares of the bounds' width by the first number, objectives are compared to 11 digits, so that
-the last bits of a processor do not grow into another front."""
+DIGITS = 2.0**36
+"""Objectives are compared to 11 digits, so that the last bits of a processor do not grow into another front."""
 
 
 class Pace(NamedTuple):
@@ -72,6 +74,8 @@ class Round:
     archive: Archive
     study: Study
     size: int
+    record: Mapping[str, Any]
+    """Designs looked at, seconds, versions."""
 
     @cached_property
     def x(self) -> np.ndarray:
@@ -81,7 +85,7 @@ class Round:
     @cached_property
     def front(self) -> Front:
         """What of them is feasible on all angles of the study."""
-        return front_of(self.study.evaluate(self.x), self.study)
+        return replace(front_of(self.study.evaluate(self.x), self.study), record=self.record)
 
 
 def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Front:
@@ -105,18 +109,21 @@ def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Fr
 def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Round]:
     """`quick_front` one round at a time; leave the loop to stop."""
     _refuse(study, start)
+    began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
     coarse = study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)))
     pace = WARM if start is not None and len(start) and coarse.evaluate(start.x).feasible.any() else COLD
     # The first round goes on from all of these: beside a beaten design may lie a part of the front.
     archive = _judged(coarse, np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))
+    designs = len(archive.u)
     for number in range(pace.rounds + LAST_ROUNDS):
         judge = coarse if number < pace.rounds else study
         if number == pace.rounds:
             archive = _best(_judged(study, archive.u), size)
         tried = _judged(judge, _tried(archive, pace.step * SHRINKING**number, draw))
-        archive = _best(_joined(archive, tried), size)
-        yield Round(number + 1, pace.rounds + LAST_ROUNDS, archive, study, size)
+        archive, designs = _best(_joined(archive, tried), size), designs + len(tried.u)
+        record = {"designs": designs, "seconds": time.monotonic() - began, "versions": told}
+        yield Round(number + 1, pace.rounds + LAST_ROUNDS, archive, study, size, record)
 
 
 def _refuse(study: Study, start: Front | None) -> None:
@@ -151,7 +158,7 @@ def _everywhere(n: int, count: int) -> np.ndarray:
 
 def _judged(study: Study, u: np.ndarray) -> Archive:
     """What the study says of shares, moved into the bounds and onto the grid, each once."""
-    u = np.unique(np.round(np.clip(u, 0, 1) * GRID) / GRID, axis=0)
+    u = np.unique(on_grid(np.clip(u, 0, 1)), axis=0)
     evaluation = study.evaluate(_x(study, u))
     built = np.isfinite(evaluation.f).all(-1)
     mantissa, exponent = np.frexp(evaluation.f)
@@ -193,19 +200,13 @@ def _thinned(archive: Archive, size: int) -> Archive:
     """An even spread of ``size`` designs: again and again the one farthest from those that are taken."""
     if len(archive.f) <= size:
         return archive
-    f = _scaled(archive.f)
+    f = normalised(archive.f)
     taken = list(dict.fromkeys(f.argmin(0).tolist()))
     gap = ((f[:, None] - f[taken]) ** 2).sum(-1).min(1)
     while len(taken) < size:
         taken.append(int(gap.argmax()))
         gap = np.minimum(gap, ((f - f[taken[-1]]) ** 2).sum(-1))
     return _of(archive, np.sort(taken))
-
-
-def _scaled(f: np.ndarray) -> np.ndarray:
-    """Objectives as shares of their ranges."""
-    low, span = f.min(0), np.ptp(f, axis=0)
-    return (f - low) / np.where(span > 0, span, 1)
 
 
 def _tried(archive: Archive, step: float, draw: np.random.Generator) -> np.ndarray:
@@ -222,7 +223,7 @@ def _tried(archive: Archive, step: float, draw: np.random.Generator) -> np.ndarr
 
 def _in_gaps(archive: Archive, count: int, draw: np.random.Generator) -> np.ndarray:
     """Between and beyond neighbours (in the order of each objective) that lie far apart on the front."""
-    f, u = _scaled(np.where(np.isfinite(archive.f), archive.f, 0)), archive.u
+    f, u = normalised(np.where(np.isfinite(archive.f), archive.f, 0)), archive.u
     order = np.argsort(f, axis=0, kind="stable").T
     first, second = order[:, :-1].ravel(), order[:, 1:].ravel()
     widest = np.argsort(-((f[first] - f[second]) ** 2).sum(-1), kind="stable")[:count]

@@ -233,15 +233,12 @@ def _work_in(entry: Mapping[str, Any]) -> Work:
 
 
 def _record_in(entry: Any) -> dict[str, Any]:
-    kinds: dict[str, Any] = {
-        "population": int,
-        "generations": int,
-        "seed": int,
-        "seconds": (int, float),
-        "versions": dict,
-    }
+    """The record of a search by NSGA-II, or of a quick front, which has no seed."""
+    common: dict[str, Any] = {"seconds": (int, float), "versions": dict}
+    wanted = ({"population": int, "generations": int, "seed": int} | common, {"designs": int} | common)
+    kinds = next((kinds for kinds in wanted if isinstance(entry, dict) and entry.keys() == kinds.keys()), None)
     if entry and not (
-        entry.keys() == kinds.keys()
+        kinds
         and all(isinstance(entry[name], kind) and not isinstance(entry[name], bool) for name, kind in kinds.items())
         and all(isinstance(version, str) for version in entry["versions"].values())
     ):

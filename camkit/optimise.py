@@ -44,17 +44,21 @@ class StudyProblem(Problem):
         out["G"] = np.minimum(evaluation.g, WORST)
 
 
-class OnGrid(Repair):
-    """Moves free values to the nearest millionth (``2^-20``) of the width between their bounds.
+def on_grid(shares: np.ndarray) -> np.ndarray:
+    """Shares of the width between two bounds, moved to the nearest millionth (``2^-20``).
 
     Processors differ in the last bits of a power.  A search doubles such differences from generation to generation;
     on a grid they never arise, and a seed gives the same front everywhere.
     """
+    return np.round(shares * 2**20) / 2**20
+
+
+class OnGrid(Repair):
+    """Moves free values onto the grid of `on_grid`."""
 
     def _do(self, problem: Problem, x: np.ndarray, **kwargs: Any) -> np.ndarray:
         low, high = problem.xl, problem.xu
-        shares = np.round((x - low) / (high - low) * 2**20) / 2**20
-        return np.clip(low + shares * (high - low), low, high)
+        return np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,7 @@ class Front:
 
     ``len(front)``, ``front[i]`` is a design again, ``front.x`` and ``front.f`` are ``(p, n)`` arrays in SI.
     An empty front says in ``message`` what stood in the way.  ``record`` says how a search found it: population,
-    generations, seed, seconds and versions.
+    generations and seed or how many designs were looked at, seconds, versions.
     """
 
     study: Study
@@ -109,13 +113,14 @@ def dominated(f: np.ndarray) -> np.ndarray:
 def _why_empty(evaluation: Evaluation, study: Study) -> str:
     built = np.isfinite(evaluation.f).all(-1)
     if not built.any():
-        return "no design of the last generation can be built; widen or move the bounds"
+        return "no design that was looked at can be built; widen or move the bounds"
     g = np.where(built[:, None], evaluation.g, np.inf)
     nearest = np.argmin(np.maximum(g, 0).sum(-1))
     measure, limit, sense = study.limits[int(np.argmax(g[nearest]))]
+    missed = g[nearest].max() * (abs(limit) or 1.0)
     return (
-        f"no design of the last generation keeps every limit; the nearest misses the {measure.name} "
-        f"{'of at most' if sense > 0 else 'of at least'} {measure.text(limit)} by {100 * g[nearest].max():.3g} % of it"
+        f"no design that was looked at keeps every limit; the nearest misses the {measure.name} "
+        f"{'of at most' if sense > 0 else 'of at least'} {measure.text(limit)} by {measure.text(missed)}"
     )
 
 

@@ -19,6 +19,8 @@ from .study import Evaluation, Study
 from .units import deg, mm
 
 SPREADS = ("uniform", "normal")
+ANGLES = ("cam_angle", "crank_angle")
+"""Over what a curve may be drawn."""
 WITHIN = 3
 """How many standard deviations of a normal spread the tolerance is: 99.7 % of parts keep it."""
 CONFIDENCE = 0.95
@@ -64,11 +66,14 @@ class Curve(NamedTuple):
         except AttributeError:
             raise ValueError(f"the analysis has no curve {self.name!r}") from None
 
-    def angle(self, analysis: Any) -> np.ndarray:
-        """The cam or crank angle at its points, rad."""
+    def angle(self, analysis: Any) -> tuple[str, np.ndarray]:
+        """The angle over which it is drawn: what it is called, and its values at the curve's points, rad."""
         head = self.name.rpartition(".")[0]
         owner = attrgetter(head)(analysis) if head else analysis
-        return np.asarray(next(getattr(owner, a) for a in ("cam_angle", "crank_angle") if hasattr(owner, a)))
+        for name in ANGLES:
+            if hasattr(owner, name):
+                return words(name), np.asarray(getattr(owner, name))
+        raise ValueError(f"the curve {self.name!r} has no {' or '.join(map(words, ANGLES))} over which it can be drawn")
 
 
 class Indices(NamedTuple):

@@ -337,6 +337,8 @@ def test_a_judgement_that_was_not_made_and_the_record_come_back(work):
     again = from_json(to_json(kept))
     assert again.judgements == {"criteria": (5.0, None, 1.0)}
     assert again.record == record
+    quick = {"designs": 6977, "seconds": 0.2, "versions": {"numpy": "2.4.6"}}
+    assert from_json(to_json(replace(work, record=quick))).record == quick
 
 
 def test_a_study_of_an_older_camkit_has_no_record(work):

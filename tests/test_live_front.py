@@ -11,10 +11,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import DoorHandleCam, Measure, Study, door_handle_study, explore, judge, nsga2, try_everything
 from camkit.app.live_front import live_front
-from camkit.app.newest import Newest
-from camkit.archive import GRID, Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
+from camkit.app.newest import Later, Newest
+from camkit.archive import Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
 from camkit.cam.door_handle import EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
 from camkit.cam.valve_study import valve_front_study
+from camkit.checkpoint import versions
 from camkit.optimise import Front, reference_point
 from camkit.plot.artists import _find
 from camkit.plot.cam import curvature
@@ -172,6 +173,18 @@ def test_it_is_the_same_at_every_call(lift):
     assert_array_equal(again.f, lift.f)
 
 
+def test_a_front_tells_how_it_was_found(lift):
+    assert lift.record["designs"] == [step.record["designs"] for step in quick_front_rounds(door_handle_study())][-1]
+    assert lift.record["seconds"] > 0
+    assert lift.record["versions"] == versions()
+    study, looked = door_handle_study(), []
+    counted = Study.evaluate
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Study, "evaluate", lambda self, x: (looked.append(len(x)), counted(self, x))[1])
+        *_, last = quick_front_rounds(study)
+    assert 0 < sum(looked) - last.record["designs"] <= 300  # those of the last rounds begin with what is there already
+
+
 def test_the_last_bits_of_a_processor_do_not_grow_into_another_front(lift):
     noise = np.random.default_rng(3)
 
@@ -187,7 +200,7 @@ def test_the_last_bits_of_a_processor_do_not_grow_into_another_front(lift):
 
 def test_free_values_lie_on_the_grid():
     front = quick_front(points(space="ab"))
-    shares = (front.x + 4) / 8 * GRID
+    shares = (front.x + 4) / 8 * 2**20
     assert_allclose(shares, np.round(shares), atol=1e-6)
 
 
@@ -294,6 +307,47 @@ def test_only_the_newest_of_what_waits_is_done():
     worker.ask(6)
     worker.wait(10)
     assert done[-1] == (6, False)
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_work_that_fails_does_not_keep_the_next_from_being_done():
+    done, go, began = [], threading.Event(), threading.Event()
+
+    def work(task):
+        began.set()
+        go.wait(10)
+        done.append(1 / task)
+
+    worker = Newest(work)
+    worker.ask(0)
+    assert began.wait(10)
+    worker.ask(2)  # waits while the first fails
+    go.set()
+    until = time.monotonic() + 10
+    while not done and time.monotonic() < until:
+        time.sleep(0.001)
+    assert done == [0.5]
+    worker.wait(10)
+    worker.ask(0)
+    worker.wait(10)
+    worker.ask(4)
+    worker.wait(10)
+    assert done == [0.5, 0.25]
+
+
+def test_later_is_once_after_the_last_time_it_was_asked_for():
+    done = threading.Event()
+    later = Later(done.set, 0.05)
+    assert not later.waiting
+    for _ in range(3):
+        later.ask()
+    assert later.waiting
+    assert done.wait(10)
+    done.clear()
+    later.ask()
+    later.cancel()
+    assert not later.waiting
+    assert not done.wait(0.2)
 
 
 # ---------------------------------------------------------------- the panel
@@ -424,7 +478,7 @@ def test_a_problem_without_a_design_is_told_in_place_of_the_picture(panel):
     panel.settle()
     assert not len(panel.front)
     assert panel.winner is None
-    assert "There is no front: no design of the last generation" in panel._banner.value
+    assert "There is no front: no design that was looked at" in panel._banner.value
     assert panel.picture.widget.layout.display == "none"
     assert panel.summary().startswith("no front: no design")
     panel.explorer.load(DoorHandleCam())

@@ -204,24 +204,28 @@ def test_an_empty_front_says_which_limit_stood_in_the_way():
     assert len(front) == 0
     assert front.f.shape == (0, 2)
     assert front.message == (
-        f"no design of the last generation keeps every limit; the nearest misses the distance from 0 of at most 2 by "
-        f"{float(front.message.split()[-4]):.3g} % of it"
+        f"no design that was looked at keeps every limit; the nearest misses the distance from 0 of at most 2 by "
+        f"{front.message.split()[-1]}"
     )
-    # The nearest: x with the least (x^2/2 - 1) + ((x - 2)^2/0.01 - 1) where both are above 0 is x = 1.9: 80.5 %.
-    assert float(front.message.split()[-4]) == pytest.approx(80.5, abs=0.5)
+    # The nearest: x with the least (x^2/2 - 1) + ((x - 2)^2/0.01 - 1) where both are above 0 is x = 1.9: 3.61 - 2.
+    assert float(front.message.split()[-1]) == pytest.approx(1.61, abs=0.01)
 
 
 def test_an_empty_front_says_the_limit_in_its_unit():
     front = nsga2(two_places(at_least={right: 8.0}), 40, 60, 1)
     assert front.message == (
-        "no design of the last generation keeps every limit; the nearest misses the place of at least 8000 mm "
-        "by 37.5 % of it"
+        "no design that was looked at keeps every limit; the nearest misses the place of at least 8000 mm by 3000 mm"
     )
+
+
+def test_an_empty_front_says_by_how_much_a_limit_of_nothing_is_missed():
+    study = Study(Ball(), {"x": (1.0, 3.0)}, (near_0, near_2), at_most={right: 0.0})
+    assert front_of(study.evaluate([[1.0], [3.0]]), study).message.endswith("the place of at most 0 mm by 1000 mm")
 
 
 def test_an_empty_front_says_that_nothing_can_be_built():
     front = nsga2(Study(Ball(), {"y": (3.5, 4.0)}, (near_0,)), 8, 3, 1)
-    assert front.message == "no design of the last generation can be built; widen or move the bounds"
+    assert front.message == "no design that was looked at can be built; widen or move the bounds"
 
 
 # ---------------------------------------------------------------- a front under other objectives

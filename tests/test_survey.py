@@ -188,7 +188,7 @@ def panel(workshop):
 
 
 def settled(panel):
-    panel._settle_later()
+    panel._later.ask()
     panel.settle()
     return panel
 

@@ -251,6 +251,28 @@ def test_a_curve_that_is_not_there_is_refused():
         made.band(Curve("slop", "", "slope"))
 
 
+@dataclass(frozen=True)
+class Stroke:
+    """A curve over the crank's angle, and one over none."""
+
+    owner: object = None
+    crank_angle: object = None
+
+
+def test_a_curve_is_drawn_over_the_angle_that_is_there():
+    """The cam's before the crank's; without either it is refused."""
+    turned = np.linspace(0, 2, 5)
+    name, angle = Curve("crank_angle", "rad", "").angle(Stroke(crank_angle=turned))
+    assert name == "crank angle"
+    assert_array_equal(angle, turned)
+    name, angle = Curve("owner.slope", "", "").angle(Stroke(owner=Place(1.0, 2.0, 3.0, 5), crank_angle=turned))
+    assert name == "cam angle"
+    assert_array_equal(angle, np.linspace(0, 1, 5))
+    sentence = "the curve 'owner.real' has no cam angle or crank angle over which it can be drawn"
+    with pytest.raises(ValueError, match=sentence):
+        Curve("owner.real", "", "").angle(Stroke(owner=1.0))
+
+
 # ---------------------------------------------------------------- pictures
 
 LIFT = {"lift_arm": 1 * mm, "lift_start_angle": 1 * deg, "lift_centre_distance": 0.3 * mm}
@@ -284,6 +306,7 @@ def test_the_views_show_the_numbers(study):
     assert_allclose([outline[:, 1].min(), outline[:, 1].max()], [low.min(), high.max()])
     nominal = made.nominal.lift.pressure_angle / deg
     assert_allclose(_find(off, "most").get_xy()[:361, 1], low - nominal, atol=1e-9)
+    assert drawn.get_xlabel() == "cam angle  [deg]"
     assert _find(drawn, "limit 0").get_ydata() == pytest.approx([44, 44])
     assert _find(off, "limit 0") is None
 

@@ -1,4 +1,7 @@
-"""`Newest`: work in a thread that never queues; of what is asked for meanwhile, only the newest is done."""
+"""`Newest`: work in a thread that never queues; of what is asked for meanwhile, only the newest is done.
+
+`Later`: work that waits until all is quiet.
+"""
 
 from __future__ import annotations
 
@@ -28,8 +31,13 @@ class Newest:
         with self._lock:
             self._next = (task,)
             if self._thread is None:
-                self._thread = threading.Thread(target=self._run)
-                self._thread.start()
+                self._begin()
+
+    def _begin(self) -> None:
+        """A thread, if something waits; the lock is held."""
+        self._thread = threading.Thread(target=self._run) if self._next else None
+        if self._thread:
+            self._thread.start()
 
     def wait(self, seconds: float | None = None) -> None:
         """Until nothing is left to do."""
@@ -38,10 +46,47 @@ class Newest:
             thread.join(seconds)
 
     def _run(self) -> None:
-        while True:
+        try:
+            while task := self._taken():
+                self._work(*task)
+        except BaseException:
             with self._lock:
-                task, self._next = self._next, ()
-                if not task:
-                    self._thread = None
-                    return
-            self._work(*task)
+                self._begin()  # what waits is not to blame
+            raise
+
+    def _taken(self) -> tuple[Any, ...]:
+        """The newest task; without one the thread ends, and the next task begins another."""
+        with self._lock:
+            task, self._next = self._next, ()
+            if not task:
+                self._thread = None
+            return task
+
+
+class Later:
+    """Calls ``act()`` so many ``seconds`` after the last `ask`, if the kernel is there by then."""
+
+    def __init__(self, act: Callable[[], None], seconds: float) -> None:
+        self._act, self._seconds = act, seconds
+        self._timer: threading.Timer | None = None
+
+    @property
+    def waiting(self) -> bool:
+        """Whether it was asked for and is still to be done."""
+        return self._timer is not None
+
+    def ask(self) -> None:
+        """Put it off until nobody has asked for a while."""
+        self.cancel()
+        self._timer = threading.Timer(self._seconds, self._do)
+        self._timer.start()
+
+    def cancel(self) -> None:
+        """It is not to be done any more, or is being done."""
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+
+    def _do(self) -> None:
+        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
+            self._act()

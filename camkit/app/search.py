@@ -9,15 +9,14 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
-from pathlib import Path
 from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..checkpoint import fingerprint
-from ..decision import CHOOSERS, judgement_matrix
+from ..checkpoint import taken_up
+from ..decision import CHOOSERS, ahp, judgement_matrix
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
 from ..quantities import Quantity, declarations, words
@@ -26,13 +25,12 @@ from ..units import in_unit
 from .controls import Download, Upload, banner, label_html, tell
 from .explore import Explorer, changed, declared_in
 from .judge import Judgements
+from .kept import Kept, keep, unfinished
 from .panel import Panel
 from .picture import LivePicture
 
 REPORT = 0.25
 """Seconds between two reports of a running search."""
-KEPT = Path(".camkit")
-"""Where searches that have not ended are kept: a folder beside the notebook that git does not see."""
 
 MakeStudy = Callable[..., Study]
 
@@ -110,7 +108,7 @@ class Search(Panel):
         for panel in self._judges().values():
             panel.on_change(self._judged)
         self._show_front()
-        self.resume_button.disabled = self._unfinished() is None
+        self._offer_resume()
         explorer.on_change(lambda _: self._show_front() if self._selected() != self._marked else None)
 
     def _make_widgets(self, population: int, generations: int) -> None:
@@ -194,53 +192,57 @@ class Search(Panel):
         except ValueError as refusal:
             tell(self._banner, f"This cannot be searched: {refusal}.")
             return
-        self._begin(self._new_file())
+        self._begin(self._new_files())
 
     def resume(self) -> None:
         """Go on with the last search that did not end, under the settings that it had; returns at once."""
         if self._running():
             return
-        path = self._unfinished()
+        kept = unfinished(self._kind())
         try:
-            if path is None:
+            if kept is None:
                 raise ValueError("there is no search that did not end")
-            self._load_page(json.loads(path.with_suffix(".json").read_text(encoding="utf-8")))
-            self.study = self._study()
-        except (ValueError, KeyError, TypeError, OSError) as refusal:
+            page, design, study = self._read(kept)
+        except ValueError as refusal:
+            if kept:
+                kept.let_go()
             tell(self._banner, f"This cannot be resumed: {refusal}.")
         else:
-            self._begin(path)
+            self._put_back(page, design)
+            self.study = study
+            self._begin(kept)
+
+    def _offer_resume(self) -> None:
+        kept = unfinished(self._kind())
+        self.resume_button.disabled = kept is None
+        if kept:
+            kept.let_go()
 
     def _running(self) -> bool:
         return self._thread is not None and self._thread.is_alive()
 
-    def _begin(self, path: Path | None) -> None:
+    def _begin(self, kept: Kept | None) -> None:
         tell(self._banner, "")
         self._stop.clear()
         self.run_button.disabled = self.resume_button.disabled = True
         self.stop_button.disabled = False
         self.progress.max, self.progress.value = self.generations.value, 0
-        self._thread = threading.Thread(target=self._search, args=(path,))
+        self._thread = threading.Thread(target=self._search, args=(kept,))
         self._thread.start()
 
-    def _new_file(self) -> Path | None:
-        """Where this search is to be kept, with the page beside it; ``None`` where nothing can be written."""
-        settings = f"{fingerprint(self.study)} {self.population.value} {self.seed.value}"
-        name = f"{type(self.study.start).__name__}-{hashlib.sha256(settings.encode()).hexdigest()[:12]}.npz"
+    def _kind(self) -> str:
+        """How the names of this page's searches begin: another page, or this one with another start, has another."""
+        start = self.explorer.start
+        page = [repr(start), [*self.studies], [*self.bounds], {n: p.names for n, p in self._judges().items()}]
+        return f"{type(start).__name__}-{_short(json.dumps(page))}"
+
+    def _new_files(self) -> Kept | None:
+        """Where this search is to be kept, with the page beside it; ``None`` where that is not possible."""
         try:
             page = json.dumps(self._page())
-            KEPT.mkdir(exist_ok=True)
-            (KEPT / ".gitignore").write_text("*\n", encoding="utf-8")
-            (KEPT / name).unlink(missing_ok=True)
-            (KEPT / name).with_suffix(".json").write_text(page, encoding="utf-8")
-        except (OSError, ValueError):  # a folder that is read only, or a law of one's own, which no file can hold
+        except ValueError:  # a law of one's own, which no file can hold
             return None
-        return KEPT / name
-
-    def _unfinished(self) -> Path | None:
-        """The latest search on such a design that did not end."""
-        found = KEPT.glob(f"{type(self.explorer.start).__name__}-*.npz")
-        return max((f for f in found if f.with_suffix(".json").exists()), key=lambda f: f.stat().st_mtime, default=None)
+        return keep(f"{self._kind()}-{_short(page)}", page)
 
     def _page(self) -> dict[str, Any]:
         """All that the study depends on, to the last bit: numbers in SI, where a saved study has them in units."""
@@ -250,7 +252,7 @@ class Search(Panel):
             "design": export.to_json(design),
             "numbers": numbers,
             "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
-            "judgements": {name: panel.upper for name, panel in self._judges().items()},
+            "judgements": {name: [panel.upper, panel.method.value] for name, panel in self._judges().items()},
             "search": self._settings(),
         }
 
@@ -260,11 +262,36 @@ class Search(Panel):
             if not known or value not in getattr(getattr(self, name), "options", (value,)):
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
 
-    def _load_page(self, page: Mapping[str, Any]) -> None:
-        self._check_settings(page["search"])
-        design = changed(export.from_json(page["design"], type(self.explorer.start)), page["numbers"])
+    def _check_judgements(self, judgements: Mapping[str, Any]) -> None:
         for name, panel in self._judges().items():
-            panel.load(page["judgements"][name])
+            if name in judgements and len(judgement_matrix(judgements[name])) != len(panel.names):
+                raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
+
+    def _read(self, kept: Kept) -> tuple[Any, Any, Study]:
+        """The page of a search that did not end, its design and study, all checked; ``ValueError`` in a sentence."""
+        damaged = ValueError(f"the file {kept.page.name} is damaged; delete it to begin anew")
+        try:
+            page = json.loads(kept.text())
+            settings, judgements = page["search"], page["judgements"]
+            self._check_settings(settings)
+            design = changed(export.from_json(page["design"], type(self.explorer.start)), page["numbers"])
+            space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
+            said = {name: judgements[name] for name in self._judges()}
+            self._check_judgements({name: upper for name, (upper, _) in said.items()})
+            weighed = {name: ahp(upper or [[1]], method).weights for name, (upper, method) in said.items()}
+            weights = {"weights": weighed["criteria"]} if self.criteria else {}
+            make = self.studies[settings["mode"]]
+            size = [settings[name] for name in ("population", "generations", "seed")]
+        except (json.JSONDecodeError, KeyError, TypeError, AttributeError):
+            raise damaged from None
+        study = make(design, reference=self.explorer.start, space=space, **weights)
+        taken_up(kept.checkpoint, study, *size)
+        return page, design, study
+
+    def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
+        for name, panel in self._judges().items():
+            upper, panel.method.value = page["judgements"][name]
+            panel.load(upper)
         for name, bounds in self.bounds.items():
             bounds.set(tuple(page["space"][name]) if name in page["space"] else None)
         for name, value in page["search"].items():
@@ -286,14 +313,13 @@ class Search(Panel):
         if self._thread:
             self._thread.join(seconds)
 
-    def _search(self, path: Path | None) -> None:
+    def _search(self, kept: Kept | None) -> None:
         ended = False
         try:
             reference = reference_point(self.study)
             reported = 0.0
-            for generation in nsga2_generations(
-                self.study, self.population.value, self.generations.value, self.seed.value, path
-            ):
+            settings = self.population.value, self.generations.value, self.seed.value
+            for generation in nsga2_generations(self.study, *settings, kept.checkpoint if kept else None):
                 gone = not threading.main_thread().is_alive()
                 ended = generation.number == generation.of
                 last = ended or self._stop.is_set() or gone
@@ -305,11 +331,10 @@ class Search(Panel):
         except Exception as error:  # shown to the user: a thread has no other way to speak
             tell(self._banner, f"The search ended early: {error}.")
         finally:
-            if ended and path:
-                path.unlink(missing_ok=True)
-                path.with_suffix(".json").unlink(missing_ok=True)
+            if kept:
+                kept.remove() if ended else kept.let_go()
             self.run_button.disabled, self.stop_button.disabled = False, True
-            self.resume_button.disabled = self._unfinished() is None
+            self._offer_resume()
 
     def _report(self, generation: Generation, reference: Any, last: bool) -> None:
         self._x = generation.front.x
@@ -408,9 +433,7 @@ class Search(Panel):
                 f"a {type(self.explorer.start).__name__} is wanted here"
             )
         self._check_settings(work.search)
-        for name, panel in self._judges().items():
-            if name in work.judgements and len(judgement_matrix(work.judgements[name])) != len(panel.names):
-                raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
+        self._check_judgements(work.judgements)
         self.study, self._x = work.study, np.asarray(work.x)
         empty = Front(work.study, self._x, np.zeros((0, len(work.study.minimise))))
         self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else empty
@@ -451,14 +474,15 @@ def _left(generation: Generation) -> str:
 
 
 def _told(record: Mapping[str, Any]) -> str:
-    """How a front was found, in one line."""
-    if not record:
-        return ""
-    packages = ", ".join(f"{name} {version}" for name, version in record["versions"].items())
-    return (
-        f"found by NSGA-II in {record['seconds']:.3g} s: population {record['population']}, "
-        f"{record['generations']} generations, seed {record['seed']}; {packages}"
-    )
+    """How a front was found, in one line; all that is known of it is in the saved study."""
+    words_of = {"generations": "{} generations", "designs": "{} designs looked at", "seed": "seed {}"}
+    told = (said.format(record[name]) for name, said in words_of.items() if name in record)
+    return f"found in {record['seconds']:.3g} s: {', '.join(told)}" if record else ""
+
+
+def _short(text: str) -> str:
+    """A name for a text."""
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
 def search(explorer: Explorer, studies: Mapping[str, MakeStudy], **options: Any) -> Search:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -16,6 +15,7 @@ from ..study import Study, WeightedSum
 from ..units import factor
 from .controls import Knob, banner, tell
 from .explore import Explorer
+from .newest import Later
 from .panel import Panel
 from .picture import SETTLE, LivePicture
 
@@ -67,7 +67,7 @@ class Survey(Panel):
         self.optimum: np.ndarray | None = None
         self._key: Any = None
         self._searched = False
-        self._later: threading.Timer | None = None
+        self._later = Later(self.settle, SETTLE)
         self.verdict, self._banner = w.HTML(), banner()
         self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load(self.optimum))
@@ -76,7 +76,7 @@ class Survey(Panel):
         super().__init__([self._body()])
         self._changed()
         self.settle()
-        explorer.on_change(lambda _: self._settle_later())  # the sliders' own pictures come first
+        explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
 
     def _knob(self, i: int, name: str, value: float) -> Knob:
         declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
@@ -111,7 +111,7 @@ class Survey(Panel):
     def _changed(self) -> None:
         """Another problem or other weights: shown at once, the optimum a moment later."""
         self._take_up()
-        self._settle_later()
+        self._later.ask()
 
     def _take_up(self) -> None:
         """Another plane, unless only the free quantities of the design moved."""
@@ -126,22 +126,11 @@ class Survey(Panel):
             self._key, self.plane, self.optimum, self._searched = key, Plane(study, n=self.steps), None, False
         self._show()
 
-    def _settle_later(self) -> None:
-        if self._later:
-            self._later.cancel()
-        self._later = threading.Timer(SETTLE, self._settle_if_alive)
-        self._later.start()
-
-    def _settle_if_alive(self) -> None:
-        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
-            self.settle()
-
     def settle(self) -> None:
         """Catch up with the design in the sliders, and look for the optimum if that is still to be done."""
-        if not self._later:
+        if not self._later.waiting:
             return
         self._later.cancel()
-        self._later = None
         self._take_up()
         plane = self.plane
         if not self._searched:

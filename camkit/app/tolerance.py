@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -16,6 +15,7 @@ from ..study import Study
 from ..tolerance import SPREADS, Curve, Tolerances, general_tolerance
 from .controls import Knob, banner, tell
 from .explore import Explorer
+from .newest import Later
 from .panel import Panel
 from .picture import SETTLE, LivePicture
 
@@ -51,15 +51,15 @@ class Tolerated(Panel):
             options=SPREADS, description="spread", layout=w.Layout(width="210px"), style={"description_width": "52px"}
         )
         self.spread.observe(lambda _: self._moved(), "value")
-        self._later: threading.Timer | None = None
+        self._later = Later(self.settle, SETTLE)
         self._banner, self._table = banner(), w.HTML()
         views = (self._cloud, sobol_bars, *(deviation(Curve(*curve)) for curve in curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
         super().__init__([self._body()])
         self._show(self.tolerances)
-        explorer.on_change(lambda _: self._settle_later())  # the sliders' own pictures come first
+        explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
         if hasattr(front, "on_front"):
-            front.on_front(self._settle_later)
+            front.on_front(self._later.ask)
 
     def _knob(self, name: str, half: float) -> Knob:
         nominal = self.tolerances.declared[name]
@@ -94,7 +94,7 @@ class Tolerated(Panel):
     def _moved(self) -> None:
         """Few parts at once, many when all is quiet."""
         self._show(self._made(MOVING))
-        self._settle_later()
+        self._later.ask()
 
     def _made(self, parts: int) -> Tolerances | None:
         """What the workshop makes of the sliders; ``None``, and a sentence in place of the picture, if it cannot."""
@@ -108,23 +108,12 @@ class Tolerated(Panel):
         _ = made.values, made.indices  # now, and not while it is drawn, when nothing else can be
         return made
 
-    def _settle_later(self) -> None:
-        if self._later:
-            self._later.cancel()
-        self._later = threading.Timer(SETTLE, self._settle_if_alive)
-        self._later.start()
-
-    def _settle_if_alive(self) -> None:
-        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
-            self.settle()
-
     def settle(self) -> None:
         """Make many parts of what is in the sliders, if that is still to be done."""
-        if self._later:
+        if self._later.waiting:
             self._later.cancel()
-            self._later = None
             made = self._made(SETTLED)
-            if self._later is None:  # nobody has moved anything since
+            if not self._later.waiting:  # nobody has moved anything since
                 self._show(made)
 
     def _show(self, made: Tolerances | None) -> None:

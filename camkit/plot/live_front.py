@@ -42,13 +42,13 @@ def live_pareto(shown: LiveFront, ax: Axes) -> Axes:
 
 
 def searches_compared(searches: Mapping[str, Any], ax: Axes) -> Axes:
-    """What each search still lacks of the best hypervolume known, against time; both axes logarithmic.
+    """What each search still lacks of the best hypervolume known, against the processor's time; both axes logarithmic.
 
-    ``searches``: pairs of seconds and missing share of the hypervolume, ``(k, 2)``, by name.
+    ``searches``: pairs of processor seconds and missing share of the hypervolume, ``(k, 2)``, by name.
     """
     first = new(ax)
     if first:
-        frame(ax, "How fast a front is found", "time  [s]", "hypervolume still missing  [%]")
+        frame(ax, "How fast a front is found", "processor time  [s]", "hypervolume still missing  [%]")
         ax.set(xscale="log", yscale="log")
     for i, (name, points) in enumerate(searches.items()):
         seconds, missing = zip(*points, strict=True)

@@ -31,7 +31,8 @@ def deviation(curve: Curve) -> View:
 
 def _band(tolerances: Tolerances, ax: Axes, curve: Curve, base: Any) -> Axes:
     first, unit = new(ax), factor(curve.unit)
-    x = curve.angle(tolerances.nominal) / deg
+    angle, x = curve.angle(tolerances.nominal)
+    x = x / deg
     nominal, edges = curve.values(tolerances.nominal), tolerances.band(curve)
     known = np.isfinite(edges).all(axis=0) & np.isfinite(nominal)
     low, lower, upper, high = ((edges - base) / unit)[:, known]
@@ -44,7 +45,7 @@ def _band(tolerances: Tolerances, ax: Axes, curve: Curve, base: Any) -> Axes:
         line(ax, f"limit {i}", x[[0, -1]], [limit / unit] * 2, color=WARNING, linewidth=1, linestyle="--", label="_")
     if first:
         of = "" if np.ndim(base) == 0 else "deviation  "
-        frame(ax, curve.label[:1].upper() + curve.label[1:], "cam angle  [deg]", f"{of}[{curve.unit}]")
+        frame(ax, curve.label[:1].upper() + curve.label[1:], f"{angle}  [deg]", f"{of}[{curve.unit}]")
         place: Any = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.99), "borderaxespad": 0.1}
         ax.legend(ncols=2, handlelength=0.8, handletextpad=0.3, columnspacing=0.6, **place)
     return ax

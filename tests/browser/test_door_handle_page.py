@@ -271,7 +271,7 @@ def wins(book: Workbook, weights: Any, importance: Any, rule: str) -> None:
 def test_a_judgement_changes_weights_front_and_winner(book: Workbook) -> None:
     # Authority: ahp() and the choosers, called here with the judgements on the page.
     for _ in range(3):
-        book.criteria.get_by_role("slider").nth(0).press("ArrowLeft")
+        book.criteria.get_by_role("slider").nth(0).press("ArrowRight")
 
     judged = ahp([2, 5, 1])
     expect(book.criteria.locator("td b")).to_have_text([f"{w:.4f}" for w in judged.weights])
@@ -289,7 +289,7 @@ def test_what_matters_more_decides_the_winner(book: Workbook) -> None:
     try:
         for judgement in (3, 9):
             while book.importance.locator(".widget-readout").inner_text() != str(judgement):
-                book.importance.get_by_role("slider").press("ArrowRight")
+                book.importance.get_by_role("slider").press("ArrowLeft")
             wins(book, ahp([5, 5, 1]).weights, ahp([judgement]).weights, "weighted sum")
     finally:
         rule.select_option("crowding distance")
@@ -297,7 +297,7 @@ def test_what_matters_more_decides_the_winner(book: Workbook) -> None:
 
 def test_judgements_that_contradict_each_other_are_named(book: Workbook) -> None:
     slider = book.criteria.get_by_role("slider").nth(1)
-    slider.press("Home")
+    slider.press("End")
     judged = ahp([5, 1 / 9, 1])
     assert judged.consistency_ratio > 0.1
     said = f"consistency ratio {judged.consistency_ratio:.2f}, above 0.10"
@@ -428,7 +428,7 @@ def test_the_profile_downloads_as_a_table(book: Workbook) -> None:
 
 
 def test_a_saved_study_comes_back_with_judgements_and_front(book: Workbook) -> None:
-    book.criteria.get_by_role("slider").nth(0).press("ArrowLeft")
+    book.criteria.get_by_role("slider").nth(0).press("ArrowRight")
     weights = [f"{w:.4f}" for w in ahp([4, 5, 1]).weights]
     expect(book.criteria.locator("td b")).to_have_text(weights)
     x, _ = front_here(book, ahp([4, 5, 1]).weights)
@@ -441,3 +441,31 @@ def test_a_saved_study_comes_back_with_judgements_and_front(book: Workbook) -> N
     expect(book.criteria.locator("td b")).to_have_text(weights)
     expect(book.finder.locator(".camkit-status")).to_have_text(f"loaded: {len(x)} designs on the front")
     np.testing.assert_allclose(book.value("finder.front.x"), x, rtol=1e-12)
+
+
+RESTART = """async () => {
+    await window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart();
+}"""
+
+
+@pytest.mark.usefixtures("endless")
+def test_a_stopped_search_goes_on_in_a_new_kernel(book: Workbook) -> None:
+    """Stop, another kernel, the notebook run again, Resume: the search goes on from its generation."""
+    finder, status = book.finder, book.finder.locator(".camkit-status")
+    finder.get_by_role("button", name="Optimise").click()
+    expect(status).to_have_text(re.compile(r"^generation \d{2,} of 10000: "))
+    finder.get_by_role("button", name="Stop").click()
+    expect(status).to_contain_text("(stopped)")
+    kernel, reached = book.value("[__import__('os').getpid(), finder.progress.value]")
+
+    book.page.evaluate(RESTART)
+    run_all(book.page)
+    assert book.value("__import__('os').getpid()") != kernel
+    expect(finder.get_by_role("button", name="Resume")).to_be_enabled()
+    book.value("[globals().update(seen=[]), finder.progress.observe(lambda now: seen.append(now.new), 'value')]")
+    finder.get_by_role("button", name="Resume").click()
+
+    expect(status).to_have_text(re.compile(r"^generation \d+ of 10000: "))
+    eventually(lambda: len(book.value("seen")) > 2)
+    seen = [number for number in book.value("seen") if number]  # an empty bar comes first
+    assert seen[0] == reached < seen[1]

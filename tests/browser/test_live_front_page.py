@@ -83,7 +83,7 @@ def test_what_is_impossible_is_told_in_place_of_the_picture(book: Workbook) -> N
     book.value("criteria.load([5, 5, 1])")
     book.type("lift swing", "110")
     alert = book.live.get_by_role("alert")
-    expect(alert).to_contain_text("There is no front: no design of the last generation keeps every limit")
+    expect(alert).to_contain_text("There is no front: no design that was looked at keeps every limit")
     expect(book.live.locator("img.camkit-image")).to_be_hidden()
     book.sliders.get_by_role("button", name="Reset").click()
     expect(alert).to_be_hidden()
