@@ -34,7 +34,7 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(BIN)/python -m pytest -m "not browser" --cov --cov-report=term-missing:skip-covered
+	$(BIN)/python -m pytest -n 2 --dist loadscope -m "not browser" --cov --cov-report=term-missing:skip-covered
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(BIN)/python -m pytest -n 2 --dist loadscope $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
