@@ -4,8 +4,7 @@ import base64
 import io
 import json
 import re
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,7 @@ from camkit.plot.artists import BLUE, ORANGE
 from camkit.plot.cam import DOOR_HANDLE_VIEWS, cam_mechanism, pressure_angle
 from camkit.quantities import declarations
 from camkit.units import in_unit
-from lab import LabServer, kernel_value, open_notebook, run_all, screenshot
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 
 START = DoorHandleCam()
 TURN = 75 * deg
@@ -87,14 +86,6 @@ def _from_the_start(book: Workbook, request: pytest.FixtureRequest) -> Iterator[
     yield
     if request.session.testsfailed > failed:
         screenshot(book.page, Path(__file__).parents[2] / ".browser" / f"{request.node.name}.png")
-
-
-def eventually(check: Callable[[], bool], seconds: float = 15) -> None:
-    """Waits until ``check()`` holds."""
-    end = time.monotonic() + seconds
-    while not check():
-        assert time.monotonic() < end, f"did not come true within {seconds:g} s"
-        time.sleep(0.05)
 
 
 def drag(page: Page, handle: Locator, dx: float) -> None:

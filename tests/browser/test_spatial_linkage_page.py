@@ -3,8 +3,7 @@
 import base64
 import io
 import re
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from camkit.linkage.measures import SWEEP, room_in, steepest
 from camkit.plot.artists import BLUE
 from camkit.plot.linkage import scene_of
 from camkit.units import deg, mm
-from lab import LabServer, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all
 
 STUDY = ninety_degree_study()
 START = STUDY.start
@@ -52,14 +51,6 @@ def box(panel: Locator, name: str) -> Locator:
 def put(panel: Locator, name: str, text: str) -> None:
     box(panel, name).fill(text)
     box(panel, name).press("Enter")
-
-
-def eventually(check: Callable[[], bool], seconds: float = 15) -> None:
-    """Waits until ``check()`` holds."""
-    end = time.monotonic() + seconds
-    while not check():
-        assert time.monotonic() < end, f"did not come true within {seconds:g} s"
-        time.sleep(0.05)
 
 
 def shows(panel: Locator, design: CabinDoorLinkage) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import io
 import re
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -19,7 +18,7 @@ from camkit import deg, kW, mm, rpm
 from camkit.plot.artists import BLUE
 from camkit.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft, shaft_study
 from camkit.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
-from lab import LabServer, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all
 
 START = UniversalJointShaft()
 
@@ -110,13 +109,6 @@ def twist_curve(design: UniversalJointShaft) -> np.ndarray:
     """Where the twist is just allowed, mm: in closed form; what lies under names and marks is left out."""
     d = np.array([86.0, 88.5, 91.0, 93.5, 106.0, 108.0])
     return np.array([design.stiff_diameter(d * mm) / mm, d])
-
-
-def eventually(check: Any, seconds: float = 15) -> None:
-    end = time.monotonic() + seconds
-    while not check():
-        assert time.monotonic() < end, f"did not come true within {seconds:g} s"
-        time.sleep(0.05)
 
 
 def test_typed_power_moves_the_twist_limits_curve(book: Workbook) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,7 +24,7 @@ from camkit.cam.valve_study import (
 )
 from camkit.cam.valve_train import ROLLER
 from camkit.minimum import minimise
-from lab import LabServer, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all
 
 START = ValveCam()
 
@@ -82,13 +81,6 @@ def shows(book: Workbook, cam: ValveCam) -> None:
         change = f"{100 * (value - start) / abs(start):+.1f} %" if start and np.isfinite([value, start]).all() else ""
         expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
-
-
-def eventually(check: Any, seconds: float = 20) -> None:
-    end = time.monotonic() + seconds
-    while not check():
-        assert time.monotonic() < end, f"did not come true within {seconds:g} s"
-        time.sleep(0.05)
 
 
 def test_a_slider_changes_the_exponents_and_all_that_follows(book: Workbook) -> None:
