@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import json
+import math
 import os
 import re
 import secrets
@@ -18,7 +19,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -229,6 +230,22 @@ def kernel_value(page: Page, expression: str, timeout: float = 30) -> Any:
     if answer["status"] != "ok":
         raise AssertionError(f"{expression}: {answer['ename']}: {answer['evalue']}")
     return json.loads(ast.literal_eval(answer["data"]["text/plain"]))
+
+
+def table_of_measures(
+    measures: Iterable[Any], now: Any, first: Any, at_most: Mapping[Any, float], at_least: Mapping[Any, float]
+) -> list[str]:
+    """The rows that an explorer's table must show for the analyses ``now`` and ``first``, their cells run together."""
+    rows = []
+    for measure in measures:
+        value, start, verdict = float(measure(now)), float(measure(first)), ""
+        for sign, sense, limits in (("≤", 1, at_most), ("≥", -1, at_least)):
+            if measure in limits:
+                limit = limits[measure]
+                verdict = f"{sign} {measure.text(limit)}" + ("met" if sense * (value - limit) <= 0 else "not met")
+        change = f"{100 * (value - start) / abs(start):+.1f} %" if start and math.isfinite(start - value) else ""
+        rows.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    return rows
 
 
 def eventually(check: Callable[[], bool], seconds: float = 15) -> None:

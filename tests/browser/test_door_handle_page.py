@@ -24,7 +24,7 @@ from camkit.plot.artists import BLUE, ORANGE
 from camkit.plot.cam import DOOR_HANDLE_VIEWS, cam_mechanism, pressure_angle
 from camkit.quantities import declarations
 from camkit.units import in_unit
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 
 START = DoorHandleCam()
 TURN = 75 * deg
@@ -107,18 +107,7 @@ def shows(book: Workbook, design: DoorHandleCam) -> None:
         shown = f"{in_unit(getattr(design, name), declarations(design)[name].unit):.6g}"
         expect(book.box(name.replace("_", " "))).to_have_value(shown)
     cells = book.explorer.locator(".camkit-tables tr:has(td)")
-    expected = []
-    for measure in CURVE_TABLE:
-        start, value = float(measure(first)), float(measure(now))
-        verdict = ""
-        if measure in study.at_most:
-            limit = study.at_most[measure]
-            verdict = f"≤ {measure.text(limit)}" + ("met" if value <= limit else "not met")
-        if measure in study.at_least:
-            limit = study.at_least[measure]
-            verdict = f"≥ {measure.text(limit)}" + ("met" if value >= limit else "not met")
-        change = f"{100 * (value - start) / abs(start):+.1f} %" if start else ""
-        expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    expected = table_of_measures(CURVE_TABLE, now, first, study.at_most, study.at_least)
     expect(cells).to_have_text(expected)
 
 

@@ -17,7 +17,7 @@ from camkit.cam.high_speed import HighSpeedCam
 from camkit.cam.high_speed_load import ConstantTorque
 from camkit.cam.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
 from camkit.minimum import minimise
-from lab import LabServer, kernel_value, open_notebook, run_all
+from lab import LabServer, kernel_value, open_notebook, run_all, table_of_measures
 
 START = HighSpeedCam()
 LIMITS = high_speed_study().at_least or {}
@@ -64,15 +64,7 @@ def shows(book: Workbook, cam: HighSpeedCam) -> None:
     """Boxes and table show ``cam``, computed here."""
     for name, field in (("arm length", "arm_length"), ("roller radius", "roller_radius"), ("max radius", "max_radius")):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{getattr(cam, field) / mm:.6g}")
-    now, first, expected = cam.analyse(), START.analyse(), []
-    for measure in HIGH_SPEED_MEASURES:
-        value, start = float(measure(now)), float(measure(first))
-        verdict = ""
-        if measure in LIMITS:
-            limit = LIMITS[measure]
-            verdict = f"≥ {measure.text(limit)}" + ("met" if value >= limit else "not met")
-        change = f"{100 * (value - start) / abs(start):+.1f} %" if start else ""
-        expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    expected = table_of_measures(HIGH_SPEED_MEASURES, cam.analyse(), START.analyse(), {}, LIMITS)
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
 
 

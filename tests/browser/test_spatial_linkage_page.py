@@ -16,13 +16,13 @@ from camkit.linkage.measures import SWEEP, room_in, steepest
 from camkit.plot.artists import BLUE
 from camkit.plot.linkage import scene_of
 from camkit.units import deg, mm
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 STUDY = ninety_degree_study()
 START = STUDY.start
 PRACTICAL = STUDY.design(np.array([120, 120, 120, 99, 99]) * mm)
 MEASURES = (steepest, room_in(HOUSING), *SWEEP[1:])
-LIMITS = {steepest: (50 * deg, 1)} | {m: (v, s) for m, v, s in STUDY.limits}
+AT_MOST, AT_LEAST = {steepest: 50 * deg}, STUDY.at_least
 
 
 @pytest.fixture(scope="module")
@@ -55,17 +55,7 @@ def put(panel: Locator, name: str, text: str) -> None:
 
 def shows(panel: Locator, design: CabinDoorLinkage) -> None:
     """The table of measures shows ``design``, computed here."""
-    now, first = design.analyse(), START.analyse()
-    rows = []
-    for measure in MEASURES:
-        value, start = float(measure(now)), float(measure(first))
-        verdict = ""
-        if measure in LIMITS:
-            limit, sense = LIMITS[measure]
-            met = "met" if sense * (value - limit) <= 0 else "not met"
-            verdict = f"{'≤' if sense > 0 else '≥'} {measure.text(limit)}{met}"
-        change = f"{100 * (value - start) / abs(start):+.1f} %"
-        rows.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    rows = table_of_measures(MEASURES, design.analyse(), START.analyse(), AT_MOST, AT_LEAST)
     expect(panel.locator(".camkit-tables tr:has(td)")).to_have_text(rows)
 
 

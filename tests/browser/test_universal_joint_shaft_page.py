@@ -18,7 +18,7 @@ from camkit import deg, kW, mm, rpm
 from camkit.plot.artists import BLUE
 from camkit.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft, shaft_study
 from camkit.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = UniversalJointShaft()
 
@@ -70,14 +70,7 @@ def shows(book: Workbook, design: UniversalJointShaft) -> None:
     for name in ("outer_diameter", "inner_diameter"):
         box = book.row(book.tube, name.replace("_", " ")).get_by_role("spinbutton")
         expect(box).to_have_value(f"{getattr(design, name) / mm:.6g}")
-    study, now, first = shaft_study(), design.analyse(), START.analyse()
-    expected = []
-    for measure in TUBE_NUMBERS:
-        value, start = float(measure(now)), float(measure(first))
-        limit = study.at_most.get(measure)
-        verdict = f"≤ {measure.text(limit)}{'met' if value <= limit else 'not met'}" if limit else ""
-        change = f"{100 * (value - start) / start:+.1f} %"
-        expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    expected = table_of_measures(TUBE_NUMBERS, design.analyse(), START.analyse(), shaft_study().at_most, {})
     expect(book.tube.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
 
 

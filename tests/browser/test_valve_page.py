@@ -24,7 +24,7 @@ from camkit.cam.valve_study import (
 )
 from camkit.cam.valve_train import ROLLER
 from camkit.minimum import minimise
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = ValveCam()
 
@@ -72,14 +72,8 @@ def shows(book: Workbook, cam: ValveCam) -> None:
     """Boxes and table show ``cam``, computed here."""
     for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("speed", cam.speed / rpm)):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{shown:.6g}")
-    now, first, expected = cam.analyse(), START.analyse(), []
-    for measure in VALVE_MEASURES:
-        value, start = float(measure(now)), float(measure(first))
-        verdict = ""
-        if measure in (nose_radius, least_radius):
-            verdict = "≥ 4.5 mm" + ("met" if value >= PAPER_LEAST_RADIUS else "not met")
-        change = f"{100 * (value - start) / abs(start):+.1f} %" if start and np.isfinite([value, start]).all() else ""
-        expected.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
+    limits = dict.fromkeys((nose_radius, least_radius), PAPER_LEAST_RADIUS)
+    expected = table_of_measures(VALVE_MEASURES, cam.analyse(), START.analyse(), {}, limits)
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
 
 
