@@ -23,7 +23,7 @@ from .cam.valve import ValveCam
 from .cam.valve_study import corrected_valve_study, valve_front_study, valve_study
 from .contact import hertz_line
 from .decision import ahp, crowding, judgement_ranges, knee, topsis, weighted_sum, winner_map
-from .export import load, profile_csv, profile_dxf, save
+from .export import load, save
 from .linkage.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
 from .linkage.load import RockerLoad
 from .linkage.rssr import RSSR
@@ -32,6 +32,7 @@ from .motion import *  # noqa: F403
 from .motion import __all__ as _motion_names
 from .plane import Plane
 from .polish import SumOfResiduals, polish
+from .profile_files import profile_csv, profile_dxf
 from .quantities import Measure, PeakMeasure, quantity
 from .shaft import UniversalJointShaft, lightest_shaft, shaft_study
 from .side_by_side import side_by_side

@@ -41,12 +41,13 @@ from camkit.app import picture as live
 from camkit.app.controls import Download, Upload, label_html
 from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
 from camkit.decision import CHOOSERS
-from camkit.export import from_json, profile_csv, to_json
+from camkit.export import from_json, to_json
 from camkit.motion import Cycloidal, Poly345
 from camkit.optimise import Front, Generation, nsga2_generations
 from camkit.plot.artists import _find
 from camkit.plot.cam import cam_mechanism, curvature, pressure_angle
 from camkit.plot.front import shown_objectives
+from camkit.profile_files import profile_csv
 from camkit.quantities import Quantity
 from camkit.units import deg, mm
 

@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from .. import export
+from .. import export, profile_files
 from ..plot.picture import View, below, positions_of, small_png, strip
 from ..quantities import Design, Measure, Quantity, declarations
 from ..units import deg
@@ -117,8 +117,10 @@ class Explorer(Panel):
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
         save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
-        table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: export.profile_csv(self.analysis))
-        drawing = Download("Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: export.profile_dxf(self.analysis))
+        table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis))
+        drawing = Download(
+            "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profile_files.profile_dxf(self.analysis)
+        )
         load = Upload("Load design", self.load_json)
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])

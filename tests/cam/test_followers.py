@@ -21,10 +21,11 @@ from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
-from camkit.export import from_json, profile_csv, to_json
+from camkit.export import from_json, to_json
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 from camkit.plot import cam as views
 from camkit.plot.picture import picture
+from camkit.profile_files import profile_csv
 from camkit.units import N, deg, kg, m, mm, rpm
 
 SPAN = np.array([120, 60, 130, 50]) * deg

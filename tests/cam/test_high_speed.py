@@ -32,9 +32,10 @@ from camkit.cam.high_speed_study import (
     undercut_margin,
 )
 from camkit.contact import contact_modulus
-from camkit.export import from_json, profile_csv, to_json
+from camkit.export import from_json, to_json
 from camkit.motion import LAWS, Degree9, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.shaped import KNOTS, SPLINE, ShapedLaw
+from camkit.profile_files import profile_csv
 from camkit.units import GPa, cm, deg, mm, rpm
 
 SPRING, TORQUE = InertialSpringLoad(), ConstantTorque(10)

@@ -11,7 +11,7 @@ from camkit import explore, nsga2, picture, profile_csv
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_study import VALVE_MEASURES, valve_front_study
 from camkit.cam.valve_train import FLAT, ROLLER
-from camkit.export import from_json, table_csv, to_json
+from camkit.export import from_json, to_json
 from camkit.geometry import rotated
 from camkit.plot.artists import BLUE, WARNING, _find, moving
 from camkit.plot.front import ShownFront
@@ -30,6 +30,7 @@ from camkit.plot.valve import (
     velocity,
 )
 from camkit.plot.valve_sketch import valve_cam_sketch
+from camkit.profile_files import table_csv
 from camkit.units import deg, mm, rpm
 
 OTHERS = (
