@@ -79,7 +79,7 @@ REFUSALS = [
     (lambda: OscillatingRollerCam(roller_radius=-1 * mm),
      "the roller radius r_T (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
     (lambda: OscillatingRollerCam(start_angle=-3 * deg),
-     "the start angle psi_0 (arm's angle from the line of centres at the start) is -3 deg; "
+     "the start angle psi_0 (arm's angle from the line of centres at the level 0) is -3 deg; "
      "it must be a finite number above 0 deg"),
     (lambda: OscillatingRollerCam(rotation=0), "the rotation is 0; it must be +1 or -1"),
     (lambda: ArmLoad(mass=-1), "the mass m (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),

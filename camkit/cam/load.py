@@ -23,11 +23,11 @@ class ArmLoad(Design):
     speed: float = quantity("omega", 15, 0, 100, "rpm", "speed of the cam", at_least=0)
     torque: float = quantity("T", 0, -50, 50, "N m", "constant resisting torque", above=None)
     spring_rate: float = quantity("c", 0, 0, 50, "N m/rad", "torsion spring on the arm", at_least=0)
-    preload: float = quantity("T_0", 0, 0, 50, "N m", "torque of the spring at the arm's start", at_least=0)
+    preload: float = quantity("T_0", 0, 0, 50, "N m", "torque of the spring at the motion's level 0", at_least=0)
     gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arm; 0: it turns level", at_least=0)
     up_angle: float = quantity("u", 90, -180, 180, "deg", "from the line cam-pivot to straight up", above=None)
     torque_table: tuple[tuple[float, float], ...] = ()
-    """Pairs of arm travel [rad] and resisting torque [N m], in order of travel; straight lines between."""
+    """Pairs of arm travel (from the motion's level 0) [rad] and resisting torque [N m], in order; straight between."""
     cam_angle_table: tuple[tuple[float, float], ...] = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
 
@@ -41,7 +41,7 @@ class ArmLoad(Design):
         return self.mass * arm_length**2 / 3
 
     def static_torque(self, arm_length: Any, arm_angle: Any, travel: Any, cam_angle: Any = 0.0) -> Any:
-        """Torque about the arm's pivot without its inertia, N m (``travel`` from its start, rad)."""
+        """Torque about the arm's pivot without its inertia, N m (``travel`` from the motion's level 0, rad)."""
         weight = self.mass * self.gravity * arm_length / 2 * np.sin(arm_angle + self.up_angle)
         static = self.torque + self.preload + self.spring_rate * travel + weight
         return static + tabulated(self.torque_table, travel) + tabulated(self.cam_angle_table, cam_angle)
@@ -49,7 +49,7 @@ class ArmLoad(Design):
     def resisting_torque(
         self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any, cam_angle: Any = 0.0
     ) -> Any:
-        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from its start, rad)."""
+        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from the motion's level 0, rad)."""
         static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
         return self.inertia(arm_length) * self.speed**2 * acceleration + static
 

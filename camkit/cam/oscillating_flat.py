@@ -45,8 +45,9 @@ def _closed() -> ArmLoad:
 class OscillatingFlatCam(Design):
     """A disk cam that rocks an arm through a flat face.
 
-    ``motion`` gives the arm's angle beyond ``start_angle``; ``rotation`` is ``sigma``: +1 where a growing arm angle
-    goes against the cam's rotation, -1 where it goes with it.
+    ``motion`` gives the arm's angle beyond ``start_angle``, which the arm has at the motion's level 0, wherever the
+    motion begins.  ``rotation`` is ``sigma``: +1 where a growing arm angle goes against the cam's rotation, -1 where
+    it goes with it.
 
     >>> cam = OscillatingFlatCam().analyse()
     >>> print(f"{cam.profile_margin.value / mm:.3f} mm")
@@ -58,7 +59,9 @@ class OscillatingFlatCam(Design):
 
     motion: MotionProgram = field(default_factory=_rise_and_return)
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
-    start_angle: float = quantity("psi_0", 20, -30, 60, "deg", "arm's angle from the line of centres", above=None)
+    start_angle: float = quantity(
+        "psi_0", 20, -30, 60, "deg", "arm's angle from the line of centres at the level 0", above=None
+    )
     face_offset: float = quantity("b", 5, -20, 40, "mm", "face from the pivot, away from the cam", above=None)
     arm_length: float = quantity("l", 110, 30, 200, "mm", "arm pivot to the end of the face")
     rotation: int = 1
@@ -77,7 +80,7 @@ class OscillatingFlatCam(Design):
 
     @property
     def base_radius(self) -> Any:
-        """``p_0 = a sin psi_0 + b``: cam axis to face at the arm's start, m."""
+        """``p_0 = a sin psi_0 + b``: cam axis to face at the motion's level 0, m."""
         return self.centre_distance * np.sin(self.start_angle) + self.face_offset
 
     def analyse(self, n: int = 721) -> OscillatingFlatAnalysis:

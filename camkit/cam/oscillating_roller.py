@@ -38,8 +38,9 @@ def _rise_and_return() -> MotionProgram:
 class OscillatingRollerCam(Design):
     """A disk cam that rocks an arm through a roller, as a plate (inner flank) or a groove (both flanks).
 
-    ``motion`` gives the arm's angle beyond ``start_angle``; ``rotation`` is ``sigma``: +1 where a growing arm
-    angle goes against the cam's rotation, -1 where it goes with it.
+    ``motion`` gives the arm's angle beyond ``start_angle``, which the arm has at the motion's level 0, wherever the
+    motion begins.  ``rotation`` is ``sigma``: +1 where a growing arm angle goes against the cam's rotation, -1 where
+    it goes with it.
 
     >>> cam = OscillatingRollerCam(centre_distance=120*mm, arm_length=80*mm, start_angle=30*deg)
     >>> print(f"{np.degrees(cam.analyse(721).pressure_angle[0]):.4f} deg")
@@ -52,7 +53,7 @@ class OscillatingRollerCam(Design):
     motion: MotionProgram = field(default_factory=_rise_and_return)
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
     arm_length: float = quantity("l", 60, 20, 120, "mm", "arm pivot to roller centre")
-    start_angle: float = quantity("psi_0", 25, 5, 90, "deg", "arm's angle from the line of centres at the start")
+    start_angle: float = quantity("psi_0", 25, 5, 90, "deg", "arm's angle from the line of centres at the level 0")
     roller_radius: float = quantity("r_T", 5, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
     rotation: int = 1
     load: ArmLoad = field(default_factory=ArmLoad)

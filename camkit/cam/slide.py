@@ -26,11 +26,11 @@ class SlideLoad(Design):
     speed: float = quantity("omega", 300, 0, 3000, "rpm", "speed of the cam", at_least=0)
     force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None)
     spring_rate: float = quantity("c", 5, 0, 50, "N/mm", "closing spring", at_least=0)
-    preload: float = quantity("F_0", 50, 0, 1000, "N", "force of the spring at the follower's start", at_least=0)
+    preload: float = quantity("F_0", 50, 0, 1000, "N", "force of the spring at the motion's level 0", at_least=0)
     gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the follower; 0: it travels level", at_least=0)
     up_angle: float = quantity("u", 0, -180, 180, "deg", "from the direction of the rise to straight up", above=None)
     force_table: Table = ()
-    """Pairs of travel [m] and resisting force [N], in order of travel; straight lines between."""
+    """Pairs of travel (from the motion's level 0) [m] and resisting force [N], in order; straight lines between."""
     cam_angle_table: Table = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
 
@@ -40,7 +40,7 @@ class SlideLoad(Design):
         refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
 
     def static_force(self, travel: Any, cam_angle: Any = 0.0) -> Any:
-        """Force along the travel without inertia, N (``travel`` from the start, m)."""
+        """Force along the travel without inertia, N (``travel`` from the motion's level 0, m)."""
         weight = self.mass * self.gravity * np.cos(self.up_angle)
         static = self.force + self.preload + self.spring_rate * travel + weight
         return static + tabulated(self.force_table, travel) + tabulated(self.cam_angle_table, cam_angle)

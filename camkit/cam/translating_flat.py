@@ -31,9 +31,9 @@ from .translating_roller import rise_and_return, top_level
 class TranslatingFlatCam(Design):
     """A disk cam that lifts a sliding follower through a flat face.
 
-    ``motion`` gives the follower's travel from its start, where the face stands ``base_radius`` above the cam
-    axis; ``rotation`` is +1 counter-clockwise, -1 clockwise.  An ``offset`` of the follower's axis does not change
-    the cam: it moves the contact on the face, and so what rubs in the guide.
+    ``motion`` gives the follower's level; at the level 0, wherever the motion begins, the face stands
+    ``base_radius`` above the cam axis.  ``rotation`` is +1 counter-clockwise, -1 clockwise.  An ``offset`` of the
+    follower's axis does not change the cam: it moves the contact on the face, and so what rubs in the guide.
 
     >>> cam = TranslatingFlatCam().analyse()
     >>> print(f"{cam.face_width / mm:.4f} mm, {cam.profile_margin.value / mm:.4f} mm")
@@ -43,7 +43,7 @@ class TranslatingFlatCam(Design):
     """
 
     motion: MotionProgram = field(default_factory=rise_and_return)
-    base_radius: float = quantity("r_0", 30, 10, 100, "mm", "cam axis to face at the follower's start")
+    base_radius: float = quantity("r_0", 30, 10, 100, "mm", "cam axis to face at the motion's level 0")
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
     rotation: int = 1
     load: SlideLoad = field(default_factory=SlideLoad)

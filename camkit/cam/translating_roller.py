@@ -44,8 +44,9 @@ def top_level(motion: MotionProgram) -> Any:
 class TranslatingRollerCam(Design):
     """A disk cam that lifts a sliding follower through a roller, as a plate (inner flank) or a groove (both).
 
-    ``motion`` gives the follower's travel from its start, where the profile has the ``base_radius``;
-    ``rotation`` is ``sigma``: +1 counter-clockwise, -1 clockwise.  A roller of radius 0 is a knife edge.
+    ``motion`` gives the follower's level; at the level 0, wherever the motion begins, the profile has the
+    ``base_radius``.  ``rotation`` is ``sigma``: +1 counter-clockwise, -1 clockwise.  A roller of radius 0 is a
+    knife edge.
 
     >>> rise = MotionProgram((Rise(120 * deg, 20 * mm, Cycloidal()),))
     >>> for offset in (0, 5 * mm):
@@ -59,7 +60,7 @@ class TranslatingRollerCam(Design):
     """
 
     motion: MotionProgram = field(default_factory=rise_and_return)
-    base_radius: float = quantity("r_b", 30, 10, 100, "mm", "cam axis to profile at the follower's start")
+    base_radius: float = quantity("r_b", 30, 10, 100, "mm", "cam axis to profile at the motion's level 0")
     roller_radius: float = quantity("r_T", 8, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
     rotation: int = 1
@@ -81,12 +82,12 @@ class TranslatingRollerCam(Design):
 
     @property
     def prime_radius(self) -> Any:
-        """Cam axis to roller centre at the follower's start, m."""
+        """Cam axis to roller centre at the motion's level 0, m."""
         return self.base_radius + self.roller_radius
 
     @property
     def start_height(self) -> Any:
-        """``h_0``: height of the roller's centre at the follower's start, m."""
+        """``h_0``: height of the roller's centre at the motion's level 0, m."""
         return np.sqrt(self.prime_radius**2 - self.offset**2)
 
     def analyse(self, n: int = 721) -> TranslatingRollerAnalysis:

@@ -25,13 +25,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..quantities import fails
-from ..units import in_unit
+from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
 from .law import Kinematics, finite
 
 TURN = 2 * np.pi
 SAME_ANGLE = 1e-9
 """Cam angles closer than this (rad) are the same."""
+ROUNDED = 1e-4 * deg
+"""A span that misses the turn by no more than this (rad) is a turn whose angles were rounded."""
+NEARLY = 0.5 * deg
+"""A span that misses the turn by less than this (rad), and by more than rounding, is a mistake."""
 SAME_JOINT = 1e-12
 """An angle this little (rad) before a joint is the joint: what rounding does to ``120 * deg``."""
 SAME_LEVEL = 1e-9
@@ -137,7 +141,14 @@ class MotionProgram:
 
     Called with cam angles (rad) it gives ``s, v, a, j``: the level in the follower's unit (m or rad) and
     its derivatives per rad, rad^2, rad^3.  A program that spans 360 deg repeats with every turn and must
-    come back to its first level; a shorter one is ``nan`` outside [0, span].
+    come back to its first level; a shorter one is ``nan`` outside [0, span].  What the rounding of its angles
+    leaves open (1e-4 deg) is closed; a program that misses the turn by more, but by less than 0.5 deg, is refused.
+    Cam sizes and springs are counted from the level 0, wherever the program begins.
+
+    >>> MotionProgram((Dwell(240 * deg), Dwell(119.99 * deg)))
+    Traceback (most recent call last):
+        ...
+    ValueError: the program spans 359.99 deg; 0.01 deg are missing to a full turn: lengthen a segment or add a dwell
 
     A population holds arrays of shape ``(p, 1)`` in its segments, its laws or its ``start``; cam angles of
     shape ``(n,)`` or ``(p, n)`` then give ``(p, n)``.  One program that cannot be is refused by
@@ -152,9 +163,15 @@ class MotionProgram:
         _refuse_program(self)
 
     @cached_property
+    def _beyond(self) -> Any:
+        """By how much the segments' angles together exceed a full turn, rad."""
+        return sum(segment.angle for segment in self.segments) - TURN
+
+    @cached_property
     def starts(self) -> list[Any]:
         """The cam angle at which each segment begins, and at last the span."""
-        return list(accumulate((segment.angle for segment in self.segments), initial=0.0))
+        *starts, end = accumulate((segment.angle for segment in self.segments), initial=0.0)
+        return [*starts, np.where(self.periodic, TURN, end)[()]]
 
     @cached_property
     def levels(self) -> list[Any]:
@@ -174,7 +191,12 @@ class MotionProgram:
     @property
     def periodic(self) -> Any:
         """Whether the program spans 360 deg."""
-        return np.abs(self.span - TURN) <= SAME_ANGLE
+        return np.abs(self._beyond) <= ROUNDED
+
+    @property
+    def _misses(self) -> Any:
+        """Whether the program is a little short of a turn."""
+        return (self._beyond > -NEARLY) & (self._beyond < -ROUNDED)
 
     @property
     def closes(self) -> Any:
@@ -186,7 +208,8 @@ class MotionProgram:
     def possible(self) -> Any:
         """Whether the program can be; of a population, which rows can."""
         each = [finite(segment.change) & _positive(segment.angle) for segment in self.segments]
-        return reduce(np.logical_and, each, finite(self.start) & (self.span <= TURN + SAME_ANGLE) & self.closes)
+        fits = (self._beyond <= ROUNDED) & np.logical_not(self._misses)
+        return reduce(np.logical_and, each, finite(self.start) & fits & self.closes)
 
     def __call__(self, cam_angle: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``cam_angle`` (rad); at a joint the segment that begins there speaks."""
@@ -275,7 +298,7 @@ def program_between(
     segments: list[Segment] = []
     angle, level = 0.0, start
     for begin, end, to, law in pieces:
-        if abs(begin - angle) > SAME_ANGLE:
+        if abs(begin - angle) > ROUNDED:
             what = "overlaps the one before, which ends at" if begin < angle else "leaves angles missing after"
             raise ValueError(f"the piece from {_degrees(begin)} to {_degrees(end)} {what} {_degrees(angle)}")
         change = to - level
@@ -312,8 +335,15 @@ def _refuse_program(program: MotionProgram) -> None:
             raise ValueError(f"segment {number} of the program is {segment!r}; it must be a rise, a return or a dwell")
     if fails(finite(program.start)):
         raise ValueError(f"the start of the program is {program.start}; it must be a finite number")
-    if fails(program.span <= TURN + SAME_ANGLE):
-        raise ValueError(f"the program spans {_degrees(program.span)}; it can span at most 360 deg")
+    if fails(program._beyond <= ROUNDED):
+        much = program._beyond >= NEARLY
+        spans = _degrees(program.span) if much else f"{_degrees(program._beyond)} more than a full turn"
+        raise ValueError(f"the program spans {spans}; it can span at most 360 deg")
+    if fails(np.logical_not(program._misses)):
+        raise ValueError(
+            f"the program spans {_degrees(program.span)}; {_degrees(-program._beyond)} are missing to a full turn: "
+            "lengthen a segment or add a dwell"
+        )
     if fails(program.closes):
         gap = f"{float(program.levels[-1] - program.start):.6g}"
         raise ValueError(

@@ -661,6 +661,38 @@ def test_a_steep_follower_jams_in_its_guide():
     assert (analysis.efficiency[1:-1][~jams[1:-1]] > 0).all()
 
 
+# ---------------------------------------------------------------- a motion that does not begin at the level 0
+
+
+def high_first(lift):
+    """A return from ``lift``, a dwell at 0, a rise back, a dwell."""
+    law = Cycloidal()
+    moves = (Return(120 * deg, lift, law), Dwell(60 * deg), Rise(120 * deg, lift, law), Dwell(60 * deg))
+    return MotionProgram(moves, start=lift)
+
+
+@both_senses
+@pytest.mark.parametrize("name", [*FOLLOWERS])
+def test_sizes_and_preload_hold_at_the_level_0_wherever_the_motion_begins(name, sigma):
+    """By geometry, in the low dwell: the profile is the base circle, the arm stands at its start angle."""
+    brute = FOLLOWERS[name].at(sigma)
+    constant = {"force": 0} if isinstance(brute.cam.load, SlideLoad) else {"torque": 0}
+    load = brute.cam.load.replace(gravity=0, preload=7, **constant)
+    cam = brute.cam.replace(motion=high_first(brute.lift), load=load)
+    analysis = cam.analyse(721)
+    low = (analysis.cam_angle > 121 * deg) & (analysis.cam_angle < 179 * deg)
+    assert_allclose(analysis.static_resistance[low], 7, rtol=1e-12)
+    radius = np.hypot(*analysis.profile[:, low])
+    if isinstance(cam, TranslatingRollerCam | TranslatingFlatCam):
+        assert_allclose(radius, cam.base_radius, rtol=1e-12)
+    elif isinstance(cam, OscillatingFlatCam):
+        face = cam.centre_distance * np.sin(cam.start_angle) + cam.face_offset
+        assert_allclose(radius, face, rtol=1e-12)
+    else:
+        arm = analysis.roller_centre[:, low] - [[cam.centre_distance], [0]]
+        assert_allclose(np.arctan2(arm[1], -arm[0]), cam.start_angle, rtol=1e-12)
+
+
 # ---------------------------------------------------------------- pairs of cams
 
 
@@ -832,7 +864,7 @@ REFUSALS = [
     (lambda: TranslatingRollerCam(offset=50 * mm),
      "the offset of the follower is 50 mm; base circle and roller make 38 mm, and it must stay below that"),
     (lambda: TranslatingRollerCam(base_radius=-3 * mm),
-     "the base radius r_b (cam axis to profile at the follower's start) is -3 mm; "
+     "the base radius r_b (cam axis to profile at the motion's level 0) is -3 mm; "
      "it must be a finite number above 0 mm"),
     (lambda: TranslatingRollerCam(roller_radius=-1 * mm),
      "the roller radius r_T (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),

@@ -384,6 +384,56 @@ def test_refusals(build, sentence):
     assert str(refusal.value) == sentence
 
 
+def three(middle, law=Cycloidal()):  # noqa: B008  a frozen value
+    """120 deg up, a dwell of ``middle`` and 120 deg down."""
+    return MotionProgram((Rise(120 * deg, 10 * mm, law), Dwell(middle), Return(120 * deg, 10 * mm, law)))
+
+
+@pytest.mark.parametrize(
+    ("middle", "sentence"),
+    [
+        (
+            119.99,
+            "the program spans 359.99 deg; 0.01 deg are missing to a full turn: lengthen a segment or add a dwell",
+        ),
+        (119.6, "the program spans 359.6 deg; 0.4 deg are missing to a full turn: lengthen a segment or add a dwell"),
+        (120.01, "the program spans 0.01 deg more than a full turn; it can span at most 360 deg"),
+        (121, "the program spans 361 deg; it can span at most 360 deg"),
+    ],
+)
+def test_angles_that_miss_the_turn_are_named(middle, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        three(middle * deg)
+    members = three(np.array([[120.0], [middle]]) * deg)(np.linspace(0, 6, 7)).s
+    assert np.isfinite(members[0]).all()
+    assert np.isnan(members[1]).all()
+
+
+@pytest.mark.parametrize("off", [0, 1e-6, -1e-6, 5e-5, -5e-5])
+def test_angles_that_were_rounded_close_the_turn(off):
+    program = three((120 + off) * deg)
+    assert program.periodic
+    assert program.span == program.edges[-1] == 2 * np.pi
+    phi = np.append(np.linspace(-20, 20, 4001), 360 * deg - 0.5 * abs(off) * deg)
+    exact = three(120 * deg)(phi)
+    for k, value in enumerate(program(phi)):
+        scale = np.abs(exact[k]).max()
+        np.testing.assert_allclose(value, exact[k], rtol=0, atol=1e-4 * scale)  # 5e-5 deg move a steep flank
+    assert [joint.order for joint in program.joints()] == [3, 3, 3]
+
+
+def test_single_precision_closes_the_turn():
+    program = MotionProgram(tuple(Dwell(np.float32(part * deg)) for part in (51.4, 102.8, 77.1, 128.7)))
+    assert program.periodic
+
+
+def test_pieces_that_were_rounded_join():
+    law = Cycloidal()
+    third = 2.094395  # a hand calculator's
+    pieces = [(0, third, 20 * mm, law), (2.0943951, 4.18879, 20 * mm, law), (4.18879, 6.283185, 0, law)]
+    assert program_between(pieces).periodic
+
+
 def test_a_part_of_a_turn_need_not_close():
     assert MotionProgram((Rise(359 * deg, 1.0, law),)).span == pytest.approx(359 * deg)
 
