@@ -1,10 +1,12 @@
 """camkit: the open workbook for mechanism design in JupyterLab.
 
 All public names are importable from here.  The maths needs numpy and scipy alone; what needs pymoo,
-matplotlib or ipywidgets is loaded when it is first asked for.
+matplotlib or ipywidgets is loaded when it is first asked for.  Where these are not installed, `__all__` leaves out
+what needs them, and asking for one of these names says what to install.
 """
 
 from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 from .cam.cam_lever import CamLever, cam_lever_study
@@ -70,6 +72,19 @@ _LATER = {
     "try_everything": "app",
 }
 """Names whose modules need more than numpy and scipy, and where they live."""
+
+_EXTRA = ("pymoo", "matplotlib", "ipywidgets", "anywidget")
+"""What they need."""
+
+
+def _installed(library: str) -> bool:
+    try:
+        return find_spec(library) is not None
+    except ImportError:
+        return False
+
+
+_LAB = all(map(_installed, _EXTRA))
 
 __all__ = [
     "ArmLoad",
@@ -141,12 +156,24 @@ __all__ = [
     "weighted",
     "weighted_sum",
     "winner_map",
-    *_LATER,
+    *(_LATER if _LAB else ()),
     *_motion_names,
 ]
 
 
 def __getattr__(name: str) -> Any:
-    if name in _LATER:
+    if name not in _LATER:
+        raise AttributeError(f"camkit has no {name!r}")
+    try:
         return getattr(import_module(f".{_LATER[name]}", __name__), name)
-    raise AttributeError(f"camkit has no {name!r}")
+    except ModuleNotFoundError as missing:
+        library = (missing.name or "").partition(".")[0]
+        if library == __name__:
+            raise
+        raise ModuleNotFoundError(
+            f"{name} needs {library}, which is not installed: pip install 'camkit[lab]'", name=library
+        ) from None
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

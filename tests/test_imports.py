@@ -58,6 +58,36 @@ def test_a_forbidden_import_would_be_seen() -> None:
     assert "matplotlib is not part of the maths" in refused.stderr
 
 
+STAR = """
+import camkit
+from camkit import *
+
+assert set(camkit.__all__) <= set(dir(camkit)), "dir leaves out a public name"
+assert all(hasattr(camkit, name) for name in dir(camkit)), "dir lists what is not there"
+print(TranslatingRollerCam().analyse(31).profile.shape, "nsga2" in globals(), "nsga2" in dir(camkit))
+try:
+    from camkit import nsga2
+    print("loaded")
+except ImportError as refused:
+    print(refused)
+"""
+
+
+def test_a_star_import_without_the_extra_leaves_out_what_needs_it() -> None:
+    said = python("-c", ONLY_NUMPY_AND_SCIPY + STAR, cwd=REPOSITORY).splitlines()
+    assert said == ["(2, 31) False False", "nsga2 needs pymoo, which is not installed: pip install 'camkit[lab]'"]
+
+
+def test_a_star_import_with_the_extra_brings_everything() -> None:
+    assert python("-c", STAR, cwd=REPOSITORY).splitlines() == ["(2, 31) True True", "loaded"]
+    assert set(camkit._LATER) <= set(camkit.__all__) <= set(dir(camkit))
+
+
+def test_a_name_that_there_is_not_is_said() -> None:
+    with pytest.raises(AttributeError, match=r"^camkit has no 'wobble'$"):
+        camkit.wobble  # noqa: B018
+
+
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built with the backend that is installed, so nothing is downloaded."""
@@ -86,12 +116,12 @@ def test_the_wheel_works_beside_numpy_and_scipy_alone(wheel: Path, tmp_path: Pat
     clean = {name: value for name, value in os.environ.items() if not re.match("PYTHON|COV", name)}
     said = python(
         "-c",
-        "import camkit; print(camkit.__file__, 50 * camkit.mm)",
+        "import camkit; from camkit import *; print(camkit.__file__, 50 * mm, 'explore' in dir(camkit))",
         executable=tmp_path / "bin/python",
         cwd=tmp_path,
         env=clean,
     )
-    assert said.split() == [str(site / "camkit/__init__.py"), "0.05"]
+    assert said.split() == [str(site / "camkit/__init__.py"), "0.05", "False"]
 
 
 def test_no_name_that_is_loaded_later_is_that_of_a_module() -> None:

@@ -11,15 +11,20 @@ from camkit.motion import (
     LAWS,
     ConstantVelocity,
     Cycloidal,
+    Dwell,
     FreePolynomial,
+    ModifiedTrapezoid,
+    MotionProgram,
     Parabolic,
     Poly345,
+    Return,
+    Rise,
     SimpleHarmonic,
     Skewed,
     TableLaw,
 )
 from camkit.motion.vibration import period_ratio, residual_vibration
-from camkit.units import deg, rpm
+from camkit.units import deg, mm, rpm
 
 TAU = np.linspace(0.13, 20.13, 161)
 X = np.pi * TAU
@@ -86,6 +91,76 @@ def test_vibration_is_that_of_the_equation_of_motion(law, tau, zeta):
     assert_allclose(found.residual, residual, rtol=2e-6, atol=1e-9)
     assert_allclose(found.during, during, rtol=3e-3)
     assert_allclose(found.acceleration, acceleration, rtol=3e-3)
+
+
+PROGRAMS = {
+    "a full turn": (Rise(80 * deg, 20 * mm, Cycloidal()), Dwell(30 * deg), Return(110 * deg, 20 * mm, Poly345()),
+                    Dwell(140 * deg)),
+    "a part of a turn": (Dwell(20 * deg), Rise(60 * deg, 5 * mm, ModifiedTrapezoid()),
+                         Rise(50 * deg, 8 * mm, ConstantVelocity(0.2))),
+    "from above": (Return(90 * deg, 12 * mm, SimpleHarmonic()), Rise(60 * deg, 4 * mm, Cycloidal())),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("segments", PROGRAMS.values(), ids=PROGRAMS)
+@pytest.mark.parametrize(("speed", "zeta"), [(250 * rpm, 0.02), (900 * rpm, 0.0), (900 * rpm, 0.3)])
+def test_vibration_of_a_program_is_that_of_the_equation_of_motion_in_time(segments, speed, zeta):
+    """Segment by segment in seconds, the mass at rest with the follower at first."""
+    frequency = 2 * np.pi * 60  # rad/s
+    start = 30 * mm
+    program = MotionProgram(segments, start)
+    options = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-13}
+    x, level, during, forced = np.array([start, 0.0]), start, 0.0, 0.0
+    for segment in segments:
+        time = segment.angle / speed
+        for low, high in pairwise((0.0, *segment.kinks, 1.0)):
+
+            def cam(t, segment=segment, time=time, level=level, low=low, high=high):
+                move = segment.motion(np.clip(t / time, low + 1e-12, high - 1e-12))
+                return level + move.s, move.v * speed
+
+            def mass(t, y, cam=cam):
+                s, v = cam(t)
+                return [y[1], -2 * zeta * frequency * (y[1] - v) - frequency**2 * (y[0] - s)]
+
+            t = np.linspace(low * time, high * time, 1501)
+            y = solve_ivp(mass, (t[0], t[-1]), x, t_eval=t, **options).y
+            s, v = cam(t)
+            during = max(during, abs(y[0] - s).max())
+            forced = max(forced, abs(2 * zeta * frequency * (y[1] - v) + frequency**2 * (y[0] - s)).max())
+            x = y[:, -1]
+        level = level + segment.change
+    t = np.linspace(0, 1.2 * 2 * np.pi / frequency, 8001)
+    y = solve_ivp(
+        lambda t, y: [y[1], -2 * zeta * frequency * y[1] - frequency**2 * (y[0] - level)], (0, t[-1]), x, t_eval=t,
+        **options,
+    ).y  # fmt: skip
+    after = abs(2 * zeta * frequency * y[1] + frequency**2 * (y[0] - level)).max()
+    found = residual_vibration(program, period_ratio(program.span, speed, frequency), zeta)
+    assert_allclose(found.residual, abs(y[0] - level).max(), rtol=2e-6, atol=1e-11)
+    assert_allclose(found.during, during, rtol=3e-3)
+    assert_allclose(found.acceleration, max(forced, after) * (program.span / speed) ** 2, rtol=3e-3)
+
+
+def test_the_vibration_of_one_rise_is_the_laws():
+    rise = MotionProgram((Rise(100 * deg, 3.0, Skewed(Cycloidal(), 0.4)),))
+    of_law = residual_vibration(Skewed(Cycloidal(), 0.4), TAU, 0.03)
+    for whole, share in zip(residual_vibration(rise, TAU, 0.03), of_law, strict=True):
+        assert_allclose(whole, 3 * share, rtol=1e-9, atol=1e-11)
+
+
+def test_a_program_of_a_population_that_cannot_be_has_no_vibration():
+    angle = np.array([[60.0], [-5.0], [90.0]]) * deg
+    many = residual_vibration(MotionProgram((Rise(angle, 0.02, Cycloidal()), Dwell(30 * deg))), [1.5, 3.0])
+    for i in (0, 2):
+        one = residual_vibration(MotionProgram((Rise(angle[i, 0], 0.02, Cycloidal()), Dwell(30 * deg))), [1.5, 3.0])
+        assert_allclose(many.residual[i], one.residual, rtol=1e-9, atol=1e-12)
+    assert np.isnan(many.residual[1]).all()
+
+
+def test_what_does_not_move_has_no_residual_vibration():
+    with pytest.raises(ValueError, match=r"^residual vibration is that of a motion law or of a motion program, not "):
+        residual_vibration("cycloidal", 1.0)
 
 
 def test_a_fast_rise_is_a_step_and_a_slow_one_is_followed():
