@@ -11,14 +11,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
+from .quantities import counted
+
 RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
-"""Saaty (1980): mean consistency index of random reciprocal matrices of order 1..10."""
+"""Saaty (1980): mean consistency index of random reciprocal matrices of order 1..10; `random_index` goes on."""
+
+LEAST_TOLD, MOST_TOLD = 1e-6, 1e6
+"""Judgements beyond these are slips of the pen; Saaty's own scale ends at 1/9 and 9."""
 
 SAATY_SCALE = (*(1 / k for k in range(9, 1, -1)), *map(float, range(1, 10)))
 """The judgements that Saaty's scale knows, 1/9 .. 9."""
@@ -33,18 +39,32 @@ ALIKE = 1e-9
 """Values of ``lambda_max`` that differ by less than this share are alike."""
 
 
+def random_index(n: int) -> float:
+    """The consistency index of random judgements among ``n`` criteria: `RANDOM_INDEX`, beyond 10 a fitted line.
+
+    The mean ``lambda_max`` of random matrices is ``2.7699 n - 4.3513`` (Alonso, Lamata 2006).  Saaty's own numbers
+    for 11 and 12 criteria, 1.51 and 1.48, come from too few matrices: the index grows with ``n``.
+
+    >>> random_index(10), round(random_index(12), 4)
+    (1.49, 1.5352)
+    """
+    n = counted(n, "criteria", 1)
+    return float(RANDOM_INDEX[n - 1] if n <= len(RANDOM_INDEX) else (1.7699 * n - 4.3513) / (n - 1))
+
+
 @dataclass(frozen=True)
 class Judgement:
     """What follows from a matrix of pairwise judgements; unpacks as weights and consistency ratio.
 
     ``matrix`` is ``nan`` where nobody has judged; ``completed`` holds there what contradicts the others least (see
-    `completed`).
+    `completed`).  ``note`` says which rounded reciprocals were read as exact ones.
     """
 
     matrix: np.ndarray
     completed: np.ndarray
     weights: np.ndarray
     lambda_max: float
+    note: str = ""
 
     @property
     def missing(self) -> int:
@@ -59,13 +79,13 @@ class Judgement:
 
     @property
     def consistency_ratio(self) -> float:
-        """Consistency index over Saaty's (1980) random index; above 0.1 the judgements contradict each other.
+        """Consistency index over the `random_index`; above 0.1 the judgements contradict each other.
 
         Fewer judgements contradict each other less, even at random: with ``m`` pairs missing the random index is
         ``1 - 2 m / ((n - 1) (n - 2))`` of the full one (Agoston, Csato 2022).
         """
         n = len(self.weights)
-        random = RANDOM_INDEX[n - 1] * (1 - 2 * self.missing / ((n - 1) * (n - 2)) if n > 2 else 0)
+        random = random_index(n) * (1 - 2 * self.missing / ((n - 1) * (n - 2)) if n > 2 else 0)
         return self.consistency_index / random if random > 1e-9 else 0.0
 
     @property
@@ -97,39 +117,107 @@ class Judgement:
 def judgement_matrix(judgements: Any) -> np.ndarray:
     """The reciprocal matrix from itself or from its upper triangle, read row by row.
 
-    ``None`` or ``nan`` stands where nobody has judged.
+    An entry is a number or text such as ``"1/3"``; ``None`` or ``nan`` stands where nobody has judged.  Of a pair
+    that is printed with rounded reciprocals, such as 3 and 0.33, the one above 1 counts.
 
     >>> judgement_matrix([4, 3, 1 / 2]).tolist()
     [[1.0, 4.0, 3.0], [0.25, 1.0, 0.5], [0.3333333333333333, 2.0, 1.0]]
-    >>> judgement_matrix([4, None, 1 / 2])[0].tolist()
+    >>> judgement_matrix(["4", None, "1/2"])[0].tolist()
     [1.0, 4.0, nan]
+    >>> judgement_matrix([[1, 3], [0.33, 1]]).tolist()
+    [[1.0, 3.0], [0.3333333333333333, 1.0]]
 
     Raises ``ValueError`` naming the entry that is not positive or not reciprocal, or the criteria that no judgement
     connects.
     """
-    try:
-        a = np.array(judgements, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError("the judgements must be a square matrix of numbers or its upper triangle") from None
-    if a.ndim == 1:
-        a = _from_upper(a)
-    if a.ndim != 2 or a.shape[0] != a.shape[1] or not a.size:
+    return _read(judgements)[0]
+
+
+def _read(judgements: Any) -> tuple[np.ndarray, str]:
+    """The reciprocal matrix, and a note on the rounded reciprocals in it."""
+    told = _entries(judgements)
+    a = _from_upper(told) if told.ndim == 1 else told
+    if a.ndim != 2 or a.shape[0] != a.shape[1]:
         raise ValueError(f"the judgements have the shape {a.shape}; they must be a square matrix")
-    if len(a) > len(RANDOM_INDEX):
-        raise ValueError(f"there are {len(a)} criteria; Saaty's random index is known up to {len(RANDOM_INDEX)}")
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", over="ignore"):
         a = np.where(np.isnan(a), np.where(np.eye(len(a), dtype=bool), 1, 1 / a.T), a)
-    for i, j in np.ndindex(a.shape):
-        if not (np.isnan(a[i, j]) or (np.isfinite(a[i, j]) and a[i, j] > 0)):
-            raise ValueError(f"judgement ({i + 1}, {j + 1}) is {a[i, j]:g}; it must be a positive number")
-    for i, j in np.ndindex(a.shape):
-        if j >= i and abs(a[i, j] * a[j, i] - 1) > 1e-6:
+    for i, j in np.argwhere(~(np.isnan(a) | ((a >= LEAST_TOLD) & (a <= MOST_TOLD)))):
+        possible = 0 < a[i, j] < math.inf
+        must = f"nobody tells apart more than {MOST_TOLD:g} to 1" if possible else "it must be a positive number"
+        raise ValueError(f"judgement ({i + 1}, {j + 1}) is {a[i, j]:g}; {must}")
+    rounded = []
+    for i, j in np.argwhere(np.triu(abs(a * a.T - 1) > 1e-6)):
+        more, less = max(a[i, j], a[j, i]), min(a[i, j], a[j, i])
+        if i == j or not _rounded_reciprocal(more, less):
             raise ValueError(
                 f"judgement ({i + 1}, {j + 1}) is {a[i, j]:.6g} and ({j + 1}, {i + 1}) is {a[j, i]:.6g}; "
-                + ("the diagonal must be 1" if i == j else "one must be 1 over the other")
+                + ("the diagonal must be 1" if i == j else ONE_OVER_THE_OTHER)
             )
+        rounded.append(f"{less:g} as 1/{more:g}")
+        a[i, j], a[j, i] = (more, 1 / more) if a[i, j] == more else (1 / more, more)
     _refuse_gaps(a)
-    return a
+    return a, f"rounded reciprocals are read as exact ones: {', '.join(dict.fromkeys(rounded))}" if rounded else ""
+
+
+ONE_OVER_THE_OTHER = "one must be 1 over the other (text such as '1/3' is exact, None leaves a place open)"
+
+
+def _entries(judgements: Any) -> np.ndarray:
+    """Judgements as numbers, ``nan`` for none."""
+    wrong = "the judgements must be a square matrix of numbers or its upper triangle"
+    try:
+        told = np.array(judgements, dtype=object)
+    except ValueError:
+        raise ValueError(wrong) from None
+    if not told.ndim:
+        raise ValueError(wrong)
+    if not told.size:
+        raise ValueError("there are no judgements; those of a single criterion are [[1]]")
+    return np.array([_told(entry, wrong) for entry in told.flat]).reshape(told.shape)
+
+
+def _told(entry: Any, wrong: str) -> float:
+    if entry is None:
+        return math.nan
+    if isinstance(entry, str):
+        return typed_judgement(entry)
+    if isinstance(entry, (bool, np.bool_)) or not isinstance(entry, (int, float, Fraction, np.number)):
+        raise ValueError(wrong)
+    if isinstance(entry, np.complexfloating):
+        raise ValueError(wrong)
+    try:
+        return float(entry)
+    except OverflowError:
+        return math.inf
+
+
+def typed_judgement(words: str) -> float:
+    """A judgement as a person types it: ``3``, ``1/3``, ``0.4`` or ``0,4``; ``nan`` for an empty text or ``?``.
+
+    >>> typed_judgement(" 1 / 4 "), typed_judgement("0,4"), typed_judgement("")
+    (0.25, 0.4, nan)
+
+    Raises ``ValueError`` for anything else.
+    """
+    text = "".join(words.split()).replace(",", ".")
+    if text in ("", "?"):
+        return math.nan
+    try:
+        value = float(Fraction(text)) if len(text) <= 40 else math.nan
+    except (ValueError, ZeroDivisionError, OverflowError):
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise ValueError(f"{words[:40]!r} is no number above 0; 3, 1/5 or 0.4 are")
+    return value
+
+
+def _rounded_reciprocal(more: float, less: float) -> bool:
+    """Whether ``less`` is ``1 / more`` with two decimals or more, rounded or cut off, as papers print it."""
+    decimals = max(len(f"{value:.12g}".partition(".")[2]) for value in (more, less))
+    if decimals < 2:
+        return False
+    step = 10.0**-decimals
+    return 1 / (more + step / 2) - step < less < 1 / (more - step / 2) + step / 2
 
 
 def _groups(a: np.ndarray) -> tuple[int, np.ndarray]:
@@ -162,10 +250,10 @@ def _from_upper(values: np.ndarray) -> np.ndarray:
     n = round((1 + np.sqrt(1 + 8 * len(values))) / 2)
     if n * (n - 1) // 2 != len(values):
         raise ValueError(f"{len(values)} judgements are no upper triangle; 1, 3, 6, 10, ... are")
-    a = np.eye(n)
+    a = np.full((n, n), np.nan)
     a[np.triu_indices(n, 1)] = values
-    with np.errstate(divide="ignore"):
-        return np.where(np.tri(n, k=-1, dtype=bool), 1 / np.where(a.T == 0, np.nan, a.T), a)
+    np.fill_diagonal(a, 1)
+    return a
 
 
 def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
@@ -260,21 +348,23 @@ def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
     """Weights and consistency of pairwise judgements (Saaty 1980).
 
     ``judgements[i][j]`` says how many times criterion ``i`` matters more than ``j``; a reciprocal matrix, or its
-    upper triangle row by row, with ``None`` where nobody has judged.  ``method``: ``"eigenvector"`` (principal
-    eigenvector) or ``"geometric"`` (row geometric means); see `judged_weights`.
+    upper triangle row by row, with ``None`` where nobody has judged (see `judgement_matrix`).  ``method``:
+    ``"eigenvector"`` (principal eigenvector) or ``"geometric"`` (row geometric means); see `judged_weights`.
 
     >>> weights, ratio = ahp([[1, 5, 5], [1 / 5, 1, 1], [1 / 5, 1, 1]])
     >>> (weights * 7).round(6).tolist(), round(ratio, 6)
     ([5.0, 1.0, 1.0], 0.0)
     >>> (ahp([5, None, 1]).weights * 7).round(6).tolist()
     [5.0, 1.0, 1.0]
+    >>> print(ahp([[1, 3], [0.33, 1]]).note)
+    rounded reciprocals are read as exact ones: 0.33 as 1/3
 
     Raises ``ValueError`` for a matrix that is not square, positive and reciprocal, naming the entry, and for criteria
     that no judgement connects.
     """
-    a = judgement_matrix(judgements)
+    a, note = _read(judgements)
     full = completed(a)
-    return Judgement(a, full, judged_weights(full, method), float(_lambda_max(full)))
+    return Judgement(a, full, judged_weights(full, method), float(_lambda_max(full)), note)
 
 
 def _objectives(front: Any) -> np.ndarray:
@@ -282,8 +372,10 @@ def _objectives(front: Any) -> np.ndarray:
         f = np.asarray(getattr(front, "f", front), dtype=float)
     except (TypeError, ValueError):
         raise ValueError("the front must be a table of numbers, a row for each design") from None
-    if f.ndim != 2 or not f.size:
+    if not f.size:
         raise ValueError("the front is empty; there is no design to choose")
+    if f.ndim != 2:
+        raise ValueError(f"the front has the shape {f.shape}; it must be a table, a row for each design")
     if not np.isfinite(f).all():
         raise ValueError("the front has an objective that is not a finite number")
     return f
@@ -312,10 +404,23 @@ def _whatever_the_weights(index: int, weights: Any, k: int) -> Any:
     return index if _weights(weights, k).ndim == 1 else np.full(len(weights), index)
 
 
-def normalised(f: np.ndarray) -> np.ndarray:
+def normalised(f: Any) -> np.ndarray:
     """Objectives scaled to 0 (best of the front) .. 1 (worst)."""
+    f = _of_size_one(_objectives(f))
     span = np.ptp(f, axis=0)
-    return (f - f.min(axis=0)) / np.where(span > 0, span, 1)
+    return np.asarray((f - f.min(axis=0)) / np.where(span > 0, span, 1))
+
+
+def _of_size_one(f: np.ndarray) -> np.ndarray:
+    """Each objective divided by a power of two, which rounds nothing, so that no square or difference overflows."""
+    return np.asarray(np.ldexp(f, -np.frexp(abs(f).max(axis=0))[1]))
+
+
+def _of_length_one(f: Any) -> np.ndarray:
+    """Each objective as a vector over the designs, divided by its length."""
+    f = _of_size_one(_objectives(f))
+    length = np.sqrt((f**2).sum(axis=0))
+    return np.asarray(f / np.where(length > 0, length, 1))
 
 
 def weighted_sum(front: Any, weights: Any = None) -> Any:
@@ -330,14 +435,27 @@ def weighted_sum(front: Any, weights: Any = None) -> Any:
     return _chosen(-_weights(weights, f.shape[1]) @ normalised(f).T)
 
 
-def topsis(front: Any, weights: Any = None) -> Any:
-    """The design nearest the ideal and farthest from the worst (Hwang, Yoon 1981; normalised by the range).
+SCALES: dict[str, Callable[[Any], np.ndarray]] = {"vector": _of_length_one, "range": normalised}
+"""Ways to make objectives comparable, by name."""
 
-    >>> topsis([[0, 1], [0.2, 0.2], [1, 0]])
-    1
+
+def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
+    """The design nearest the ideal and farthest from the worst (Hwang, Yoon 1981).
+
+    ``scale`` makes the objectives comparable: ``"vector"``, Hwang and Yoon's own way, divides each by its length as a
+    vector over all designs; ``"range"`` scales each to 0 .. 1 over the front, as the `weighted_sum` does.  They may
+    choose differently: a wish in which the designs hardly differ, measured by its size, counts less by the vector.
+
+    >>> three = [[0.1, 0.9], [0.5, 0.7], [0.9, 0.6]]
+    >>> topsis(three, [1, 2]), topsis(three, [1, 2], scale="range")
+    (0, 2)
+
+    Raises ``ValueError`` for a scale of another name.
     """
+    if scale not in SCALES:
+        raise ValueError(f"the scale is {scale!r}; there are {' and '.join(map(repr, SCALES))}")
     f = _objectives(front)
-    y, squares = normalised(f), _weights(weights, f.shape[1]) ** 2
+    y, squares = SCALES[scale](f), _weights(weights, f.shape[1]) ** 2
     to_best, to_worst = (np.sqrt(squares @ ((y - end) ** 2).T) for end in (y.min(axis=0), y.max(axis=0)))
     total = to_best + to_worst
     return _chosen(np.divide(to_worst, total, out=np.ones_like(total), where=total > 0))
@@ -366,7 +484,7 @@ def knee(front: Any, weights: Any = None) -> Any:
 
 def crowding_distance(f: Any) -> np.ndarray:
     """Crowding distance of each member of a front, ``inf`` at the ends (Deb et al. 2002)."""
-    y = normalised(np.asarray(f, dtype=float))
+    y = normalised(f)
     distance = np.zeros(len(y))
     for column in y.T:
         order = np.argsort(column, kind="stable")
@@ -441,6 +559,7 @@ def judgement_ranges(
 
     Raises ``ValueError`` if there are not as many criteria as objectives.
     """
+    front = _objectives(front)
     judged = ahp(judgements, method)
     winner = choose(front, judged.weights)
     pairs = list(combinations(range(len(judged.weights)), 2))
@@ -487,6 +606,7 @@ def weight_lattice(k: int, steps: int) -> np.ndarray:
     >>> weight_lattice(2, 2).tolist()
     [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
     """
+    k, steps = counted(k, "objectives", 1), counted(steps, "steps", 1)
     # Stars and bars: k - 1 bars among the steps part them into k weights.
     places = steps + k - 1
     bars = np.array(list(combinations(range(places), k - 1)), dtype=int).reshape(math.comb(places, k - 1), k - 1)

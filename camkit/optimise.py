@@ -18,6 +18,7 @@ from pymoo.indicators.hv import HV
 from scipy.stats import qmc
 
 from .checkpoint import ALGORITHM, Checkpoint, fingerprint, taken_up, versions
+from .quantities import counted
 from .study import Evaluation, Study
 
 WORST = 1e12
@@ -83,15 +84,31 @@ class Front:
         return self.study.design(self.x[i])
 
     def hypervolume(self, reference: Any = None) -> float:
-        """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`)."""
-        reference = reference_point(self.study) if reference is None else np.asarray(reference, dtype=float)
-        return float(HV(ref_point=reference)(self.f)) if len(self) else 0.0
+        """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`).
+
+        Raises ``ValueError`` for a reference that is not one finite number for each objective.
+        """
+        point = reference_point(self.study) if reference is None else _point(reference, len(self.study.minimise))
+        if not np.isfinite(self.f).all():
+            raise ValueError("the front has an objective that is not a finite number")
+        return float(HV(ref_point=point)(self.f)) if len(self) else 0.0
 
     def judged_by(self, study: Study) -> Front:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
         if not len(self):
             return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message, self.record)
         return replace(front_of(study.evaluate(self.x), study), record=self.record)
+
+
+def _point(reference: Any, k: int) -> np.ndarray:
+    """A point in the space of ``k`` objectives."""
+    try:
+        point = np.asarray(reference, dtype=float)
+    except (TypeError, ValueError):
+        point = np.full(k, np.nan)
+    if point.shape != (k,) or not np.isfinite(point).all():
+        raise ValueError(f"the reference point is {reference!r}; it must be {k} finite numbers")
+    return point
 
 
 def front_of(evaluation: Evaluation, study: Study) -> Front:
@@ -129,7 +146,7 @@ def reference_point(study: Study, n: int = 256) -> np.ndarray:
 
     It depends on the study alone, so hypervolumes of different searches can be compared.
     """
-    unit = qmc.Sobol(len(study.free), rng=0).random(n)
+    unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
     evaluation = study.evaluate(qmc.scale(unit, *study.bounds))
     usable = evaluation.feasible if evaluation.feasible.any() else np.isfinite(evaluation.f).all(-1)
     if not usable.any():

@@ -481,6 +481,14 @@ def test_a_judgement_off_saatys_scale_has_a_place_on_its_slider():
     assert_allclose(panel.weights, [1 / 8.5, 7.5 / 8.5])
 
 
+def test_rounded_reciprocals_are_told():
+    panel = judge(["a", "b", "c"], [[1, 3, 7], [0.33, 1, 5], [0.14, 0.2, 1]])
+    assert alert(panel) == "Rounded reciprocals are read as exact ones: 0.33 as 1/3, 0.14 as 1/7."
+    panel.boxes[0, 1].value = "1/4"
+    assert panel.upper == [1 / 4, 7, 5]
+    assert "Rounded" not in alert(panel)
+
+
 def test_judgements_for_another_number_of_criteria_are_refused():
     panel = judge(["a", "b", "c"], [1, 2, 3])
     with pytest.raises(ValueError, match="3 criteria"):

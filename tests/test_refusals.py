@@ -33,7 +33,9 @@ from camkit import (
     weighted_sum,
 )
 from camkit.app import explore, judge
+from camkit.decision import crowding_distance, weight_lattice
 from camkit.export import Work, from_json, to_json
+from camkit.optimise import Front
 from camkit.plot.cam import pressure_angle
 from camkit.quantities import Quantity, declarations
 from camkit.reference import load as reference
@@ -48,6 +50,11 @@ FREE = ", ".join(name for name, declared in declarations(CAM).items() if isinsta
 
 def a_study(free=("lift_arm",), minimise=(height,), **more):
     return Study(CAM, free, minimise, **more)
+
+
+def a_front(f=0.5):
+    """A front of one design and two objectives."""
+    return Front(a_study(minimise=(height, -height)), np.array([[0.05]]), np.array([[f, 0.5]]))
 
 
 def a_file(**entries):
@@ -137,19 +144,34 @@ REFUSALS = [
     (lambda: nsga2(door_handle_study(), seed=None), "the seed is None; it must be a whole number of at least 0"),
 
     # judgements
-    (lambda: ahp([[1, 5], [1 / 4, 1]]), "judgement (1, 2) is 5 and (2, 1) is 0.25; one must be 1 over the other"),
+    (lambda: ahp([[1, 5], [1 / 4, 1]]),
+     "judgement (1, 2) is 5 and (2, 1) is 0.25; one must be 1 over the other "
+     "(text such as '1/3' is exact, None leaves a place open)"),
+    (lambda: ahp([[2, 5], [1 / 5, 1]]), "judgement (1, 1) is 2 and (1, 1) is 2; the diagonal must be 1"),
+    (lambda: ahp([]), "there are no judgements; those of a single criterion are [[1]]"),
+    (lambda: ahp([NAN]), "no judgement connects criterion 1 with criterion 2; judge one such pair"),
+    (lambda: ahp(["1/0"]), "'1/0' is no number above 0; 3, 1/5 or 0.4 are"),
+    (lambda: ahp([1e300]), "judgement (1, 2) is 1e+300; nobody tells apart more than 1e+06 to 1"),
     (lambda: ahp([[1, -5], [-1 / 5, 1]]), "judgement (1, 2) is -5; it must be a positive number"),
     (lambda: ahp([5, 0, 1]), "judgement (1, 3) is 0; it must be a positive number"),
     (lambda: ahp([5, INF, 1]), "judgement (1, 3) is inf; it must be a positive number"),
     (lambda: ahp([[1, 2, 3], [1, 2, 3]]), "the judgements have the shape (2, 3); they must be a square matrix"),
     (lambda: ahp([5, 1]), "2 judgements are no upper triangle; 1, 3, 6, 10, ... are"),
     (lambda: ahp([[1, 2], [1]]), "the judgements must be a square matrix of numbers or its upper triangle"),
-    (lambda: ahp(np.ones((11, 11))), "there are 11 criteria; Saaty's random index is known up to 10"),
     (lambda: ahp([5], "mean"), "the method is 'mean'; there are 'eigenvector' and 'geometric'"),
     (lambda: judge(["a", "b"], [1, 2, 3]), "there are 3 rows of judgements for 2 criteria"),
 
     # choosing
     (lambda: crowding(np.zeros((0, 2))), "the front is empty; there is no design to choose"),
+    (lambda: crowding([1, 2]), "the front has the shape (2,); it must be a table, a row for each design"),
+    (lambda: crowding_distance([[1, NAN], [2, 1]]), "the front has an objective that is not a finite number"),
+    (lambda: topsis([[1, 2], [2, 1]], scale="sum"), "the scale is 'sum'; there are 'vector' and 'range'"),
+    (lambda: weight_lattice(2, 2.5), "the number of steps is 2.5; it must be a whole number of at least 1"),
+    (lambda: a_front().hypervolume(NAN),
+     "the reference point is nan; it must be 2 finite numbers"),
+    (lambda: a_front().hypervolume((1, NAN)),
+     "the reference point is (1, nan); it must be 2 finite numbers"),
+    (lambda: a_front(NAN).hypervolume((1, 1)), "the front has an objective that is not a finite number"),
     (lambda: topsis([[1, NAN]]), "the front has an objective that is not a finite number"),
     (lambda: topsis([[1, 2], [2, 1]], [1, 2, 3]), "there are 3 weights for 2 objectives"),
     (lambda: weighted_sum([[1, 2], [2, 1]], [1, -1]), "the weights must be finite, none negative, not all 0"),
@@ -233,6 +255,13 @@ IN_WORDS = {
     "too many references": lambda: weighted("sum", {height: 1}, (1, 2)),
     "too few free values": lambda: door_handle_study().design([0.05, 0.38]),
     "a reference point of three": lambda: nsga2(door_handle_study(), 8, 1).hypervolume((1, 2, 3)),
+    "judgements that are true or false": lambda: ahp([True]),
+    "complex judgements": lambda: ahp([2 + 1j]),
+    "judgements that are one number": lambda: ahp(5),
+    "a judgement too large for a number": lambda: ahp([10**400]),
+    "a stack of judgements": lambda: ahp(np.ones((2, 3, 3))),
+    "judgements inside a judgement": lambda: ahp([[1, [2]], [3, 1]]),
+    "a complex front": lambda: topsis([[1, 2j], [2, 1]]),
     "a ragged front": lambda: topsis([[1, 2], [1]]),
     "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),
     "a picture without a view": lambda: picture(CAM),

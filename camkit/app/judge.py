@@ -11,7 +11,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..decision import SAATY_SCALE, ahp, judgement_matrix
+from ..decision import SAATY_SCALE, ahp, judgement_matrix, typed_judgement
 from ..plot.front import weight_bars
 from .controls import banner, tell
 from .panel import Panel
@@ -61,7 +61,7 @@ class Judgements(Panel):
         right = w.Box([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="720px"))
         body = w.HBox([left, right], layout=w.Layout(flex_flow="row wrap", align_items="flex-start"))
         super().__init__([w.HTML(f"<b>{title}</b>"), body])
-        self.load(self.start)
+        self.load(judgements)
 
     def _slider(self, pair: Pair) -> w.SelectionSlider:
         slider = w.SelectionSlider(
@@ -106,6 +106,8 @@ class Judgements(Panel):
                 f"there are judgements for {len(matrix)} criteria; this panel has {len(self.names)} criteria"
             )
         self._judge({pair: float(matrix[pair]) for pair in self.sliders})
+        if note := ahp(judgements).note:
+            tell(self._banner, f"{note[0].upper()}{note[1:]}. {self.advice}".strip())
 
     def on_change(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after every change of a judgement."""
@@ -115,9 +117,9 @@ class Judgements(Panel):
         if self._silent:
             return
         try:
-            value = _number(words)
-        except ValueError:
-            self._refuse(pair, f"{words!r} is no number above 0; 3, 1/5 or 0.4 are, and an empty box leaves it open")
+            value = typed_judgement(words)
+        except ValueError as refusal:
+            self._refuse(pair, f"{refusal}, and an empty box leaves it open")
         else:
             self._say(pair, value)
 
@@ -201,19 +203,6 @@ class Judgements(Panel):
         lines = [f"{name}: {weight:.4f}" for name, weight in zip(self.names, self.weights, strict=True)]
         missing = [f"not judged: {self.judgement.missing}"] if self.judgement.missing else []
         return "\n".join([*lines, f"consistency ratio: {self.judgement.consistency_ratio:.4f}", *missing])
-
-
-def _number(words: str) -> float:
-    """A judgement as it is typed, ``nan`` for none."""
-    if words.strip() in ("", "?"):
-        return math.nan
-    try:
-        value = float(Fraction(words.replace(",", ".").replace(" ", "")))
-    except (ZeroDivisionError, OverflowError):
-        raise ValueError(words) from None
-    if not 0 < value < math.inf:
-        raise ValueError(words)
-    return value
 
 
 def _fraction(value: float) -> str:
