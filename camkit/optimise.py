@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -17,12 +18,9 @@ from pymoo.core.repair import Repair
 from pymoo.indicators.hv import HV
 from scipy.stats import qmc
 
-from .checkpoint import ALGORITHM, Checkpoint, fingerprint, taken_up, versions
+from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, taken_up, versions, why
 from .quantities import counted
 from .study import Evaluation, Study
-
-WORST = 1e12
-"""What pymoo is told of an objective or a limit that is not a number."""
 
 
 class StudyProblem(Problem):
@@ -163,6 +161,8 @@ class Generation:
     evaluation: Evaluation
     study: Study
     record: Mapping[str, Any] = field(default_factory=dict)
+    unkept: str = ""
+    """Why the search is not kept in its checkpoint any more, in a sentence; empty while it is."""
 
     @cached_property
     def front(self) -> Front:
@@ -181,7 +181,8 @@ def nsga2_generations(
     """NSGA-II one generation at a time; leave the loop to stop, the last front stays.
 
     With the file ``checkpoint`` each generation is written there before it is given.  If the file is there already,
-    the search goes on from it, first giving the generation that it holds; see `nsga2`.
+    the search goes on from it, first giving the generation that it holds; see `nsga2`.  Where the file cannot be
+    written the search goes on without it, and says so in ``unkept`` from then on.
     """
     for name, value, least in (
         ("population is", population, 4),
@@ -194,13 +195,15 @@ def nsga2_generations(
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
     record: dict[str, Any] = {"population": int(population), "seed": int(seed), "versions": versions()}
     about = {"study": fingerprint(study), "algorithm": ALGORITHM, **record} if checkpoint else {}
-    number, began = 0, time.monotonic()
+    number, began, unkept = 0, time.monotonic(), ""
 
     def generation() -> Generation:
         x, f, g = algorithm.pop.get("X", "F", "G")
         told = {**record, "generations": number, "seconds": time.monotonic() - began}
-        return Generation(number, generations, Evaluation(x, np.where(f < WORST, f, np.inf), g), study, told)
+        return Generation(number, generations, Evaluation(x, np.where(f < WORST, f, np.inf), g), study, told, unkept)
 
+    if checkpoint:
+        remove_parts(checkpoint)
     if checkpoint and Path(checkpoint).exists():
         found = taken_up(checkpoint, study, population, generations, seed)
         _go_on(algorithm, found)
@@ -209,9 +212,12 @@ def nsga2_generations(
     while algorithm.has_next():
         algorithm.next()
         number += 1
-        if checkpoint:
+        if checkpoint and not unkept:
             seconds = time.monotonic() - began
-            Checkpoint(number=number, seconds=seconds, **about, **_state(algorithm)).write(checkpoint)
+            try:
+                Checkpoint(number=number, seconds=seconds, **about, **_state(algorithm)).write(checkpoint)
+            except OSError as error:
+                unkept = f"generation {number} could not be kept in {Path(checkpoint).name}: {why(error)}"
         yield generation()
 
 
@@ -245,10 +251,15 @@ def nsga2(
     in ``message`` which limit stood in the way.
 
     ``checkpoint`` names a file that is written after each generation.  The same call goes on from it when the process
-    was killed, without losing a generation, and ends with the same front to the last bit.
+    was killed, without losing a generation, and ends with the same front to the last bit.  A full disk or a missing
+    folder ends no search: it warns (``RuntimeWarning``) and goes on without the file.
 
     Raises ``ValueError`` for a population below 4, or generations or a seed that are no whole numbers; for a
     checkpoint that is damaged, or of another study, population, seed or version, and for one of more generations.
     """
-    *_, last = nsga2_generations(study, population, generations, seed, checkpoint)
-    return last.front
+    told = ""
+    for generation in nsga2_generations(study, population, generations, seed, checkpoint):
+        if generation.unkept != told:
+            told = generation.unkept
+            warnings.warn(f"{told}; the search goes on without the file", RuntimeWarning, stacklevel=2)
+    return generation.front

@@ -401,7 +401,7 @@ def test_another_file_and_no_file_are_refused(kept):
     np.savez(
         kept, about=np.array('{"schema": "camkit-checkpoint/9"}'), **{k: 0 for k in ("x", "f", "g", "rank", "crowding")}
     )
-    with pytest.raises(ValueError, match=r"the file lift\.npz is no checkpoint of the schema 'camkit-checkpoint/1'"):
+    with pytest.raises(ValueError, match=r"the file lift\.npz is no checkpoint of the schema 'camkit-checkpoint/2'"):
         read(kept)
     with pytest.raises(ValueError, match=r"there is no checkpoint none\.npz"):
         read(kept.with_name("none.npz"))
