@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .markup import html, table
+
 
 @dataclass(frozen=True)
 class Table:
@@ -37,9 +39,7 @@ class Table:
 
     def _repr_html_(self) -> str:
         head, *rows = self._cells()
-        cells = "".join(f"<th style='text-align:left'>{word}</th>" for word in head)
-        body = "".join(f"<tr>{''.join(f'<td style=text-align:left>{c}</td>' for c in row)}</tr>" for row in rows)
-        return f"<table><caption><b>{self.title}</b></caption><tr>{cells}</tr>{body}</table>"
+        return table(head, rows, html("<b>{}</b>", self.title), "text-align:left")
 
 
 AGREES = 0.1
@@ -108,15 +108,10 @@ class Comparison:
         return "\n".join([f"{self.title} ({self.source})", *lines])
 
     def _repr_html_(self) -> str:
-        align = "style='text-align:left'"
         words = ("quantity", "unit", self.against, "computed", "verdict", "remark")
-        head = "".join(f"<th {align}>{word}</th>" for word in words)
-        rows = "".join(
-            f"<tr>{''.join(f'<td {align}>{self._marked(cell, row)}</td>' for cell in row.cells())}</tr>"
-            for row in self.rows
-        )
-        return f"<table><caption><b>{self.title}</b> ({self.source})</caption><tr>{head}</tr>{rows}</table>"
+        rows = [[self._marked(cell, row) for cell in row.cells()] for row in self.rows]
+        return table(words, rows, html("<b>{}</b> ({})", self.title, self.source), "text-align:left")
 
     @staticmethod
     def _marked(cell: str, row: Row) -> str:
-        return f"<b>{cell}</b>" if cell == row.verdict and not row.reproduced else cell
+        return html("<b>{}</b>", cell) if cell == row.verdict and not row.reproduced else cell

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .markup import csv_cell
 from .units import in_unit
 
 
@@ -22,8 +23,8 @@ def table_csv(columns: Mapping[str, Any]) -> str:
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    words = ([v if isinstance(v, str) else f"{v:.6f}" for v in column] for column in columns.values())
+    writer.writerow(map(csv_cell, columns))
+    words = ([csv_cell(v) if isinstance(v, str) else f"{v:.6f}" for v in column] for column in columns.values())
     writer.writerows(zip(*words, strict=True))
     return out.getvalue()
 

@@ -27,6 +27,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from .markup import Html, html, table
 from .units import factor, in_unit
 
 
@@ -183,13 +184,16 @@ class Design:
         return {"text/plain": f"{type(self).__name__}: {', '.join(shown)}", "text/html": self._repr_html_()}
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td style='text-align:left'>{words(name)}</td><td><i>{declared.symbol}</i></td>"
-            f"<td style='text-align:right'>{_shown(getattr(self, name), declared)}</td>"
-            f"<td style='text-align:left'>{declared.meaning}</td></tr>"
-            for name, declared in declarations(self).items()
-        )
-        return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
+        rows = [
+            (_left(words(name)), html("<i>{}</i>", d.symbol), _shown(getattr(self, name), d), _left(d.meaning))
+            for name, d in declarations(self).items()
+        ]
+        return table((), rows, type(self).__name__)
+
+
+def _left(text: str) -> Html:
+    """A cell whose text begins at its left edge."""
+    return html("<div style='text-align:left'>{}</div>", text)
 
 
 def _shown(value: Any, declared: Quantity | Choice) -> str:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import numpy as np
 
+from .markup import Html, attribute, html, markdown, table
 from .quantities import Choice, Measure, declarations, words
 
 NOT_MET = "not met"
@@ -36,41 +36,33 @@ class SideBySide:
 
     def markdown(self, title: str = "Designs side by side") -> str:
         """The table as Markdown, the best of each line in bold."""
-        head = ["", *self.names, "limit"]
-        rows = [
-            [_plain(line.name), *_cells(line, "**{}**", "{} ({})", _plain), _plain(line.limit)] for line in self.lines
-        ]
+        head = ["", *map(markdown, self.names), "limit"]
+        rows = [[markdown(line.name), *_cells(line, _bold, _missed), markdown(line.limit)] for line in self.lines]
         rule = ["---", *["---:"] * (len(head) - 1)]
-        table = "\n".join(f"| {' | '.join(row)} |" for row in (head, rule, *rows))
-        return f"# {title}\n\n{table}\n\n{BOLD}\n"
+        lines = "\n".join(f"| {' | '.join(row)} |" for row in (head, rule, *rows))
+        return f"# {markdown(title)}\n\n{lines}\n\n{BOLD}\n"
 
-    def html(self) -> str:
+    def html(self) -> Html:
         """The table alone."""
-        head = "".join(f"<th>{escape(name)}</th>" for name in ("", *self.names, "limit"))
-        missed = "{} <span class='camkit-missed'>{}</span>"
-        rows = "".join(
-            f"<tr><td>{escape(line.name)}</td>"
-            + "".join(f"<td>{cell}</td>" for cell in _cells(line, "<b>{}</b>", missed, escape))
-            + f"<td>{escape(line.limit)}</td></tr>"
-            for line in self.lines
-        )
-        return f"<table><tr>{head}</tr>{rows}</table>"
+        rows = [(line.name, *_cells(line, _bold_html, _missed_html), line.limit) for line in self.lines]
+        return table(("", *self.names, "limit"), rows)
 
     def page(self, title: str = "Designs side by side", png: bytes = b"") -> str:
         """A page of HTML that needs no other file: the table and, inside it, a picture."""
         data = base64.b64encode(png).decode("ascii")
-        alt = escape(f"{title}: {', '.join(self.names)}", quote=True)
-        picture = f'<p><img alt="{alt}" src="data:image/png;base64,{data}"></p>' if png else ""
-        return (
-            f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>{PAGE_STYLE}'
-            f"</head><body><h1>{escape(title)}</h1>{picture}{self.html()}<p>{BOLD}</p></body></html>\n"
-        )
+        alt = f"{title}: {', '.join(self.names)}"
+        picture = html('<p><img {} src="data:image/png;base64,{}"></p>', attribute("alt", alt), data) if png else Html()
+        return html(_PAGE, title=title, style=PAGE_STYLE, picture=picture, table=self.html(), note=BOLD)
 
     def _repr_html_(self) -> str:
         return self.html()
 
 
-PAGE_STYLE = (
+_PAGE = (
+    '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>{style}'
+    "</head><body><h1>{title}</h1>{picture}{table}<p>{note}</p></body></html>\n"
+)
+PAGE_STYLE = Html(
     "<style>body{font:16px/1.4 sans-serif;color:#1f2933;margin:2em auto;max-width:80em;padding:0 1em}"
     "img{max-width:100%}table{border-collapse:collapse;font-variant-numeric:tabular-nums}"
     "th,td{text-align:right;padding:.25em .8em;border-bottom:1px solid #e4e7eb}"
@@ -78,14 +70,26 @@ PAGE_STYLE = (
 )
 
 
-def _plain(text: str) -> str:
-    """Text that Markdown does not read as anything else."""
-    return text.replace("|", "\\|").replace("*", "\\*").replace("_", "\\_")
+def _cells(line: Line, shown: Callable[[str, bool], str], missed: Callable[[str], str]) -> list[str]:
+    """A line's numbers as a kind of text shows them, the best ones and those that miss a limit in its own way."""
+    cells = [shown(text, best) for text, best in zip(line.texts, line.best, strict=True)]
+    return [missed(cell) if no else cell for cell, no in zip(cells, line.missed, strict=True)]
 
 
-def _cells(line: Line, bold: str, missed: str, safe: Any) -> list[str]:
-    cells = [bold.format(safe(t)) if best else safe(t) for t, best in zip(line.texts, line.best, strict=True)]
-    return [missed.format(cell, NOT_MET) if no else cell for cell, no in zip(cells, line.missed, strict=True)]
+def _bold(text: str, best: bool) -> str:
+    return f"**{markdown(text)}**" if best else markdown(text)
+
+
+def _missed(cell: str) -> str:
+    return f"{cell} ({NOT_MET})"
+
+
+def _bold_html(text: str, best: bool) -> Html:
+    return html("<b>{}</b>" if best else "{}", text)
+
+
+def _missed_html(cell: str) -> Html:
+    return html("{} <span class='camkit-missed'>{}</span>", cell, NOT_MET)
 
 
 def side_by_side(
@@ -145,6 +149,6 @@ def _measured(measure: Measure, analyses: Sequence[Any], senses: Mapping[Measure
     leader = texts[int(np.nanargmin(sense * values))] if sense and differ else None
     value, side = limits.get(measure, (np.inf, 1))
     limit = f"{'at most' if side > 0 else 'at least'} {measure.text(value)}" if measure in limits else ""
-    # A number that is not there keeps no limit, as in a study.
-    missed = tuple(not side * (v - value) <= 0 for v in values)
+    # A number that is not there keeps no limit, as in a study; without a limit there is none to miss.
+    missed = tuple(measure in limits and not side * (v - value) <= 0 for v in values)
     return Line(measure.name, texts, tuple(text == leader for text in texts), missed, limit)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import anywidget
 import ipywidgets as w
 import traitlets
 
+from ..markup import Html, attribute, escaped, html, joined
 from ..quantities import Choice, Quantity, words
 from ..units import in_unit
 
@@ -36,20 +36,38 @@ LABEL = "0 0 13.2em"
 """Room for a quantity's symbol and name, in the page's own letters."""
 
 
-def symbol_html(symbol: str) -> str:
+def symbol_html(symbol: str) -> Html:
     """``psi_0`` as a reader expects it."""
     letter, _, index = symbol.partition("_")
-    letter = GREEK.get(letter, letter)
-    return f"<i>{letter}</i><sub>{index}</sub>" if index else f"<i>{letter}</i>"
+    letter = Html(GREEK[letter]) if letter in GREEK else letter
+    return html("<i>{}</i><sub>{}</sub>", letter, index) if index else html("<i>{}</i>", letter)
 
 
-def label_html(name: str, declared: Quantity | Choice) -> str:
+def label_html(name: str, declared: Quantity | Choice) -> Html:
     """A quantity's symbol and name (once, where they are the same); its meaning to hover, and how it is said aloud."""
-    shown = said = words(name)
+    said = words(name)
+    shown = escaped(said)
     if isinstance(declared, Quantity):
-        shown = f"{symbol_html(declared.symbol)}&ensp;{said}" if said != declared.symbol else symbol_html(said)
+        symbol = symbol_html(declared.symbol)
+        shown = html("{}&ensp;{}", symbol, said) if said != declared.symbol else symbol
         said = f"{said}, {declared.unit}" if declared.unit else said
-    return f"<span title='{declared.meaning}' data-name='{said}'>{shown}</span>"
+    return html("<span {} {}>{}</span>", attribute("title", declared.meaning), attribute("data-name", said), shown)
+
+
+def small_html(text: Any) -> Html:
+    """A unit or a hint, paler than the rest."""
+    return html("<span class='camkit-unit'>{}</span>", text)
+
+
+def bar_html(colour: str, width: int, text: Any) -> Html:
+    """A bar in a colour, and a text behind it."""
+    style = attribute("style", f"width: {width}px; background: {colour}")
+    return html("<span class='camkit-bar' {}></span>{}", style, text)
+
+
+def tables_html(*tables: Html) -> Html:
+    """Tables beside each other in the panels' style."""
+    return html("<div class='camkit-tables'>{}</div>", joined(tables))
 
 
 class Knob:
@@ -74,7 +92,7 @@ class Knob:
         self.slider.value = on_grid(self.slider, shown)
         self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="5.9em"))
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
-        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(flex="0 0 4.2em"))
+        unit = w.HTML(small_html(declared.unit), layout=w.Layout(flex="0 0 4.2em"))
         self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
         self.slider.observe(lambda change: self._moved(change.new), "value")
@@ -215,6 +233,5 @@ def banner() -> w.HTML:
 
 def tell(box: w.HTML, sentence: str) -> None:
     """Show ``sentence`` in a banner, or nothing."""
-    safe = re.sub(r"[<>&]", lambda m: {"<": "&lt;", ">": "&gt;", "&": "&amp;"}[m[0]], sentence)
-    box.value = f"<div role='alert'>{safe}</div>" if sentence else ""
+    box.value = html("<div role='alert'>{}</div>", sentence) if sentence else ""
     box.layout.display = "" if sentence else "none"

@@ -6,7 +6,6 @@ import io
 import threading
 from collections.abc import Sequence
 from dataclasses import replace
-from html import escape
 from typing import Any
 
 import ipywidgets as w
@@ -14,6 +13,7 @@ import numpy as np
 from PIL import Image
 
 from ..decision import JudgementRange
+from ..markup import Html, attribute, html, joined, table
 from ..plot.decision import (
     MARKS,
     ShownDecision,
@@ -25,7 +25,7 @@ from ..plot.decision import (
 )
 from ..plot.parallel import Designs
 from ..quantities import Measure, declarations, words
-from .controls import banner, tell
+from .controls import banner, bar_html, small_html, tables_html, tell
 from .panel import Panel
 from .picture import LivePicture
 
@@ -75,7 +75,7 @@ class Decide(Panel):
         self.band.observe(lambda change: None if self._silent else self._keep(self.axis.value, change.new), "value")
         clear = w.Button(description="Keep all", icon="undo", tooltip="drop every band", layout=w.Layout(width="auto"))
         clear.on_click(lambda _: self._brush_with({}))
-        hint = w.HTML(f"<span class='camkit-unit'>{HINT}</span>")
+        hint = w.HTML(small_html(HINT))
         row = w.HBox([self.axis, self.band, clear, self._count], layout=w.Layout(flex_flow="row wrap"))
         self._brush = w.VBox([hint, row])
 
@@ -154,7 +154,7 @@ class Decide(Panel):
         for picture in self._pictures:
             picture.show(self.shown)
         self._table.value = self._table_html()
-        self._verdict.value = "<br>".join(self.sureness)
+        self._verdict.value = joined(self.sureness, "<br>")
         self._show_band()
 
     # ------------------------------------------------------------ bands
@@ -192,9 +192,9 @@ class Decide(Panel):
             self._silent = False
         self.band.disabled = high <= low
         column = designs.columns[j]
-        name = escape(f"{column.name}, {column.unit}" if column.unit else column.name, quote=True)
+        name = f"{column.name}, {column.unit}" if column.unit else column.name
         count = f"{designs.kept.sum()} of {len(designs.kept)} designs kept"
-        self._count.value = f"<span data-name='{name}'>&ensp;{count}</span>"
+        self._count.value = html("<span {}>&ensp;{}</span>", attribute("data-name", name), count)
 
     def _pointer(self, kind: str, x: float, y: float) -> None:
         """Drag a band, drop it or load a design."""
@@ -231,23 +231,21 @@ class Decide(Panel):
 
     # ------------------------------------------------------------ words
 
-    def _table_html(self) -> str:
+    def _table_html(self) -> Html:
         """The winners side by side."""
         assert self.shown
         front = self.shown.front
         declared: Any = declarations(front.study.start)
         goals, free = front.study.minimise, front.study.free
         names = [*(m.name for m in goals), *(words(n) for n in free)]
-        head = "".join(f"<th>{name}</th>" for name in ("winner by", "design", *names, "wins at, of all weightings"))
+        head = ("winner by", "design", *names, "wins at, of all weightings")
         rows = []
         for rule, i in self.shown.winners.items():
-            colour = f"<span class='camkit-bar' style='width: 11px; background: {self.shown.colours[i]}'></span>"
             values = [m.text(m.sign * f) for m, f in zip(goals, front.f[i], strict=True)]
             values += [declared[n].text(float(f"{x:.5g}")) for n, x in zip(free, front.x[i], strict=True)]
             share = f"{100 * self.shown.maps[rule].shares.get(i, 0):.0f} %" if rule in self.shown.maps else "all"
-            cells = "".join(f"<td>{cell}</td>" for cell in (str(i), *values, share))
-            rows.append(f"<tr><td>{colour}{rule}</td>{cells}</tr>")
-        return f"<div class='camkit-tables'><table><tr>{head}</tr>{''.join(rows)}</table></div>"
+            rows.append((bar_html(self.shown.colours[i], 11, rule), i, *values, share))
+        return tables_html(table(head, rows))
 
     @property
     def sureness(self) -> list[str]:

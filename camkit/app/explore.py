@@ -11,10 +11,11 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export, profile_files
+from ..markup import html, table
 from ..plot.picture import View, below, positions_of, small_png, strip
 from ..quantities import Design, Measure, Quantity, declarations
 from ..units import deg
-from .controls import Download, Knob, Menu, Upload, banner, control, tell
+from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
 from .orbit import Orbit
 from .panel import Panel
 from .picture import DRAWING, LivePicture
@@ -185,25 +186,22 @@ class Explorer(Panel):
         return [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
 
     def _table_html(self) -> str:
-        rows = [self._row_html(*row) for row in self.rows()]
+        rows = [self._row_cells(*row) for row in self.rows()]
         half = -(-len(rows) // 2) if len(rows) > 9 else max(len(rows), 1)
-        head = "<tr><th>measure</th><th>now</th><th>start</th><th>change</th><th>limit</th><th></th></tr>"
-        tables = (f"<table>{head}{''.join(rows[i : i + half])}</table>" for i in range(0, len(rows), half))
-        return f"<div class='camkit-tables'>{''.join(tables)}</div>"
+        head = ("measure", "now", "start", "change", "limit", "")
+        return tables_html(*(table(head, rows[i : i + half]) for i in range(0, len(rows), half)))
 
-    def _row_html(self, measure: Measure, now: float, first: float) -> str:
+    def _row_cells(self, measure: Measure, now: float, first: float) -> tuple[str, ...]:
         change = f"{100 * (now - first) / abs(first):+.1f} %" if first and np.isfinite([now, first]).all() else ""
-        limit, met = self._verdict(measure, now)
-        cells = (measure.text(now), measure.text(first), change, limit)
-        return f"<tr><td>{measure.name}</td>{''.join(f'<td>{c}</td>' for c in cells)}<td>{met}</td></tr>"
+        return (measure.name, measure.text(now), measure.text(first), change, *self._verdict(measure, now))
 
     def _verdict(self, measure: Measure, now: float) -> tuple[str, str]:
         if measure not in self._limits:
             return "", ""
         value, sense = self._limits[measure]
         met = sense * (now - value) <= 0
-        sign = "&le;" if sense > 0 else "&ge;"
-        return f"{sign} {measure.text(value)}", "met" if met else "<span class='camkit-missed'>not met</span>"
+        limit = html("&le; {}" if sense > 0 else "&ge; {}", measure.text(value))
+        return limit, "met" if met else html("<span class='camkit-missed'>{}</span>", "not met")
 
     def still(self) -> bytes:
         """The picture; below it the mechanism in four positions, if it can be turned."""

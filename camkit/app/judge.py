@@ -12,8 +12,9 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import SAATY_SCALE, ahp, judgement_matrix, typed_judgement
+from ..markup import Html, escaped, html, table
 from ..plot.front import weight_bars
-from .controls import banner, tell
+from .controls import banner, small_html, tables_html, tell
 from .panel import Panel
 from .picture import LivePicture
 
@@ -55,12 +56,12 @@ class Judgements(Panel):
         reset = w.Button(description="Reset", icon="undo", tooltip="back to the judgements that the panel began with")
         reset.on_click(lambda _: self.load(self.start))
         rows = [self._row(pair) for pair in pairs]
-        hint = w.HTML(f"<span class='camkit-unit'>{HINT}</span>")
+        hint = w.HTML(small_html(HINT))
         buttons = w.HBox([reset, self.method])
         left = w.VBox([*rows, hint, buttons, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
         right = w.Box([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="720px"))
         body = w.HBox([left, right], layout=w.Layout(flex_flow="row wrap", align_items="flex-start"))
-        super().__init__([w.HTML(f"<b>{title}</b>"), body])
+        super().__init__([w.HTML(html("<b>{}</b>", title)), body])
         self.load(judgements)
 
     def _slider(self, pair: Pair) -> w.SelectionSlider:
@@ -83,7 +84,7 @@ class Judgements(Panel):
         return box
 
     def _row(self, pair: Pair) -> w.Widget:
-        first, second = (w.HTML(self.names[k], layout=w.Layout(flex="0 0 118px")) for k in pair)
+        first, second = (w.HTML(escaped(self.names[k]), layout=w.Layout(flex="0 0 118px")) for k in pair)
         first.add_class("camkit-right")
         cells = [first, self.sliders[pair], second, self.boxes[pair]]
         return w.HBox(cells, layout=w.Layout(align_items="center"))
@@ -185,18 +186,17 @@ class Judgements(Panel):
         )
         return f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10). {advice}."
 
-    def _matrix_html(self) -> str:
-        head = "".join(f"<th>{name}</th>" for name in self.names)
-        rows = "".join(
-            f"<tr><td>{name}</td>{self._row_html(i)}<td><b>{weight:.4f}</b></td></tr>"
+    def _matrix_html(self) -> Html:
+        rows = (
+            (name, *self._matrix_row(i), html("<b>{}</b>", f"{weight:.4f}"))
             for i, (name, weight) in enumerate(zip(self.names, self.weights, strict=True))
         )
-        return f"<div class='camkit-tables'><table><tr><th></th>{head}<th>weight</th></tr>{rows}</table></div>"
+        return tables_html(table(("", *self.names, "weight"), rows))
 
-    def _row_html(self, i: int) -> str:
+    def _matrix_row(self, i: int) -> list[str]:
         """A row of the matrix; what nobody has judged is in brackets, as the others imply it."""
         cells = zip(self.judgement.matrix[i], self.judgement.completed[i], strict=True)
-        return "".join(f"<td>{f'({c:.2g})' if math.isnan(v) else _fraction(v)}</td>" for v, c in cells)
+        return [f"({c:.2g})" if math.isnan(v) else _fraction(v) for v, c in cells]
 
     def summary(self) -> str:
         """Weights and consistency ratio."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..archive import quick_front, quick_front_rounds
 from ..decision import CHOOSERS
+from ..markup import html, joined
 from ..optimise import Front
 from ..plot.front import shown_objectives
 from ..plot.live_front import LiveFront, live_pareto
@@ -190,7 +191,7 @@ class LiveFrontPanel(Panel):
             self.picture.widget.layout.display = ""
             self._fit_slider()
             here = self._here()
-            self.verdict.value = "<br>".join(self._lines(here))
+            self.verdict.value = joined(self._lines(here), "<br>")
             self.picture.show(LiveFront(front, self._before(), here, self.winner))
 
     def _refuse(self, sentence: str) -> None:
@@ -229,10 +230,13 @@ class LiveFrontPanel(Panel):
         free = zip(front.study.free, front.x[winner], strict=True)
         better = int(((front.f <= here).all(-1) & (front.f < here).any(-1)).sum())
         return [
-            f"<b>winner: design {winner}</b> of 0..{len(front) - 1}: {self._goals(front.f[winner])}",
+            html("<b>winner: design {}</b> of 0..{}: {}", winner, len(front) - 1, self._goals(front.f[winner])),
             ", ".join(f"{words(name)} {declared[name].text(value)}" for name, value in free),
-            f"<b>in the sliders</b>: {self._goals(here)}; {better or 'none'} of the front "
-            f"{'are' if better > 1 else 'is'} better in every wish",
+            html(
+                "<b>in the sliders</b>: {}; {} better in every wish",
+                self._goals(here),
+                f"{better or 'none'} of the front {'are' if better > 1 else 'is'}",
+            ),
         ]
 
     def _goals(self, f: np.ndarray) -> str:

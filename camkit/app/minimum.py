@@ -8,6 +8,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..markup import escaped
 from ..minimum import Minimum, minimise
 from ..plot.progress import ShownLooks, best_so_far
 from ..quantities import Measure
@@ -99,7 +100,7 @@ class Improvement(JobPanel):
 
     def _report(self, watch: Watch) -> None:
         best = f", best so far {self._text(watch.f)}" if watch.best is not None else ""
-        self.runner.status.value = f"{watch.looked} designs looked at{best}"
+        self.runner.status.value = escaped(f"{watch.looked} designs looked at{best}")
         self.picture.show(ShownLooks(self._measure, tuple(watch.looks)))
 
     def summary(self) -> str:

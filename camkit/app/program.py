@@ -8,10 +8,11 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..markup import Html, html, joined, table
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
 from ..plot.motion import PROGRAM_VIEWS, ShownProgram
 from ..units import deg, factor, in_unit
-from .controls import banner, tell
+from .controls import banner, tables_html, tell
 from .panel import Panel
 from .picture import LivePicture
 
@@ -170,19 +171,22 @@ class ProgramEditor(Panel):
         si = "rad" if self.unit == "deg" else "m"
         return [(joint.verdict.replace("follower units", si), joint.lawful) for joint in self.program.joints()]
 
-    def _table_html(self) -> str:
+    def _table_html(self) -> Html:
         peaks = self.program.peaks()
-        head = "<tr><th>peak</th><th>value</th><th>at</th></tr>"
         names = (("velocity", "/rad"), ("acceleration", "/rad^2"), ("jerk", "/rad^3"))
-        rows = "".join(
-            f"<tr><td>{name}</td><td>{in_unit(float(p.value), self.unit):.5g} {self.unit}{per}</td>"
-            f"<td>{in_unit(float(p.cam_angle), 'deg'):.4g} deg</td></tr>"
+        rows = (
+            (
+                name,
+                f"{in_unit(float(p.value), self.unit):.5g} {self.unit}{per}",
+                f"{in_unit(float(p.cam_angle), 'deg'):.4g} deg",
+            )
             for (name, per), p in zip(names, peaks, strict=True)
         )
-        verdicts = "".join(
-            f"<div class='{'' if lawful else 'camkit-missed'}'>{verdict}</div>" for verdict, lawful in self._verdicts()
+        verdicts = joined(
+            html("<div>{}</div>" if lawful else "<div class='camkit-missed'>{}</div>", verdict)
+            for verdict, lawful in self._verdicts()
         )
-        return f"<div class='camkit-tables'><table>{head}{rows}</table><div>{verdicts}</div></div>"
+        return tables_html(table(("peak", "value", "at"), rows), html("<div>{}</div>", verdicts))
 
     def summary(self) -> str:
         """Each joint's verdict."""

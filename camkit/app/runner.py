@@ -12,6 +12,7 @@ from typing import Any
 
 import ipywidgets as w
 
+from ..markup import Html, html
 from ..quantities import words
 from ..study import Study
 from ..watch import Watch
@@ -23,9 +24,9 @@ MakeStudy = Callable[..., Study]
 """Makes a study around a design, from what is chosen."""
 
 
-def told(result: str, why: str) -> str:
+def told(result: str, why: str) -> Html:
     """A result and what there is to say about it, for a page."""
-    return f"<div style='line-height: 1.45'><b>{result}</b><br>{why}</div>"
+    return html("<div style='line-height: 1.45'><b>{}</b><br>{}</div>", result, why)
 
 
 class Choices:

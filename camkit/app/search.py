@@ -17,12 +17,13 @@ import numpy as np
 from .. import export
 from ..checkpoint import taken_up
 from ..decision import CHOOSERS, ahp, judgement_matrix
+from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
 from ..quantities import Quantity, declarations, words
 from ..study import Study
 from ..units import in_unit
-from .controls import Download, Upload, banner, label_html, tell
+from .controls import Download, Upload, banner, label_html, small_html, tell
 from .explore import Explorer, changed, declared_in
 from .judge import Judgements
 from .kept import Kept, keep, unfinished
@@ -45,7 +46,7 @@ class Bounds:
         self.low, self.high = w.FloatText(layout=narrow), w.FloatText(layout=narrow)
         self._show(bounds)
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex="1 1 170px"))
-        unit = w.HTML(f"<span class='camkit-unit'>{declared.unit}</span>", layout=w.Layout(width="44px"))
+        unit = w.HTML(small_html(declared.unit), layout=w.Layout(width="44px"))
         self.row = w.HBox([self.free, label, self.low, self.high, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
 
@@ -342,7 +343,7 @@ class Search(Panel):
         self.progress.value = generation.number
         if last or not self._stop.is_set():  # else it says "stopping"
             stopped = last and generation.number < generation.of
-            self.status.value = (
+            self.status.value = escaped(
                 f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
                 f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
                 f"hypervolume {self.front.hypervolume(reference):.6g}{'' if last else _left(generation)}"
@@ -365,7 +366,7 @@ class Search(Panel):
         self._silent = False
         self._marked = self._selected()
         self.take.disabled = self.winner is None
-        self.verdict.value, self.found.value = self._verdict(), _told(self.front.record)
+        self.verdict.value, self.found.value = self._verdict(), escaped(_told(self.front.record))
         analysis = self.explorer.start.analyse(self.study.angles)
         start = np.array([measure(analysis) for measure in self.study.minimise])
         self.picture.show(ShownFront(self.front, self._selected(), self.winner, start))
@@ -378,14 +379,15 @@ class Search(Panel):
         same = np.isclose(self.front.x, now, rtol=1e-9, atol=0).all(-1) if len(self.front) else np.zeros(0, bool)
         return int(np.argmax(same)) if same.any() else None
 
-    def _verdict(self) -> str:
+    def _verdict(self) -> Html:
         if self.winner is None:
-            return self.front.message
+            return escaped(self.front.message)
         x, f = self.front.x[self.winner], self.front.f[self.winner]
         declared: Any = declarations(self.study.start)
         free = ", ".join(f"{words(n)} {declared[n].text(v)}" for n, v in zip(self.study.free, x, strict=True))
         goals = ", ".join(f"{m.name} {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
-        return f"<b>winner: design {self.winner}</b> of 0..{len(self.front) - 1}: {goals}<br>{free}"
+        winner = html("<b>winner: design {}</b> of 0..{}: {}", self.winner, len(self.front) - 1, goals)
+        return joined([winner, free], "<br>")
 
     def select(self, index: int | None) -> None:
         """Load one design of the front into the sliders."""

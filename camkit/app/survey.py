@@ -8,6 +8,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..markup import html, joined
 from ..plane import Plane
 from ..plot.survey import ShownPlane, objective_plane
 from ..quantities import Measure, Quantity, words
@@ -142,7 +143,8 @@ class Survey(Panel):
     def _show(self) -> None:
         here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
         self.take.disabled = self.optimum is None
-        self.verdict.value = "<br>".join(self._lines())
+        first, *rest = self._lines()
+        self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")
         self.picture.show(ShownPlane(self.plane, here, self.optimum if self._searched else self.plane.best_on_grid))
 
     def _lines(self) -> list[str]:
@@ -158,7 +160,7 @@ class Survey(Panel):
         objective = study.minimise[0]
         parts = objective.parts if isinstance(objective, WeightedSum) else (objective,)
         told = [f"{m.name}: {_text(m, analysis)}" for m in (*parts, *(m for m, _, _ in study.limits))]
-        return [f"<b>optimum: {where}</b>", *told]
+        return [f"optimum: {where}", *told]
 
     def load(self, x: Any) -> None:
         """Put free values into the sliders."""
@@ -177,8 +179,7 @@ class Survey(Panel):
         """The problem, its weights and its optimum."""
         problem, taken, _ = self._key
         weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(taken, start=1))
-        lines = [line.replace("<b>", "").replace("</b>", "") for line in self._lines()]
-        return "\n".join([f"{problem}: {weights}", *lines])
+        return "\n".join([f"{problem}: {weights}", *self._lines()])
 
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         self.settle()

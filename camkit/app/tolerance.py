@@ -9,11 +9,12 @@ import ipywidgets as w
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..markup import Html, table
 from ..plot.tolerance import cloud, deviation, sobol_bars
 from ..quantities import Quantity, declarations, words
 from ..study import Study
 from ..tolerance import SPREADS, Curve, Tolerances, general_tolerance
-from .controls import Knob, banner, tell
+from .controls import Knob, banner, tables_html, tell
 from .explore import Explorer
 from .newest import Later
 from .panel import Panel
@@ -136,11 +137,9 @@ class Tolerated(Panel):
             rows.append((measure.name, measure.text(drawn), measure.text(low), measure.text(high), told))
         return rows
 
-    def _table_html(self) -> str:
+    def _table_html(self) -> Html:
         heads = ("measure", "as drawn", "2.5 % are below", "2.5 % are above", "miss the limit")
-        head = f"<tr>{''.join(f'<th>{title}</th>' for title in heads)}</tr>"
-        rows = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in self._rows())
-        return f"<div class='camkit-tables'><table>{head}{rows}</table></div>"
+        return tables_html(table(heads, self._rows()))
 
     def summary(self) -> str:
         """The tolerances, the yield, and what the parts' measures lie between."""

@@ -10,11 +10,13 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..markup import Html, escaped, table
 from ..optimise import Front, Generation
 from ..plot.front import ShownFronts, fronts_overlaid, shown_objectives
 from ..study import Study
 from ..trade_offs import dominated_shares
 from ..watch import Stopped, Watch, watched
+from .controls import tables_html
 from .explore import Explorer
 from .picture import LivePicture
 from .runner import JobPanel, Runner
@@ -104,7 +106,7 @@ class Trade(JobPanel):
         for step in search(watched(study, watch)):
             self.fronts[name], self.seconds[name] = replace(step.front, study=study), time.monotonic() - began
             self.progress.max, self.progress.value = step.of, step.number
-            self.runner.status.value = f"{name}: {step.number} of {step.of}"
+            self.runner.status.value = escaped(f"{name}: {step.number} of {step.of}")
 
     # ------------------------------------------------------------ what is shown
 
@@ -130,14 +132,12 @@ class Trade(JobPanel):
         """What each front dominates (see `dominated_shares`), up to the design that the explorer began with."""
         return dominated_shares(self.fronts, self.start)
 
-    def _table_html(self) -> str:
-        head = "<tr><th>front</th><th>designs</th><th>dominates</th><th>time</th></tr>"
-        rows = "".join(
-            f"<tr><td>{name}</td><td>{len(self.fronts[name])}</td><td>{100 * share:.1f} %</td>"
-            f"<td>{f'{self.seconds[name]:.1f} s' if name in self.seconds else ''}</td></tr>"
-            for name, share in self.shares().items()
-        )
-        return f"<div class='camkit-tables'><table>{head}{rows}</table></div>"
+    def _table_html(self) -> Html:
+        rows = []
+        for name, share in self.shares().items():
+            time_told = f"{self.seconds[name]:.1f} s" if name in self.seconds else ""
+            rows.append((name, len(self.fronts[name]), f"{100 * share:.1f} %", time_told))
+        return tables_html(table(("front", "designs", "dominates", "time"), rows))
 
     def select(self, name: str, index: int) -> None:
         """Load a design of one of the fronts into the sliders."""

@@ -9,7 +9,7 @@ import ipywidgets as w
 
 from ..plot.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
 from ..side_by_side import SideBySide, side_by_side
-from .controls import Download, banner, tell
+from .controls import Download, banner, bar_html, tables_html, tell
 from .explore import Explorer
 from .panel import Panel
 from .picture import LivePicture
@@ -94,14 +94,15 @@ class Tray(Panel):
         self._places.children = [self._row(place) for place in self.designs]
         self.picture.widget.layout.display = "" if self.designs else "none"
         self.picture.show(Kept(self._analyses, self._measures))
-        self._table.value = f"<div class='camkit-tables'>{self.table.html()}</div>" if self.designs else ""
+        self._table.value = tables_html(self.table.html()) if self.designs else ""
 
     def _row(self, place: str) -> w.HBox:
         """The letter of a kept design in its colour, and what can be done with it."""
-        swatch = f"<span class='camkit-bar' style='width: 18px; background: {colour_of(place)}'></span>"
         load = self._button("Load", "upload", f"put design {place} into the sliders", lambda: self.load(place))
         drop = self._button("Remove", "times", f"keep design {place} no longer", lambda: self.drop(place))
-        return w.HBox([w.HTML(f"{swatch}design {place}", layout=w.Layout(width="110px")), load, drop])
+        return w.HBox(
+            [w.HTML(bar_html(colour_of(place), 18, f"design {place}"), layout=w.Layout(width="110px")), load, drop]
+        )
 
     @staticmethod
     def _button(description: str, icon: str, tooltip: str, act: Callable[[], None]) -> w.Button:

@@ -53,6 +53,21 @@ STYLE: Any = {
 """Matplotlib settings of every picture; ``matplotlib.rc_context(STYLE)`` around one's own."""
 
 
+class Formula(str):
+    """Text between dollars that is meant as a formula."""
+
+    __slots__ = ()
+
+
+def plain(words: Any) -> str:
+    """Text that is drawn letter by letter: matplotlib reads what stands between two dollars as a formula.
+
+    >>> print(plain("5 $ or 6 $"))
+    5 \\$ or 6 \\$
+    """
+    return words if isinstance(words, Formula) else str(words).replace("$", r"\$")
+
+
 def _find(ax: Axes, key: str) -> Any:
     return next((artist for artist in (*ax.lines, *ax.patches, *ax.texts) if artist.get_gid() == key), None)
 
@@ -72,6 +87,8 @@ def line(ax: Axes, key: str, x: Any, y: Any, **style: Any) -> Line2D:
     """A curve known as ``key``."""
     found = _find(ax, key)
     if found is None:
+        if "label" in style:
+            style["label"] = plain(style["label"])
         (found,) = ax.plot(x, y, gid=key, **style)
     else:
         found.set_data(x, y)
@@ -92,9 +109,9 @@ def text(ax: Axes, key: str, x: float, y: float, words: str, **style: Any) -> An
     """A text known as ``key``."""
     found = _find(ax, key)
     if found is None:
-        return ax.text(x, y, words, gid=key, **style)
+        return ax.text(x, y, plain(words), gid=key, **style)
     found.set_position((x, y))
-    found.set_text(words)
+    found.set_text(plain(words))
     return found
 
 
@@ -102,9 +119,9 @@ def frame(ax: Axes, title: str, xlabel: str, ylabel: str) -> None:
     """Title and axis labels, and few ticks: text takes three quarters of a drawing's time."""
     if ax.get_xscale() == ax.get_yscale() == "linear":
         ax.locator_params(nbins=5)
-    ax.set_title(title)
-    ax.set_xlabel(xlabel)
-    ax.set_ylabel(ylabel)
+    ax.set_title(plain(title))
+    ax.set_xlabel(plain(xlabel))
+    ax.set_ylabel(plain(ylabel))
 
 
 def beside_title(ax: Axes, handles: Any = None) -> None:

@@ -15,7 +15,7 @@ from matplotlib.path import Path
 from ..decision import CHOOSERS, WEIGHING, JudgementRange, WinnerMap, ahp, judgement_ranges, winner_map
 from ..quantities import Measure, declarations, words
 from ..units import factor
-from .artists import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, area, line, new, text
+from .artists import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, area, line, new, plain, text
 from .parallel import Column, Designs, parallel_coordinates
 
 WINNER_COLOURS = (ORANGE, GREEN, PURPLE, SKY)
@@ -135,8 +135,8 @@ def front_winners(shown: ShownDecision, ax: Axes) -> Axes:
         ax.set_title("Winners on the front", pad=44)
         ax.margins(0.08)
         ax.locator_params(nbins=5)
-        ax.set_xlabel(_wrapped(objectives[0].label, 34))
-        ax.set_ylabel(_wrapped(objectives[1].label, 30) if len(objectives) == 2 else "")
+        ax.set_xlabel(plain(_wrapped(objectives[0].label, 34)))
+        ax.set_ylabel(plain(_wrapped(objectives[1].label, 30)) if len(objectives) == 2 else "")
         ax.tick_params(left=len(objectives) == 2, labelleft=len(objectives) == 2)
         place: Any = {"loc": "lower left", "bbox_to_anchor": (-0.04, 0.99), "ncols": 2, "borderaxespad": 0.2}
         legend = ax.legend(handles=[_plain_mark(ax, rule) for rule in MARKS], columnspacing=1.0, **place)
@@ -217,7 +217,7 @@ def _weight_lines(shown: ShownDecision, ax: Axes) -> None:
         ax.set(xlim=(0, 100), ylim=(0.4 - len(shown.maps), 0.75))
         ax.set_yticks([-i for i in range(len(shown.maps))], list(shown.maps))
         label = f"weight of the {shown.names[0]}  [%]; the rest is that of the {shown.names[1]}"
-        ax.set_xlabel(_wrapped(label, 90))
+        ax.set_xlabel(plain(_wrapped(label, 90)))
         ax.grid(visible=False)
 
 

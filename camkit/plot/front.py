@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..units import factor
-from .artists import BLUE, COLOURS, GREY, INK, WARNING, line, new, text
+from .artists import BLUE, COLOURS, GREY, INK, WARNING, line, new, plain, text
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,9 @@ def pareto(shown: ShownFront, ax: Axes) -> Axes:
 
 
 def _name_axes(ax: Axes, objectives: Any) -> None:
-    ax.set_xlabel(f"{objectives[0].label}\n({_better(objectives[0])})")
+    ax.set_xlabel(plain(f"{objectives[0].label}\n({_better(objectives[0])})"))
     if len(objectives) > 1:
-        ax.set_ylabel(f"{objectives[1].label}\n({_better(objectives[1])})")
+        ax.set_ylabel(plain(f"{objectives[1].label}\n({_better(objectives[1])})"))
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def weight_bars(judged: tuple[tuple[str, ...], Any], ax: Axes) -> Axes:
     text(ax, "ratio", 98, 0.62, f"consistency ratio {ratio:.3f}", ha="right", va="center", color=INK)
     if first:
         ax.set_title("Weights")
-        ax.set_yticks([-i for i in range(len(names))], names)
+        ax.set_yticks([-i for i in range(len(names))], [plain(name) for name in names])
         ax.set(xlim=(0, 104), ylim=(0.5 - len(names), 0.9), xlabel="weight  [%]")
         ax.grid(axis="y", visible=False)
     return ax

@@ -22,6 +22,7 @@ from .artists import (
     PALE,
     PURPLE,
     WARNING,
+    Formula,
     area,
     beside_title,
     frame,
@@ -90,7 +91,7 @@ def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> A
     Vermilion, at 0: there is none, as the roller undercuts the profile or has lost contact, or no spring holds the arm.
     """
     if new(ax):
-        frame(ax, curve.title, f"{along.name}  [{along.unit}]", f"{curve.letter}  [{unit_text(curve.unit)}]")
+        frame(ax, curve.title, f"{along.name}  [{along.unit}]", Formula(f"{curve.letter}  [{unit_text(curve.unit)}]"))
     x, y, _ = _values(analysis, curve, along)
     line(ax, "dwell", x, y, color=GREY, linewidth=1.4)
     for (way, colour), part, middle in zip(AWAY_BACK, analysis.intervals, (0.25, 0.75), strict=True):

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..units import mm
-from .artists import COLOURS, GREY, INK, frame, line, new, text
+from .artists import COLOURS, GREY, INK, frame, line, new, plain, text
 
 PLACES = "ABCDE"
 """A design keeps its letter and its colour as long as it is kept."""
@@ -76,7 +76,7 @@ def measures_overlaid(kept: Kept, ax: Axes) -> Axes:
     line(ax, "first", [0, 0], [0.5, 0.5 - len(measures)], color=GREY, linewidth=1.3)
     if first:
         ax.set_title("Measures against the first design", pad=24)
-        ax.set_yticks(height, [fill(m.name, 34) for m in measures])
+        ax.set_yticks(height, [plain(fill(m.name, 34)) for m in measures])
         ax.set(ylim=(0.4 - len(measures), 0.6))
         ax.set_xlabel("difference  [%]")
         ax.locator_params(axis="x", nbins=6)

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ..quantities import Measure
 from ..units import deg, factor
 from ..watch import Look
-from .artists import BLUE, GREEN, GREY, INK, SKY, WARNING, area, beside_title, frame, line, new
+from .artists import BLUE, GREEN, GREY, INK, SKY, WARNING, Formula, area, beside_title, frame, line, new, plain
 
 ROOM = 0.5
 """How far above the first design, as a share of it, designs that a search looked at are shown."""
@@ -27,9 +27,10 @@ def unit_text(unit: str) -> str:
     return re.sub(r"\^(-?[\d.]+)", r"$^{\1}$", unit)
 
 
-def axis_label(measure: Measure) -> str:
+def axis_label(measure: Measure) -> Formula:
     """Name and unit of a measure in two lines, for a short axis."""
-    return f"{measure.name}\n[{unit_text(measure.unit)}]" if measure.unit else measure.name
+    unit = f"\n[{unit_text(measure.unit)}]" if measure.unit else ""
+    return Formula(f"{plain(measure.name)}{unit}")
 
 
 class ShownLooks(NamedTuple):

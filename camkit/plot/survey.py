@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 
 from ..quantities import words
 from ..units import factor
-from .artists import BLUE, INK, WARNING, area, frame, line, new, text
+from .artists import BLUE, INK, WARNING, area, frame, line, new, plain, text
 from .plane import NOTHING, level_curve, region_below
 
 BANDS = 8
@@ -45,7 +45,7 @@ def objective_plane(shown: ShownPlane, ax: Axes) -> Axes:
         ax.set(xlim=_ends(x), ylim=_ends(y))
         ax.grid(visible=False)
     measure = plane.study.minimise[0]
-    ax.set_title(measure.label[:1].upper() + measure.label[1:], pad=13)
+    ax.set_title(plain(measure.label[:1].upper() + measure.label[1:]), pad=13)
     _shades(ax, x, y, plane.objective / factor(measure.unit), measure.sign)
     _missed(ax, x, y, plane)
     _mark(ax, "in the sliders", shown.here, units, marker="o", markersize=13, markeredgecolor=INK)
@@ -106,7 +106,7 @@ def _legend(ax: Axes, shown: ShownPlane) -> None:
     shows = {"limit": bool(limits), "in the sliders": shown.here is not None, "optimum": True}
     marks = [mark for mark in ax.lines if shows.get(str(mark.get_gid()))]
     if limits:
-        marks[0].set_label(limits[0] if len(limits) == 1 else "a limit")
+        marks[0].set_label(plain(limits[0]) if len(limits) == 1 else "a limit")
     told, legend = [str(mark.get_label()) for mark in marks], ax.get_legend()
     if legend is None or [text.get_text() for text in legend.get_texts()] != told:
         place: Any = {"loc": "upper center", "bbox_to_anchor": (0.46, 0), "borderaxespad": 4.4, "ncols": 3}

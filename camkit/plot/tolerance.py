@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from ..quantities import Measure, words
 from ..tolerance import Curve, Tolerances
 from ..units import deg, factor
-from .artists import BLUE, COLOURS, GREY, INK, SKY, WARNING, area, frame, line, new, text
+from .artists import BLUE, COLOURS, GREY, INK, SKY, WARNING, area, frame, line, new, plain, text
 from .front import shown_objectives
 from .picture import View
 
@@ -142,7 +142,7 @@ def sobol_bars(tolerances: Tolerances, ax: Axes) -> Axes:
 
 def _label_bars(ax: Axes, names: list[str]) -> None:
     ax.set_title("Which tolerance matters")
-    ax.set_yticks([-i for i in range(len(names))], names)
+    ax.set_yticks([-i for i in range(len(names))], [plain(name) for name in names])
     ax.set(xlim=(0, 100), ylim=(0.5 - len(names), 0.6), xlabel="share of the variance  [%]")
     ax.grid(axis="y", visible=False)
     ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.2), ncols=2, columnspacing=1.2)

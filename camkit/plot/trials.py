@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, line, new, text
+from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, line, new, plain, text
 
 STYLES: Any = (
     {"color": BLUE},
@@ -38,10 +38,10 @@ def evaluations_needed(trials: Sequence[Any], ax: Axes) -> Axes:
     """
     budget = trials[0].budget
     if new(ax):
-        ax.set_title(f"{trials[0].problem}: to 1 % (filled) and to 0.1 % (hollow)")
+        ax.set_title(plain(trials[0].problem) + ": to 1 % (filled) and to 0.1 % (hollow)")
         ax.set_xscale("log")
         ax.set(xlim=(FEWEST, 5.5 * budget), ylim=(0.5 - len(trials), 0.9), xlabel="evaluations")
-        ax.set_yticks([-i for i in range(len(trials))], [t.method for t in trials])
+        ax.set_yticks([-i for i in range(len(trials))], [plain(t.method) for t in trials])
         ax.grid(axis="y", visible=False)
         ax.axvline(budget, color=GREY, linewidth=1.2)
         ax.text(0.93 * budget, 0.62, "budget", ha="right", va="center", color=GREY, fontsize=9.5)
@@ -87,7 +87,7 @@ def solved_within(target: float, problem: str | None = None) -> Callable[[Sequen
             needed = np.sort(np.concatenate([t.to(target) for t in mine]))
             line(ax, method, *_steps(needed, budget), drawstyle="steps-post", label=method, **style)
         if first:
-            ax.set_title(f"{problem or 'All problems'}, to {_percent(target)}")
+            ax.set_title(f"{plain(problem or 'All problems')}, to {_percent(target)}")
             ax.set_xscale("log")
             ax.set(xlim=(FEWEST, budget), ylim=(-2, 102), xlabel="evaluations", ylabel="runs that arrived  [%]")
             if problem is None:

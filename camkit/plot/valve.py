@@ -12,7 +12,23 @@ from ..cam.valve_train import FLAT
 from ..geometry import circle, rotated
 from ..reference import load
 from ..units import MPa, deg, mm
-from .artists import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, WARNING, area, beside_title, frame, gaps, line, new
+from .artists import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PALE,
+    PURPLE,
+    WARNING,
+    area,
+    beside_title,
+    frame,
+    gaps,
+    line,
+    new,
+    plain,
+)
 from .front import ShownFront, pareto
 
 SHOWN_RADIUS = (-10, 45)
@@ -28,7 +44,7 @@ def cam_and_follower(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
         frame(ax, f"Cam and {cam.follower.name}", "x  [mm]", "y  [mm]")
         ax.set_aspect("equal", adjustable="datalim")
         ax.plot(0, 0, "+", color=INK, markersize=14, zorder=5)
-    ax.set_title(f"Cam and {cam.follower.name}")
+    ax.set_title(plain(f"Cam and {cam.follower.name}"))
     tip = circle((0, 0), np.hypot(*whole.profile).max() / mm)
     line(ax, "tip circle", *tip, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
     area(ax, "cam", profile, facecolor=PALE, edgecolor="none", zorder=1)

@@ -1,0 +1,107 @@
+"""Text made for other readers: HTML, Markdown, CSV.  A name stays a name in each of them.
+
+Whatever is not `Html` yet is escaped on its way into HTML, so that nothing but this package's own code makes elements:
+
+>>> html("<b>{}</b>", "a < b")
+'<b>a &lt; b</b>'
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any
+
+
+class Html(str):
+    """Text that is HTML already."""
+
+    __slots__ = ()
+
+
+def escaped(text: Any) -> Html:
+    """``text`` as HTML shows it letter by letter in an element; in an attribute see `attribute`.
+
+    >>> escaped("<script>f()</script>")
+    '&lt;script&gt;f()&lt;/script&gt;'
+    """
+    return text if isinstance(text, Html) else Html(escape(str(text), quote=False))
+
+
+def attribute(name: str, text: Any) -> Html:
+    """An attribute of an element, whatever its text holds.
+
+    >>> html("<i {}>{}</i>", attribute("title", "l'arm"), "l'arm")
+    "<i title='l&#x27;arm'>l'arm</i>"
+    """
+    return Html(f"{name}='{escape(str(text), quote=True)}'")
+
+
+def html(template: str, *parts: Any, **named: Any) -> Html:
+    """``template``, which is HTML, with every part that is not `Html` escaped."""
+    return Html(template.format(*map(escaped, parts), **{name: escaped(part) for name, part in named.items()}))
+
+
+def joined(parts: Iterable[Any], between: str = "") -> Html:
+    """Parts one after the other with ``between``, which is HTML, between them.
+
+    >>> joined(["x < 1", html("<i>{}</i>", "y")], "<br>")
+    'x &lt; 1<br><i>y</i>'
+    """
+    return Html(between.join(map(escaped, parts)))
+
+
+def table(head: Sequence[Any], rows: Iterable[Sequence[Any]], caption: Any = "", style: str = "") -> Html:
+    """An HTML table; ``style`` is that of every cell.
+
+    >>> table(["law"], [["a & b"]])
+    '<table><tr><th>law</th></tr><tr><td>a &amp; b</td></tr></table>'
+    """
+    told = html("<caption>{}</caption>", caption) if caption else ""
+    return Html(
+        f"<table>{told}{_row('th', head, style) if head else ''}{joined(_row('td', r, style) for r in rows)}</table>"
+    )
+
+
+def _row(kind: str, cells: Iterable[Any], style: str) -> Html:
+    opened = html("<{} {}>", kind, attribute("style", style)) if style else f"<{kind}>"
+    return Html(f"<tr>{''.join(f'{opened}{escaped(cell)}</{kind}>' for cell in cells)}</tr>")
+
+
+_MARKDOWN = {c: f"\\{c}" for c in "\\`*_[]#|~"} | {"&": "&amp;", "<": "&lt;", ">": "&gt;", "$": "&#36;"}
+
+
+def markdown(text: Any) -> str:
+    r"""``text`` in one line that Markdown shows letter by letter, also in a cell of a table.
+
+    >>> markdown("a_b | <c>")
+    'a\\_b \\| &lt;c&gt;'
+    """
+    return "".join(_MARKDOWN.get(c, c) for c in _one_line(text))
+
+
+_FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]")
+
+
+def csv_cell(text: Any) -> str:
+    """``text`` in one line that no spreadsheet takes for a formula; a number stays as it is.
+
+    >>> csv_cell("=1+1"), csv_cell("-3.5"), csv_cell("-least radius")
+    ("'=1+1", '-3.5', "'-least radius")
+    """
+    line = _one_line(text)
+    return f"'{line}" if _FORMULA.match(line) and not _is_number(line) else line
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _one_line(text: Any) -> str:
+    """Control characters, tabs and ends of lines as blanks."""
+    return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+", " ", str(text))
