@@ -162,7 +162,7 @@ class Generation:
     study: Study
     record: Mapping[str, Any] = field(default_factory=dict)
     unkept: str = ""
-    """Why the search is not kept in its checkpoint any more, in a sentence; empty while it is."""
+    """Why the search is not kept in its checkpoint any more; empty while it is."""
 
     @cached_property
     def front(self) -> Front:
@@ -217,7 +217,7 @@ def nsga2_generations(
             try:
                 Checkpoint(number=number, seconds=seconds, **about, **_state(algorithm)).write(checkpoint)
             except OSError as error:
-                unkept = f"generation {number} could not be kept in {Path(checkpoint).name}: {why(error)}"
+                unkept = why(error)
         yield generation()
 
 
@@ -257,9 +257,13 @@ def nsga2(
     Raises ``ValueError`` for a population below 4, or generations or a seed that are no whole numbers; for a
     checkpoint that is damaged, or of another study, population, seed or version, and for one of more generations.
     """
-    told = ""
+    told = False
     for generation in nsga2_generations(study, population, generations, seed, checkpoint):
-        if generation.unkept != told:
-            told = generation.unkept
-            warnings.warn(f"{told}; the search goes on without the file", RuntimeWarning, stacklevel=2)
+        if generation.unkept and not told:
+            told = True
+            warnings.warn(
+                f"the search goes on without the file {Path(str(checkpoint)).name}: {generation.unkept}",
+                RuntimeWarning,
+                stacklevel=2,
+            )
     return generation.front

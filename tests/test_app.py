@@ -1,6 +1,7 @@
 """The panels without a page: what a person moves, types, presses and loads, against the package's own numbers."""
 
 import base64
+import errno
 import gc
 import io
 import json
@@ -39,7 +40,9 @@ from camkit import (
 )
 from camkit.app import picture as live
 from camkit.app.controls import Download, Upload, label_html
+from camkit.app.kept import unfinished
 from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
+from camkit.checkpoint import read
 from camkit.decision import CHOOSERS
 from camkit.export import from_json, to_json
 from camkit.motion import Cycloidal, Poly345
@@ -732,11 +735,15 @@ def test_a_search_that_runs_is_nobody_elses(finder):
     other = a_search(an_explorer(), generations=10000)
     assert other.resume_button.disabled
     assert other._new_files() is None
+    assert other._unkept == "the very same search runs already"
     code = "import sys; from camkit.app.kept import unfinished; sys.exit(unfinished(sys.argv[1]) is not None)"
     assert subprocess.run([sys.executable, "-c", code, finder._kind()]).returncode == 0  # another kernel
     finder.stop()
     finder.wait(10)
     assert subprocess.run([sys.executable, "-c", code, finder._kind()]).returncode == 1
+
+
+UNKEPT = "This search is not kept in a file to resume it from: {}."
 
 
 def test_a_folder_that_cannot_be_written_does_not_stop_a_search(finder, monkeypatch):
@@ -746,8 +753,201 @@ def test_a_folder_that_cannot_be_written_does_not_stop_a_search(finder, monkeypa
     monkeypatch.setattr(Path, "mkdir", refuse)
     run(finder)
     assert finder.status.value.startswith("generation 12 of 12: ")
-    assert alert(finder) == ""
+    assert alert(finder) == UNKEPT.format("read only")
     assert finder.resume_button.disabled
+    monkeypatch.undo()
+    run(finder)
+    assert alert(finder) == ""
+
+
+def leads_elsewhere(folder, elsewhere):
+    elsewhere.mkdir()
+    folder.symlink_to(elsewhere)
+
+
+def leads_nowhere(folder, elsewhere):
+    folder.symlink_to(elsewhere)
+
+
+def is_a_file(folder, elsewhere):
+    folder.write_text("mine")
+
+
+def is_somebody_elses(folder, elsewhere):
+    folder.mkdir()
+    os.chown(folder, 65534, -1)
+
+
+FOLDERS = {
+    leads_elsewhere: ".camkit is a link, which is not followed",
+    leads_nowhere: ".camkit is a link, which is not followed",
+    is_a_file: ".camkit is not a folder",
+    is_somebody_elses: "the folder .camkit belongs to somebody else",
+}
+
+
+@pytest.mark.parametrize("make", FOLDERS, ids=lambda make: make.__name__)
+def test_a_folder_that_is_not_the_searches_own_is_left_alone(finder, tmp_path, make):
+    if make is is_somebody_elses and os.geteuid() != 0:
+        pytest.skip("only root can give a folder away")
+    folder, elsewhere = Path(".camkit"), tmp_path / "elsewhere"
+    make(folder, elsewhere)
+    try:
+        run(finder)
+        assert finder.status.value.startswith("generation 12 of 12: ")
+        assert alert(finder) == UNKEPT.format(FOLDERS[make])
+        assert finder.resume_button.disabled
+        assert os.listdir(elsewhere if elsewhere.exists() else tmp_path) == []
+        assert make is not is_a_file or folder.read_text() == "mine"
+        assert make is not is_somebody_elses or os.listdir(folder) == []
+    finally:
+        shutil.rmtree(folder) if folder.is_dir() and not folder.is_symlink() else folder.unlink()
+
+
+def test_a_search_behind_a_link_is_not_resumed(finder, stopped, tmp_path):
+    finder.generations.value = 1000
+    stopped()
+    Path(".camkit").rename(tmp_path / "elsewhere")
+    Path(".camkit").symlink_to(tmp_path / "elsewhere")
+    try:
+        assert fresh().resume_button.disabled
+    finally:
+        Path(".camkit").unlink()
+
+
+def test_a_file_of_somebody_else_is_not_overwritten(finder, stopped, tmp_path):
+    """Neither a .gitignore that was there before nor a file to which a page's name leads."""
+    folder, mine = Path(".camkit"), tmp_path / "mine"
+    folder.mkdir()
+    (folder / ".gitignore").write_text("mine")
+    mine.write_text("mine")
+    finder.generations.value = 1000
+    name = next(name for name in stopped() if name.endswith(".json"))
+    (folder / name).unlink()
+    (folder / name).symlink_to(mine)
+    assert fresh().resume_button.disabled
+    stopped()
+    assert alert(finder) == UNKEPT.format("too many levels of symbolic links")
+    assert (folder / ".gitignore").read_text() == mine.read_text() == "mine"
+
+
+def test_a_disk_that_fills_up_ends_no_search(finder, stopped, monkeypatch):
+    """The generation before stays whole, and nothing half written beside it; the search can be resumed from there."""
+    write, full = Path.write_bytes, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    def fills_up(path, content):
+        if finder.progress.value >= 1:
+            write(path, content[:100])
+            raise full
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", fills_up)
+    finder.generations.value = 1000
+    files = stopped()
+    assert alert(finder) == UNKEPT.format("no space left on device")
+    assert [Path(name).suffix for name in files] == ["", ".json", ".npz"]
+    monkeypatch.undo()
+    assert read(Path(".camkit") / files[-1]).number == 1
+    assert not finder.resume_button.disabled
+
+
+def test_a_disk_that_is_full_from_the_start_ends_no_search(finder, monkeypatch):
+    def full(kept, text):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(sys.modules["camkit.app.kept"].Kept, "begin", full)
+    run(finder)
+    assert finder.status.value.startswith("generation 12 of 12: ")
+    assert alert(finder) == UNKEPT.format("no space left on device")
+    assert os.listdir(".camkit") == [".gitignore"]
+
+
+def test_a_folder_that_vanishes_ends_no_search(finder, monkeypatch):
+    monkeypatch.setattr(sys.modules["camkit.app.search"], "REPORT", 0.0)
+    finder.generations.value = 60
+    finder.progress.observe(lambda change: change.new == 3 and shutil.rmtree(".camkit"), "value")
+    run(finder)
+    finder.progress.unobserve_all("value")
+    assert finder.status.value.startswith("generation 60 of 60: ")
+    assert alert(finder) == UNKEPT.format("no such file or directory")
+    assert not Path(".camkit").exists()
+
+
+def test_what_a_killed_kernel_left_half_written_is_removed(finder, stopped):
+    """When the next page opens; not what somebody still writes."""
+    finder.generations.value = 1000
+    name = next(name for name in stopped() if name.endswith(".npz"))
+    for part in (f".{name}.1.part", ".gone.npz.1.part"):
+        (Path(".camkit") / part).write_bytes(b"half")
+    held = unfinished(finder._kind())
+    assert sorted(os.listdir(".camkit"))[:2] == [".gitignore", name.replace("npz", "json")]
+    (Path(".camkit") / f".{name}.1.part").write_bytes(b"half")
+    fresh()
+    assert f".{name}.1.part" in os.listdir(".camkit")
+    held.let_go()
+    fresh()
+    assert f".{name}.1.part" not in os.listdir(".camkit")
+
+
+PAGES = {
+    "no text": lambda page: b"\xff\xfe",
+    "no JSON": lambda page: b"{",
+    "a list": lambda page: b"[]",
+    "a number": lambda page: b"1",
+    "nested": lambda page: b"[" * 100_000,
+    "a page of ten million letters": lambda page: b" " * 10_000_000,
+    "a huge number": lambda page: page.replace(b'"seed": 1', b'"seed": ' + b"9" * 5000),
+    "space that is a number": lambda page: edited(page, space=1),
+    "bounds that are a number": lambda page: edited(page, space={"lift_arm": 1}),
+    "no judgements": lambda page: edited(page, judgements={}),
+    "judgements that are a number": lambda page: edited(page, judgements=1),
+    "a method that is not there": lambda page: edited(page, judgements=judged_by("x")),
+    "a method that is nested": lambda page: edited(page, judgements=judged_by([[]])),
+    "a design that is a number": lambda page: edited(page, design=1),
+    "numbers that are text": lambda page: edited(page, numbers={"lift_arm": "<b>"}),
+    "numbers that are too large": lambda page: edited(page, numbers={"lift_arm": 1e300}),
+    "settings that are a number": lambda page: edited(page, search=1),
+    "no settings": lambda page: edited(page, search={}),
+    "a menu that is not there": lambda page: edited(page, search={**json.loads(page)["search"], "mode": "x"}),
+    "a huge population": lambda page: edited(page, search={**json.loads(page)["search"], "population": 10**400}),
+}  # fmt: skip
+
+
+def edited(page, **changes):
+    return json.dumps({**json.loads(page), **changes}).encode()
+
+
+def judged_by(method):
+    return {"criteria": [[1, 1, 1], method], "importance": [[1], method]}
+
+
+@pytest.fixture(scope="module")
+def a_stopped_search(workshop):
+    """Its page, and its checkpoint."""
+    workshop.generations.value = 10000
+    press(workshop, "Optimise")
+    workshop.stop()
+    workshop.wait(30)
+    return {path.name: path.read_bytes() for path in Path(".camkit").glob("*-*")}
+
+
+@pytest.mark.parametrize("change", PAGES.values(), ids=PAGES)
+def test_a_page_that_somebody_made_is_refused_and_the_lock_let_go(a_stopped_search, finder, change):
+    Path(".camkit").mkdir(exist_ok=True)
+    for name, content in a_stopped_search.items():
+        (Path(".camkit") / name).write_bytes(change(content) if name.endswith("json") else content)
+    before = finder._page()
+    press(finder, "Resume")
+    finder.wait(10)
+    assert alert(finder).startswith("This cannot be resumed: ")
+    assert len(alert(finder)) < 600
+    assert finder._page() == before
+    for _ in range(2):  # nobody holds it, and a search that follows begins anew
+        held = unfinished(finder._kind())
+        held.let_go()
+    run(finder, generations=12)
+    assert finder.status.value.startswith("generation 12 of 12: ")
+    assert alert(finder) == ""
 
 
 def test_the_status_tells_the_time_that_is_left():

@@ -15,7 +15,7 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..checkpoint import taken_up
+from ..checkpoint import taken_up, why
 from ..decision import CHOOSERS, ahp, judgement_matrix
 from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
@@ -102,6 +102,7 @@ class Search(Panel):
         self.winner: int | None = None
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
+        self._unkept = ""
         self._followers: list[Callable[[], None]] = []
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(self._clicked)
@@ -193,6 +194,7 @@ class Search(Panel):
         except ValueError as refusal:
             tell(self._banner, f"This cannot be searched: {refusal}.")
             return
+        self._unkept = ""
         self._begin(self._new_files())
 
     def resume(self) -> None:
@@ -210,8 +212,13 @@ class Search(Panel):
             tell(self._banner, f"This cannot be resumed: {refusal}.")
         else:
             self._put_back(page, design)
-            self.study = study
+            self.study, self._unkept = study, ""
             self._begin(kept)
+
+    def _tell(self, message: str) -> None:
+        """Say ``message``, and that the search is not kept if it is not."""
+        unkept = f"This search is not kept in a file to resume it from: {self._unkept}." if self._unkept else ""
+        tell(self._banner, f"{message}. {unkept}" if message and unkept else message or unkept)
 
     def _offer_resume(self) -> None:
         kept = unfinished(self._kind())
@@ -223,7 +230,7 @@ class Search(Panel):
         return self._thread is not None and self._thread.is_alive()
 
     def _begin(self, kept: Kept | None) -> None:
-        tell(self._banner, "")
+        self._tell("")
         self._stop.clear()
         self.run_button.disabled = self.resume_button.disabled = True
         self.stop_button.disabled = False
@@ -238,12 +245,15 @@ class Search(Panel):
         return f"{type(start).__name__}-{_short(json.dumps(page))}"
 
     def _new_files(self) -> Kept | None:
-        """Where this search is to be kept, with the page beside it; ``None`` where that is not possible."""
+        """Where this search is to be kept, with the page beside it; ``None``, and a reason, if that is not possible."""
         try:
             page = json.dumps(self._page())
-        except ValueError:  # a law of one's own, which no file can hold
-            return None
-        return keep(f"{self._kind()}-{_short(page)}", page)
+            return keep(f"{self._kind()}-{_short(page)}", page)
+        except OSError as error:
+            self._unkept = why(error)
+        except ValueError as refusal:  # a law of one's own, which no file can hold
+            self._unkept = str(refusal)
+        return None
 
     def _page(self) -> dict[str, Any]:
         """All that the study depends on, to the last bit: numbers in SI, where a saved study has them in units."""
@@ -273,20 +283,26 @@ class Search(Panel):
         damaged = ValueError(f"the file {kept.page.name} is damaged; delete it to begin anew")
         try:
             page = json.loads(kept.text())
+        except (ValueError, RecursionError):
+            raise damaged from None
+        try:
             settings, judgements = page["search"], page["judgements"]
             self._check_settings(settings)
             design = changed(export.from_json(page["design"], type(self.explorer.start)), page["numbers"])
             space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
-            said = {name: judgements[name] for name in self._judges()}
-            self._check_judgements({name: upper for name, (upper, _) in said.items()})
-            weighed = {name: ahp(upper or [[1]], method).weights for name, (upper, method) in said.items()}
+            said = {name: (panel, *judgements[name]) for name, panel in self._judges().items()}
+            self._check_judgements({name: upper for name, (_, upper, _) in said.items()})
+            weighed = {name: ahp(upper or [[1]], method).weights for name, (_, upper, method) in said.items()}
+            if not all(method in dict(panel.method.options).values() for panel, _, method in said.values()):
+                raise damaged
             weights = {"weights": weighed["criteria"]} if self.criteria else {}
-            make = self.studies[settings["mode"]]
             size = [settings[name] for name in ("population", "generations", "seed")]
-        except (json.JSONDecodeError, KeyError, TypeError, AttributeError):
+            study = self.studies[settings["mode"]](design, reference=self.explorer.start, space=space, **weights)
+            taken_up(kept.checkpoint, study, *size)
+        except ValueError:
+            raise
+        except Exception:  # whatever else a file that somebody made can lead to
             raise damaged from None
-        study = make(design, reference=self.explorer.start, space=space, **weights)
-        taken_up(kept.checkpoint, study, *size)
         return page, design, study
 
     def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
@@ -348,7 +364,8 @@ class Search(Panel):
                 f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
                 f"hypervolume {self.front.hypervolume(reference):.6g}{'' if last else _left(generation)}"
             )
-        tell(self._banner, self.front.message if last else "")
+        self._unkept = generation.unkept or self._unkept
+        self._tell(self.front.message if last else "")
         self._show_front()
 
     def _judged(self) -> None:
