@@ -16,7 +16,7 @@ from .plane import Plane
 from .quantities import Design, Measure, declarations, fails, quantity
 from .reference import load
 from .study import Study
-from .units import GPa, MPa, kg, kW, m, mm, rpm
+from .units import GPa, MPa, deg, kg, kW, m, mm, rpm
 
 TORQUE_NUMBER = 9550
 """Handbooks' ``M [N m] = 9550 P [kW] / n [rpm]``; exact is 30000 / pi = 9549.2966, the paper uses 9550."""
@@ -61,8 +61,8 @@ class UniversalJointShaft(Design):
     >>> print(f"{tube.area / mm**2:.0f} mm^2, {tube.shear_stress / MPa:.3f} MPa, {tube.critical_speed / rpm:.1f} rpm")
     5325 mm^2, 83.564 MPa, 2974.7 rpm
 
-    Raises ``ValueError`` for a quantity that is not positive, a bore as wide as the tube, or a highest speed
-    below the lowest.
+    Raises ``ValueError`` for a quantity that is not positive, a bore as wide as the tube, a highest speed
+    below the lowest, or a joint angle of 90 deg or more.
     """
 
     outer_diameter: float = quantity("D", 128.64, 108, 140, "mm", "tube, outside")
@@ -78,6 +78,7 @@ class UniversalJointShaft(Design):
     allowable_shear: float = quantity("tau_p", 98, 20, 300, "MPa", "shear stress that is allowed")
     allowable_twist: float = quantity("theta_p", 1, 0.1, 2, "deg/m", "twist over length that is allowed")
     speed_margin: float = quantity("s", 1.5, 1.25, 2, "", "critical speed over highest speed; the paper: 1.25 to 1.5")
+    joint_angle: float = quantity("beta", 0, 0, 45, "deg", "of the joint before the tube; the paper: none", at_least=0)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -90,6 +91,10 @@ class UniversalJointShaft(Design):
             raise ValueError(
                 f"the lowest speed n_min is {self.speed / rpm:.6g} rpm; "
                 f"it must not be above the highest speed n_max of {self.max_speed / rpm:.6g} rpm"
+            )
+        if fails(self.joint_angle < np.pi / 2):
+            raise ValueError(
+                f"the joint angle beta is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
             )
 
     def made_of(self, name: str) -> UniversalJointShaft:
@@ -106,7 +111,7 @@ class UniversalJointShaft(Design):
 
     @property
     def torque(self) -> Any:
-        """``M = 9550 K_A P / n`` with kW and rpm, N m; 0.0074 % above `exact_torque`."""
+        """In the shaft before the joint, ``M = 9550 K_A P / n`` with kW and rpm, N m; 0.0074 % above `exact_torque`."""
         return TORQUE_NUMBER * self.service_factor * (self.power / kW) / (self.speed / rpm)
 
     @property
@@ -115,9 +120,21 @@ class UniversalJointShaft(Design):
         return self.service_factor * self.power / self.speed
 
     @property
+    def tube_torque(self) -> Any:
+        """The largest torque in the tube over a turn, ``M / cos(beta)``, N m.
+
+        Behind a joint the torque swings between ``M cos(beta)`` and this, twice a turn.  The couple that the joint
+        bends the tube with is nothing where the torque is largest: with ``psi`` the tube's angle from where it is
+        least, torque and couple together are ``M / sqrt(1 - sin(beta)^2 sin(psi)^2)`` (Tresca), so this is the most
+        of both.  A joint behind the tube with forks in phase adds nothing unless its angle is larger; see
+        `DoubleUniversalJoint` for any other drive.
+        """
+        return self.torque / np.cos(self.joint_angle)
+
+    @property
     def stiff_difference(self) -> Any:
-        """``D^4 - d^4`` at which the twist is just what is allowed, m^4: ``32 M / (pi G theta_p)``."""
-        return 32 * self.torque / (np.pi * self.shear_modulus * self.allowable_twist)
+        """``D^4 - d^4`` at which the twist is just what is allowed, m^4: ``32 M / (pi G theta_p cos(beta))``."""
+        return 32 * self.tube_torque / (np.pi * self.shear_modulus * self.allowable_twist)
 
     def stiff_diameter(self, inner_diameter: Any) -> Any:
         """Outer diameter at which the twist is just what is allowed, m (see `stiff_difference`)."""
@@ -144,10 +161,11 @@ class ShaftAnalysis:
 
     @cached_property
     def buildable(self) -> Any:
-        """Whether every quantity is possible, the bore narrower than the tube, the speeds in order."""
+        """Whether every quantity is possible, the bore inside the tube, speeds in order and the joint able to turn."""
         s = self.shaft
         possible = [q.allows(getattr(s, name)) for name, q in declarations(s).items()]  # type: ignore[union-attr]
-        return reduce(np.logical_and, possible, (s.inner_diameter < s.outer_diameter) & (s.speed <= s.max_speed))
+        in_order = (s.inner_diameter < s.outer_diameter) & (s.speed <= s.max_speed) & (s.joint_angle < np.pi / 2)
+        return reduce(np.logical_and, possible, in_order)
 
     @cached_property
     def _outer(self) -> Any:
@@ -175,18 +193,26 @@ class ShaftAnalysis:
 
     @property
     def torque(self) -> Any:
-        """``M = 9550 K_A P / n``, N m."""
+        """Before the joint, ``M = 9550 K_A P / n``, N m."""
         return self.shaft.torque
 
     @cached_property
+    def tube_torque(self) -> Any:
+        """The largest in the tube, ``M / cos(beta)``, N m (see `UniversalJointShaft.tube_torque`)."""
+        return np.where(self.buildable, self.shaft.tube_torque, np.nan)[()]
+
+    @cached_property
     def shear_stress(self) -> Any:
-        """At the tube's surface, ``tau = M / W_n``, ``W_n = pi D^3 [1 - (d / D)^4] / 16 = 2 I_p / D``, Pa."""
-        return self.torque * self._outer / (2 * self.polar_moment)
+        """At the tube's surface, ``tau = M_t / W_n``, ``W_n = pi D^3 [1 - (d / D)^4] / 16 = 2 I_p / D``, Pa.
+
+        ``M_t`` is the `tube_torque`; no bending couple makes more of it.
+        """
+        return self.tube_torque * self._outer / (2 * self.polar_moment)
 
     @cached_property
     def twist(self) -> Any:
-        """Over the length, ``theta = M / (G I_p)``, rad/m."""
-        return self.torque / (self.shaft.shear_modulus * self.polar_moment)
+        """Over the length at the largest torque, ``theta = M_t / (G I_p)``, rad/m."""
+        return self.tube_torque / (self.shaft.shear_modulus * self.polar_moment)
 
     @cached_property
     def critical_speed(self) -> Any:
@@ -252,6 +278,7 @@ def _margin(use: Measure) -> Measure:
 
 tube_area = _measure("area of the tube", "mm^2", "area")
 tube_mass = _measure("mass of the tube", "kg", "mass")
+tube_torque = _measure("largest torque in the tube", "N m", "tube_torque")
 shear_stress = _measure("shear stress", "MPa", "shear_stress")
 twist = _measure("twist", "deg/m", "twist")
 critical_speed = _measure("critical speed", "rpm", "critical_speed")
@@ -268,7 +295,7 @@ UTILISATIONS = (shear_utilisation, twist_utilisation, speed_utilisation, bucklin
 MARGINS = tuple(_margin(use) for use in UTILISATIONS)
 """What each limit leaves."""
 
-TUBE_NUMBERS = (tube_area, tube_mass, shear_stress, twist, critical_speed, buckling_stress, *UTILISATIONS)
+TUBE_NUMBERS = (tube_area, tube_mass, tube_torque, shear_stress, twist, critical_speed, buckling_stress, *UTILISATIONS)
 """What a designer of the tube wants to read."""
 
 SHAFT_MEASURES = (*TUBE_NUMBERS, *MARGINS)
@@ -311,6 +338,9 @@ def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Any = Non
     >>> tube = lightest_shaft()
     >>> print(f"{tube.outer_diameter / mm:.6f} mm, {tube.analyse().area / mm**2:.6f} mm^2")
     129.190698 mm, 4776.191895 mm^2
+    >>> behind_a_joint = lightest_shaft(UniversalJointShaft(joint_angle=20*deg))
+    >>> print(f"{behind_a_joint.outer_diameter / mm:.3f} mm")
+    130.409 mm
 
     Raises ``ValueError`` where no tube within the bounds is stiff enough, or another limit than the twist governs.
     """

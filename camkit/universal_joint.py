@@ -299,6 +299,23 @@ class DoubleUniversalJointAnalysis:
         return self.output_torque * self.second.output_couple
 
     @cached_property
+    def intermediate_couples(self) -> tuple[Any, Any]:
+        """Couples that bend the intermediate shaft, at its first and at its second joint, N m."""
+        first = self.drive.torque / self.first.ratio * self.first.output_couple
+        return first, self.intermediate_torque * self.second.input_couple
+
+    @cached_property
+    def equivalent_torque(self) -> Any:
+        """Torque that would strain the intermediate shaft as torque and bending do, ``sqrt(T^2 + C^2)`` (Tresca), N m.
+
+        At the end where it is larger; between its ends the couple is never larger than at one of them.  Behind a
+        joint of ``beta`` alone it is ``T / cos(beta)`` at most, where nothing bends.
+        """
+        first, second = self.intermediate_couples
+        at_first = np.hypot(self.drive.torque / self.first.ratio, first)
+        return np.maximum(at_first, np.hypot(self.intermediate_torque, second))
+
+    @cached_property
     def second_order(self) -> Any:
         """Second order of the driven shaft's `lead`, ``tan(beta_e / 2)^2`` of the equivalent angle, rad.
 
@@ -361,6 +378,8 @@ UNIVERSAL_JOINT_MEASURES = (
 peak_intermediate_acceleration = _peak(
     "peak acceleration of the intermediate shaft", "rad/s^2", "intermediate_acceleration"
 )
+peak_intermediate_torque = _peak("peak torque of the intermediate shaft", "N m", "intermediate_torque")
+peak_equivalent_torque = _peak("peak equivalent torque of the intermediate shaft", "N m", "equivalent_torque")
 equivalent_angle = _peak("equivalent angle", "deg", "equivalent_angle")
 torsional_excitation = _peak("torsional excitation", "rad/s^2", "torsional_excitation")
 inertial_excitation = _peak("inertial excitation", "rad/s^2", "inertial_excitation")
@@ -368,6 +387,8 @@ inertial_excitation = _peak("inertial excitation", "rad/s^2", "inertial_excitati
 DOUBLE_UNIVERSAL_JOINT_MEASURES = (
     *UNIVERSAL_JOINT_MEASURES,
     peak_intermediate_acceleration,
+    peak_intermediate_torque,
+    peak_equivalent_torque,
     equivalent_angle,
     torsional_excitation,
     inertial_excitation,

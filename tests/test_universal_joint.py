@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from camkit.shaft import UniversalJointShaft
 from camkit.units import deg, rpm
 from camkit.universal_joint import (
     DOUBLE_UNIVERSAL_JOINT_MEASURES,
@@ -16,8 +17,10 @@ from camkit.universal_joint import (
     fluctuation,
     inertial_excitation,
     peak_acceleration,
+    peak_equivalent_torque,
     peak_input_couple,
     peak_intermediate_acceleration,
+    peak_intermediate_torque,
     peak_output_couple,
     peak_torque,
     slowest,
@@ -197,6 +200,50 @@ def test_couples_against_vectors(bend) -> None:
     assert abs(along) == pytest.approx(abs(a.output_couple), abs=1e-9 * size)
     assert peak_input_couple(a) == pytest.approx(250.0 * np.tan(bend), rel=1e-6)
     assert peak_torque(a) == pytest.approx(250.0 / np.cos(bend), rel=1e-6)
+
+
+def passed_on(axis: np.ndarray, torque: np.ndarray, pin: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """The couple that a frictionless cross passes on, square to both pins, with ``torque`` along ``axis``."""
+    normal = np.cross(pin, other)
+    return (torque / (normal @ axis))[:, None] * normal
+
+
+@pytest.mark.parametrize("bend", [5 * deg, 15 * deg, 20 * deg, 44 * deg])
+def test_torque_and_bending_of_the_shaft_behind_a_joint_over_a_turn(bend) -> None:
+    """The vectors added up: torque ``T cos .. T / cos``, couple at most ``T sin``, none where the torque is largest."""
+    axis = shaft(bend)
+    driver = pin(shaft(0), TURN)
+    passed = passed_on(shaft(0), np.full(len(TURN), 250.0), driver, driven_pin(axis, driver))
+    torque = passed @ axis
+    couple = np.linalg.norm(passed - torque[:, None] * axis, axis=1)
+    assert (torque.min(), torque.max()) == pytest.approx((250 * np.cos(bend), 250 / np.cos(bend)), rel=1e-6)
+    assert couple.max() == pytest.approx(250 * np.sin(bend), rel=1e-6)
+    assert couple[np.argmax(torque)] == pytest.approx(0, abs=1e-9)
+    assert np.linalg.norm(passed, axis=1).max() == pytest.approx(250 / np.cos(bend), rel=1e-6)
+    a = DoubleUniversalJoint(first_angle=bend, second_angle=0.0, torque=250.0).analyse(len(TURN))
+    assert a.equivalent_torque == pytest.approx(np.linalg.norm(passed, axis=1), rel=1e-10)
+    assert peak_intermediate_torque(a) == pytest.approx(torque.max(), rel=1e-12)
+    assert UniversalJointShaft(joint_angle=bend).tube_torque == pytest.approx(
+        UniversalJointShaft().torque / 250 * peak_equivalent_torque(a), rel=1e-6
+    )
+
+
+@pytest.mark.parametrize(("first", "second", "phase"), DRIVES)
+def test_the_intermediate_shaft_between_two_joints_over_a_turn(first, second, phase) -> None:
+    """Torque and bending at both its ends, and at places between them, from crosses of vectors."""
+    middle_axis, last_axis = shaft(first), shaft(first - second)
+    driver = pin(shaft(0), TURN)
+    middle = driven_pin(middle_axis, driver)
+    start = passed_on(shaft(0), np.full(len(TURN), 250.0), driver, middle)
+    other = pin(middle_axis, angle_of(middle_axis, middle) + phase)
+    end = passed_on(middle_axis, start @ middle_axis, other, driven_pin(last_axis, other))
+    along = np.array([np.linalg.norm(start + share * (end - start), axis=1) for share in np.linspace(0, 1, 21)])
+    a = DoubleUniversalJoint(first_angle=first, second_angle=second, phase=phase, torque=250.0).analyse(len(TURN))
+    assert a.equivalent_torque == pytest.approx(along.max(0), rel=1e-10)
+    if phase == 0 and second <= first:
+        assert peak_equivalent_torque(a) == pytest.approx(250 / np.cos(first), rel=1e-6)
+    if first == second and phase == 90 * deg:  # badly put together: both at once
+        assert peak_equivalent_torque(a) == pytest.approx(250 / np.cos(first) ** 2, rel=1e-6)
 
 
 def test_power_is_kept() -> None:

@@ -152,7 +152,7 @@ def test_the_joints_follow_their_sliders(book: Workbook) -> None:
         first_angle=15 * deg,
         second_angle=12 * deg,
         speed=1000 * rpm,
-        torque=START.power / START.max_speed,
+        torque=START.torque,
         inertia=START.analyse().inertia,
     )
     now = first.replace(phase=90 * deg).analyse()
