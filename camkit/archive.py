@@ -163,7 +163,7 @@ def _judged(study: Study, u: np.ndarray) -> Archive:
     built = np.isfinite(evaluation.f).all(-1)
     mantissa, exponent = np.frexp(evaluation.f)
     f = np.ldexp(np.round(mantissa * DIGITS) / DIGITS, exponent)
-    return Archive(u, f, np.where(built, np.maximum(evaluation.g, 0).sum(-1), np.inf))
+    return Archive(u, f, np.where(built, evaluation.missed.sum(-1), np.inf))
 
 
 def _joined(first: Archive, second: Archive) -> Archive:

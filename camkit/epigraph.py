@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from .quantities import Measure, PeakMeasure
-from .study import Study, WeightedSum
+from .study import KEPT, Study, WeightedSum
 
 STEP = 1e-6
 """Step of a central difference, as a share of the bounds' width."""
@@ -24,8 +24,6 @@ SEEN, NEAR = 100, 0.02
 """Of each curve SLSQP sees at least so many points, evenly, and all that come this near to their bound."""
 ROUNDS, STEPS = 20, 100
 """How often points are added at most, and how many steps SLSQP may take each time."""
-KEPT = 1e-11
-"""An inequality that is broken by less, as a share of its limit, is kept."""
 
 
 def parts_of(measure: Measure) -> list[tuple[float, Measure]]:

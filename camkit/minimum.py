@@ -17,8 +17,9 @@ from scipy.stats import qmc
 
 from .epigraph import Epigraph, parts_of
 from .quantities import Measure, PeakMeasure, Quantity, counted, declarations, words
-from .study import Evaluation, Study
+from .study import KEPT, Evaluation, Study
 from .units import deg
+from .watch import unwatched
 
 CLOSE = 1e-4
 """A peak or a limit is active if it is reached to within this share of it."""
@@ -30,8 +31,8 @@ SPARE = 3
 """How many more starts there may be if no descent ended at a design that keeps every limit."""
 CROWD = 32
 """How many random designs compete to be a further start."""
-TRIES, INSIDE = 4, 1e-9
-"""How often limits are tightened until the result keeps them, and how far inside them it is aimed at, as a share."""
+TRIES = 4
+"""How often limits are tightened until the result keeps them; it is aimed at half of ``KEPT`` inside them."""
 
 
 class Active(NamedTuple):
@@ -64,6 +65,8 @@ class Minimum:
     ends: tuple[float, ...]
     active: tuple[Active, ...]
     message: str
+    descended: np.ndarray | None = None
+    """Free values where a descent from ``x`` ends; ``None`` after a search that is a descent itself."""
 
     @property
     def design(self) -> Any:
@@ -87,6 +90,7 @@ def minimise(
       descent ends at a design that keeps every limit, a few more begin at random.
     - ``"de"`` (differential evolution, scipy), ``"ga"`` (pymoo) and ``"competitive"`` (`CompetitiveAlgorithm`, with a
       ``narrowing`` of 0.9 that is not its paper's) need no slopes and no start: they look at about ``designs`` designs.
+      How far they came is then checked by a descent from their result; the message says it, ``descended`` has its end.
 
     ``recheck``: how many angles the result is judged on, if not those of the study; ``"slsqp"`` tightens limits until
     they hold there.  The result is never worse than the study's start, and repeatable for a seed.
@@ -109,7 +113,10 @@ def minimise(
         raise ValueError(f"the seed is {seed!r}; it must be a whole number of at least 0")
     starts, designs = counted(starts, "starts", 1), counted(designs, "designs", 1)
     judge = study if recheck is None else study.replace(angles=recheck)
-    return _told(judge, METHODS[method](study, judge, seed, starts, designs))
+    found = METHODS[method](study, judge, seed, starts, designs)
+    if method != "slsqp":
+        found = _checked(unwatched(study), unwatched(judge), found)
+    return _told(judge, found)
 
 
 class _Found(NamedTuple):
@@ -119,11 +126,12 @@ class _Found(NamedTuple):
     evaluations: int
     ends: tuple[float, ...]
     why: str
+    descended: np.ndarray | None = None
 
 
 def _broken(evaluation: Evaluation) -> np.ndarray:
     """By how much each design misses its limits, all together, ``(p,)``."""
-    return np.maximum(evaluation.g, 0).sum(-1)
+    return np.asarray(evaluation.missed.sum(-1))
 
 
 def _merit(evaluation: Evaluation) -> tuple[float, float]:
@@ -147,15 +155,15 @@ def _start(study: Study) -> np.ndarray:
 def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
     ends, merits, evaluations = [], [], 0
     for x in islice(_starts(study, seed), starts + SPARE):
-        end, used, _ = _descent(study, x, ROUGH)
+        end, used, _ = _descent(study, x, ROUGH, 2 * ROUGH)
         ends.append(end)
         merits.append(_merit(study.evaluate(end)))
         evaluations += used
-        if len(ends) >= starts and min(merits)[0] <= SAME:
+        if len(ends) >= starts and min(merits)[0] == 0:
             break
     best, used, finished = _tightened(study, judge, _better(judge, *ends))
     stopped = "the slopes show no way down" if finished else "no step made the design better"
-    f = tuple(f if broken <= SAME else np.inf for broken, f in merits)
+    f = tuple(f if broken == 0 else np.inf for broken, f in merits)
     return _Found(best, evaluations + used, f, stopped)
 
 
@@ -171,12 +179,12 @@ def _descent(study: Study, x: np.ndarray, precision: float, margins: Any = 0.0) 
 
 def _tightened(study: Study, judge: Study, x: np.ndarray) -> tuple[np.ndarray, int, bool]:
     """The exact end of a descent, its limits tightened until the result keeps them on the judge's angles."""
-    margins, used, finished, ends = np.full(len(study.limits), INSIDE), 0, False, [x]
+    margins, used, finished, ends = np.full(len(study.limits), KEPT / 2), 0, False, [x]
     for _ in range(TRIES):
         end, more, finished = _descent(study, ends[-1], EXACT, margins)
         used += more
         ends.append(end)
-        broken = np.maximum(judge.evaluate(end).g[0], 0)
+        broken = judge.evaluate(end).missed[0]
         if not broken.any() or not np.isfinite(broken).all():
             break
         margins = margins + 1.1 * broken
@@ -263,6 +271,13 @@ def _competitive(study: Study, judge: Study, seed: int, starts: int, designs: in
     return _evolution(CompetitiveAlgorithm(narrowing=0.9), 22, study, judge, seed, designs)
 
 
+def _checked(study: Study, judge: Study, found: _Found) -> _Found:
+    """With where a descent from what was found ends; its designs are not counted."""
+    if not np.isfinite(study.evaluate(found.x).f).all():
+        return found
+    return found._replace(descended=_tightened(study, judge, found.x)[0])
+
+
 METHODS: dict[str, Callable[[Study, Study, int, int, int], _Found]] = {
     "slsqp": _slsqp,
     "de": _de,
@@ -281,8 +296,24 @@ def _told(study: Study, found: _Found) -> Minimum:
     if feasible and len(found.ends) > 1:
         same = sum(abs(end - min(found.ends)) <= SAME * abs(min(found.ends)) for end in found.ends)
         words.append(f"{same} of {len(found.ends)} starts ended with this objective, to {SAME:.1%} of it.")
+    if found.descended is not None:
+        words.append(_sureness(unwatched(study), evaluation, found.descended))
     f, message = float(evaluation.f[0, 0]), " ".join(words)
-    return Minimum(study, evaluation.x[0], f, feasible, found.evaluations, found.ends, active, message)
+    x = evaluation.x[0]
+    return Minimum(study, x, f, feasible, found.evaluations, found.ends, active, message, found.descended)
+
+
+def _sureness(study: Study, found: Evaluation, descended: np.ndarray) -> str:
+    """How a design compares with the end of a descent from it."""
+    end = study.evaluate(descended)
+    before, after = float(found.f[0, 0]), float(end.f[0, 0])
+    gain = (before - after) / abs(before) if before else before - after
+    text = study.minimise[0].text(study.minimise[0].sign * after)
+    if end.feasible[0] and not found.feasible[0]:
+        return f"A descent from there ends at one that keeps every limit, with {text}."
+    if not end.feasible[0] or not gain > SAME:
+        return "A descent from there ends no better: it is the best of its neighbours, if perhaps not of all designs."
+    return f"A descent from there ends at {text}, {100 * gain:.2g} % better: this search had not come to the end."
 
 
 def _held(active: tuple[Active, ...]) -> str:
@@ -295,15 +326,12 @@ def _held(active: tuple[Active, ...]) -> str:
 
 def _missed(study: Study, evaluation: Evaluation) -> str:
     """Which limit a design misses by most."""
-    if not np.isfinite(evaluation.f).all():
-        return f"No design was found for which there is a {study.minimise[0].name}: none can be built or used."
-    g = evaluation.g[0]
-    measure, limit, sense = study.limits[int(np.argmax(g))]
-    bound = "at most" if sense > 0 else "at least"
-    return (
-        "No design was found that keeps every limit; this one misses the "
-        f"{measure.name} of {bound} {measure.text(limit)} by {100 * g.max():.3g} % of it."
-    )
+    known, missed = np.isfinite(evaluation.g).all(), evaluation.missed.any()
+    nearest = f"this one misses {study.worst_miss(evaluation.g[0])}." if known and missed else ""
+    if np.isfinite(evaluation.f).all():
+        return f"No design was found that keeps every limit; {nearest}"
+    none = f"No design was found for which there is a {study.minimise[0].name}"
+    return f"{none}; {nearest}" if nearest else f"{none}: none can be built or used."
 
 
 def _listed(items: list[str]) -> str:

@@ -40,7 +40,7 @@ class StudyProblem(Problem):
     def _evaluate(self, x: np.ndarray, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
         evaluation = self.study.evaluate(x)
         out["F"] = np.minimum(evaluation.f, WORST)
-        out["G"] = np.minimum(evaluation.g, WORST)
+        out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
 
 
 def on_grid(shares: np.ndarray) -> np.ndarray:
@@ -129,14 +129,9 @@ def _why_empty(evaluation: Evaluation, study: Study) -> str:
     built = np.isfinite(evaluation.f).all(-1)
     if not built.any():
         return "no design that was looked at can be built; widen or move the bounds"
-    g = np.where(built[:, None], evaluation.g, np.inf)
-    nearest = np.argmin(np.maximum(g, 0).sum(-1))
-    measure, limit, sense = study.limits[int(np.argmax(g[nearest]))]
-    missed = g[nearest].max() * (abs(limit) or 1.0)
-    return (
-        f"no design that was looked at keeps every limit; the nearest misses the {measure.name} "
-        f"{'of at most' if sense > 0 else 'of at least'} {measure.text(limit)} by {measure.text(missed)}"
-    )
+    nearest = np.argmin(np.where(built, evaluation.missed.sum(-1), np.inf))
+    missed = study.worst_miss(evaluation.g[nearest])
+    return f"no design that was looked at keeps every limit; the nearest misses {missed}"
 
 
 def reference_point(study: Study, n: int = 256) -> np.ndarray:

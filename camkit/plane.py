@@ -15,9 +15,6 @@ from .study import Evaluation, Study
 STEP = 1e-6
 """Step of a difference, as a share of the bounds' width."""
 
-KEPT = 1e-9
-"""A limit missed by less than this share of it counts as kept: the best design lies on its limits."""
-
 
 @dataclass(frozen=True)
 class Plane:
@@ -120,8 +117,7 @@ class Plane:
         ).x.round(12) if np.isfinite(size) else start  # fmt: skip
         both = self._at(np.array([start, found]))
         chosen = self._first(both)
-        kept = np.isfinite(both.f[chosen, 0]) and (both.g[chosen] <= KEPT).all()
-        return both.x[chosen] if kept else np.full(2, np.nan)
+        return both.x[chosen] if both.feasible[chosen] else np.full(2, np.nan)
 
     @property
     def best_design(self) -> Any:
@@ -145,5 +141,4 @@ class Plane:
     @staticmethod
     def _first(evaluation: Evaluation) -> int:
         """Which design misses its limits least, and among those that miss none, is best."""
-        missed = np.where(evaluation.g > KEPT, evaluation.g, 0).sum(-1)
-        return int(np.lexsort((evaluation.f[:, 0], missed))[0])
+        return int(np.lexsort((evaluation.f[:, 0], evaluation.missed.sum(-1)))[0])

@@ -14,10 +14,7 @@ import numpy as np
 
 from .epigraph import Epigraph
 from .quantities import Measure, PeakMeasure
-from .study import Evaluation, Study, WeightedSum
-
-MARGIN = 1e-9
-"""How far inside its limits the polished design is kept, as a share of the limit, so that rounding breaks none."""
+from .study import KEPT, Evaluation, Study, WeightedSum
 
 
 @dataclass(frozen=True)
@@ -103,7 +100,7 @@ def polish(study: Study, x: Any = None) -> Polished:
     if not np.isfinite(before.f).all():
         raise ValueError("the design to polish cannot be built; start from one that a search has found")
     spelled = study.replace(minimise=(objective.spelled_out(study.analyse(start[None])),))
-    problem = Epigraph(spelled, float(before.f[0, 0]) or 1.0, MARGIN)
+    problem = Epigraph(spelled, float(before.f[0, 0]) or 1.0, KEPT)
     found = problem.descend(problem.u(start))
     after = study.evaluate(problem.x(found.u))
     if _merit(before) <= _merit(after):
@@ -123,7 +120,7 @@ def _sum_of_residuals(study: Study) -> SumOfResiduals:
 
 def _merit(evaluation: Evaluation) -> tuple[float, float]:
     """Broken limits first, then the objective."""
-    return float(np.maximum(evaluation.g, 0).sum()), float(evaluation.f[0, 0])
+    return float(evaluation.missed.sum()), float(evaluation.f[0, 0])
 
 
 def _polished(study: Study, evaluation: Evaluation, evaluations: int, message: str) -> Polished:

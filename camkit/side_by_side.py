@@ -11,6 +11,7 @@ import numpy as np
 
 from .markup import Html, attribute, html, markdown, table
 from .quantities import Choice, Measure, declarations, words
+from .study import keeps
 
 NOT_MET = "not met"
 BOLD = "Bold: the best of a line."
@@ -150,5 +151,5 @@ def _measured(measure: Measure, analyses: Sequence[Any], senses: Mapping[Measure
     value, side = limits.get(measure, (np.inf, 1))
     limit = f"{'at most' if side > 0 else 'at least'} {measure.text(value)}" if measure in limits else ""
     # A number that is not there keeps no limit, as in a study; without a limit there is none to miss.
-    missed = tuple(measure in limits and not side * (v - value) <= 0 for v in values)
+    missed = tuple(measure in limits and not keeps(v, value, side) for v in values)
     return Line(measure.name, texts, tuple(text == leader for text in texts), missed, limit)

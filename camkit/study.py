@@ -52,6 +52,19 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     )
 
 
+KEPT = 1e-9
+"""A limit is kept if it is missed by no more than this share of it (of 1, if it is 0): in all of the package."""
+
+
+def keeps(value: Any, limit: float, sense: int) -> Any:
+    """Whether ``value`` keeps a limit: at most (``sense`` +1) or at least (-1) ``limit``.
+
+    >>> keeps(2.0, 2.0 * (1 - 1e-10), 1), keeps(2.0, 1.99, 1), keeps(float("nan"), 2.0, 1)
+    (True, False, False)
+    """
+    return sense * (value - limit) <= KEPT * (abs(limit) or 1.0)
+
+
 def _number(value: Any) -> bool:
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
@@ -68,9 +81,14 @@ class Evaluation:
     """Limits as ``(value - limit) / |limit|`` with a sign so that <= 0 is kept, ``(p, n_limits)``."""
 
     @property
+    def missed(self) -> np.ndarray:
+        """By how much each limit is missed, as a share of it; 0 where it is kept (see `KEPT`), ``(p, n_limits)``."""
+        return np.where(self.g > KEPT, self.g, 0.0)
+
+    @property
     def feasible(self) -> np.ndarray:
         """Which designs keep every limit, ``(p,)``."""
-        return np.isfinite(self.f).all(-1) & (self.g <= 0).all(-1)
+        return np.isfinite(self.f).all(-1) & (self.missed == 0).all(-1)
 
 
 @dataclass(frozen=True)
@@ -173,7 +191,10 @@ class Study:
         x = np.atleast_2d(np.asarray(x, dtype=float))
         if x.shape[1] != len(self.free):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
-        analysis = self.analyse(x)
+        return self.judge(x, self.analyse(x))
+
+    def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
+        """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
         f = self._columns([measure(analysis) for measure in self.minimise], len(x))
         g = self._columns([sense * (m(analysis) - v) / (abs(v) or 1.0) for m, v, sense in self.limits], len(x))
         return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
@@ -181,6 +202,14 @@ class Study:
     @staticmethod
     def _columns(values: list[Any], p: int) -> np.ndarray:
         return np.stack([np.broadcast_to(v, p) for v in values], axis=-1) if values else np.zeros((p, 0))
+
+    def worst_miss(self, g: np.ndarray) -> str:
+        """Which limit one design, with ``g`` of an `Evaluation`, misses by most and by how much, in words."""
+        i = int(np.argmax(g))
+        measure, limit, sense = self.limits[i]
+        missed = g[i] * (abs(limit) or 1.0)
+        bound = "at most" if sense > 0 else "at least"
+        return f"the {measure.name} of {bound} {measure.text(limit)} by {measure.text(missed)}"
 
     def weighing(self, weights: Any) -> Study:
         """The same study with other weights in the objectives that are weighted sums."""

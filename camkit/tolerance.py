@@ -211,8 +211,8 @@ class Tolerances:
     @property
     def missed(self) -> dict[Measure, float]:
         """For each limited measure the share of parts that miss its limit."""
-        g = self.evaluation.g
-        return {m: float((g[:, i] > 0).mean()) for i, (m, _, _) in enumerate(self.study.limits)}
+        missed = self.evaluation.missed > 0
+        return {m: float(missed[:, i].mean()) for i, (m, _, _) in enumerate(self.study.limits)}
 
     def percentiles(self, measure: Measure, levels: Sequence[float] = (2.5, 50, 97.5)) -> np.ndarray:
         """Percentiles of one of the ``measures`` among the parts that can be built, SI."""

@@ -14,9 +14,6 @@ import numpy as np
 
 from .study import Study
 
-KEPT = 1e-6
-"""A limit that is missed by less, as a share of it, counts as kept: searches that follow slopes walk along limits."""
-
 
 class Stopped(Exception):
     """Somebody asked a watched search to end."""
@@ -54,9 +51,8 @@ class Watch:
 
     def after(self, study: Study, x: np.ndarray, analysis: Any) -> None:
         """Take note of designs ``(p, n_free)`` and their analysis."""
-        f = np.broadcast_to(study.minimise[0](analysis), len(x))
-        limits = [sense * (m(analysis) - v) <= KEPT * (abs(v) or 1.0) for m, v, sense in study.limits]
-        kept = np.logical_and.reduce([np.isfinite(f), *limits])
+        evaluation = study.judge(x, analysis)
+        f, kept = evaluation.f[:, 0], evaluation.feasible
         self.looked += len(x)
         i = np.lexsort((f, ~kept))[0]
         self.looks.append(Look(self.looked, float(f[i]), bool(kept[i])))
@@ -90,3 +86,8 @@ def watched(study: Study, watch: Watch) -> WatchedStudy:
     (2, True, '78.3608')
     """
     return WatchedStudy(**{f.name: getattr(study, f.name) for f in fields(Study)}, watch=watch)
+
+
+def unwatched(study: Study) -> Study:
+    """``study`` without a `Watch`, if it has one."""
+    return Study(**{f.name: getattr(study, f.name) for f in fields(Study)})

@@ -29,6 +29,7 @@ from camkit.reference.problems import KNOWN_PROBLEMS
 from camkit.study import Study, weighted
 from camkit.trade_offs import trade_off
 from camkit.units import cm, deg, mm, rpm
+from camkit.watch import Watch, watched
 
 # ---------------------------------------------------------------- closed forms
 
@@ -187,6 +188,52 @@ def test_it_never_ends_worse_than_it_began():
         again = minimise(high_speed_study(best.design), method, designs=200)
         assert again.f <= best.f
         assert again.feasible
+
+
+WELDED_BEAM = next(problem for problem in KNOWN_PROBLEMS if problem.name == "welded beam")
+
+
+@pytest.mark.parametrize("method", [method for method in METHODS if method != "slsqp"])
+def test_a_search_without_slopes_says_how_far_it_came(method):
+    early = minimise(WELDED_BEAM.study, method, designs=500)
+    assert early.f > 1.02 * WELDED_BEAM.f
+    assert WELDED_BEAM.study.evaluate(early.descended).f[0, 0] == pytest.approx(WELDED_BEAM.f, rel=1e-6)
+    assert WELDED_BEAM.study.evaluate(early.descended).feasible.all()
+    better = 100 * (1 - WELDED_BEAM.f / early.f)
+    assert f"A descent from there ends at 1.725, {better:.2g} % better: this search had not" in early.message
+    done = minimise(WELDED_BEAM.study.replace(start=WELDED_BEAM.study.design(WELDED_BEAM.x)), method, designs=200)
+    assert "A descent from there ends no better" in done.message
+
+
+WATCHED = {
+    "sizes": high_speed_study(),
+    "laws": high_speed_study(objective=peak_wear, at_most={peak_stress: STRESS_CAP}, free_laws=True, angles=101),
+    "press": cam_lever_study(angles=101),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "method"), [("sizes", "slsqp"), ("sizes", "de"), ("sizes", "ga"), ("laws", "slsqp"), ("press", "slsqp")]
+)
+def test_every_best_so_far_is_feasible_by_its_own_study(name, method):
+    """Searches walk along limits: what a watch calls the best so far is judged as the study judges it."""
+    study, seen = WATCHED[name], []
+
+    def note(watch):
+        if watch.best is not None and not (seen and (seen[-1] == watch.best).all()):
+            seen.append(watch.best)
+
+    watch = Watch(note)
+    found = minimise(watched(study, watch), method, designs=1500)
+    assert found.feasible
+    assert len(seen) > 3
+    verdict = study.evaluate(np.array(seen))
+    assert verdict.feasible.all()
+    assert (np.diff(verdict.f[:, 0]) < 0).all()
+    assert watch.f == pytest.approx(verdict.f[-1, 0], rel=1e-12)
+    assert study.evaluate(found.x).feasible.all()
+    assert found.f <= watch.f * (1 + 1e-6)
+    assert study.evaluate(watch.best).feasible == [True]
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from .. import export, profile_files
 from ..markup import html, table
 from ..plot.picture import View, below, positions_of, small_png, strip
 from ..quantities import Design, Measure, Quantity, declarations
+from ..study import keeps
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
 from .orbit import Orbit
@@ -199,8 +200,8 @@ class Explorer(Panel):
         if measure not in self._limits:
             return "", ""
         value, sense = self._limits[measure]
-        met = sense * (now - value) <= 0
         limit = html("&le; {}" if sense > 0 else "&ge; {}", measure.text(value))
+        met = keeps(now, value, sense)
         return limit, "met" if met else html("<span class='camkit-missed'>{}</span>", "not met")
 
     def still(self) -> bytes:

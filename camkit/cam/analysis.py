@@ -101,6 +101,11 @@ class CamAnalysis(ABC):
         """Mass (kg) of a sliding follower, moment of inertia (kg m^2) of an arm."""
 
     @property
+    def preload(self) -> Any:
+        """What of `static_resistance` is the spring's preload, N, or N m for an arm."""
+        return self.cam.load.preload
+
+    @property
     @abstractmethod
     def static_resistance(self) -> np.ndarray:
         """What resists the follower's travel besides inertia, N, or N m for an arm."""

@@ -143,6 +143,11 @@ class CamLeverAnalysis(HighSpeedAnalysis):
         """The slider's way over the turn, m."""
         return self.cam.load.way(self.motion, self.cam.swing)
 
+    @property
+    def inertia(self) -> Any:
+        """``J = j x^2`` of the lever, kg m^2: of a press speeds are in rad/s."""
+        return self.press.lever_mass * self.press.lever**2
+
     @cached_property
     def closing(self) -> np.ndarray:
         """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight.

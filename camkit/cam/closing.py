@@ -3,6 +3,9 @@
 Every function takes any cam's analysis.  Jump and preload are those of a rigid follower without friction:
 the inner flank pushes with ``Q / lever``, ``Q = J omega^2 w + (what resists besides)``, and cannot pull.  Between the
 cam angles of the analysis the extremes are found by zooming in.
+
+Speeds are in rad/s.  Only a high-speed cam knows its speed as a share of the rated one, at which its load is given:
+there speeds are such shares, and 1.2 is 20 % above the rated speed.
 """
 
 from __future__ import annotations
@@ -14,15 +17,15 @@ import numpy as np
 
 from ..contact import LineContact, contact_modulus, hertz_line
 from ..quantities import Design, fails, quantity
-from ..units import rpm
 
 
 def jump_speed(analysis: Any) -> Any:
-    """Speed of the cam at which the follower first leaves it, rad/s: ``sqrt(static / (-J w))`` at its least.
+    """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
     0 if the follower does not even stay on a resting cam, ``inf`` if it stays at any speed.
 
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.units import rpm
     >>> print(f"{jump_speed(TranslatingRollerCam().analyse()) / rpm:.1f} rpm")
     943.7 rpm
     """
@@ -37,11 +40,13 @@ def jump_speed(analysis: Any) -> Any:
 
 
 def preload_needed(analysis: Any, speed: Any) -> Any:
-    """Least preload of the spring that keeps the follower on the cam at ``speed`` (rad/s), N, or N m for an arm.
+    """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
 
-    The spring's rate and all other loads stay as they are; ``ValueError`` for a speed that is not finite.
+    The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
+    ``ValueError`` for a speed that is not finite.
 
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.units import rpm
     >>> cam = TranslatingRollerCam()
     >>> least = preload_needed(cam.analyse(), 1200 * rpm)
     >>> closed = cam.replace(load=cam.load.replace(preload=least))
@@ -49,10 +54,10 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
     135.88 N, jumps at 1200.0 rpm
     """
     if fails(np.isfinite(speed) & (np.asarray(speed) >= 0)):
-        raise ValueError(f"the speed of the cam is {speed / rpm:.6g} rpm; it must be a finite number of at least 0 rpm")
+        raise ValueError(f"the speed of the cam is {speed:.6g}; it must be a finite number of at least 0")
 
     def lacking(at: Any) -> Any:
-        without = at.static_resistance - at.cam.load.preload
+        without = at.static_resistance - at.preload
         return -(at.inertia * speed**2 * at.acceleration + without)
 
     return np.maximum(analysis.highest(lacking).value, 0.0)

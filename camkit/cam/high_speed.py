@@ -20,7 +20,7 @@ import numpy as np
 
 from ..contact import contact_modulus, hertz_line
 from ..geometry import angle_opposite
-from ..motion import LAWS, Dwell, Law, MotionProgram, Poly345, Return, Rise
+from ..motion import LAWS, Dwell, Kinematics, Law, MotionProgram, Poly345, Return, Rise
 from ..motion.shaped import DEGREE9, FAMILIES, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
@@ -103,9 +103,10 @@ class FreeLawCam(Design):
 class HighSpeedCam(FreeLawCam):
     """A cam between two dwells, its laws free (defaults: the paper's first design).
 
-    ``spring_factor`` is the rate of the closing spring over ``J omega^2``; 0 stands for the weakest spring that
-    keeps the roller on the cam.  ``load`` is an `InertialSpringLoad`, a `ConstantTorque` or anything else with a
-    ``name`` and their method ``resisting_torque``.
+    ``spring_factor`` is the rate of the closing spring over ``J omega^2`` at the rated speed (``speed`` = 100 %); 0
+    stands for the weakest spring that holds the arm's inertia there.  Faster, the same spring may let the roller lift.
+    ``load`` is an `InertialSpringLoad`, a `ConstantTorque` or anything else with a ``name`` and their method
+    ``resisting_torque``.
 
     >>> cam = HighSpeedCam(165 * mm, 30 * mm, 130 * mm, Poly345(), Poly345())
     >>> analysis = cam.analyse()
@@ -120,9 +121,9 @@ class HighSpeedCam(FreeLawCam):
     swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm")
     rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away")
     return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back")
-    speed: float = quantity("n", 100, 10, 200, "%", "share of the speed for which the load is given")
+    speed: float = quantity("n", 100, 10, 200, "%", "share of the rated speed, for which load and spring are given")
     spring_factor: float = quantity(
-        "K", 0, 0, 12, "", "closing spring / inertia by speed squared; 0: the weakest", at_least=0
+        "K", 0, 0, 12, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
     )
     rotation: int = 1
 
@@ -230,8 +231,32 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     @cached_property
     def resisting_torque(self) -> np.ndarray:
         """``M``: torque about the arm's pivot that the cam has to overcome, N m."""
-        rate = np.where(np.isfinite(self.spring_rate), self.spring_rate, np.nan)  # else no spring holds the arm
-        return self.cam.load.resisting_torque(self.motion, self.cam.swing, rate, self.cam.speed)
+        return self._torque(self.motion, self.cam.speed)
+
+    def _torque(self, motion: Kinematics, speed: Any) -> np.ndarray:
+        """What the load resists a motion with at a share of the rated speed, N m."""
+        return self.cam.load.resisting_torque(motion, self.cam.swing, self._rate, speed)
+
+    @property
+    def _rate(self) -> Any:
+        """``K``, ``nan`` where no spring holds the arm."""
+        return np.where(np.isfinite(self.spring_rate), self.spring_rate, np.nan)
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Torque about the arm's pivot besides inertia, N m."""
+        return self._torque(self.motion, 0.0)
+
+    @cached_property
+    def inertia(self) -> Any:
+        """``J omega_0^2``: torque at the rated speed for an acceleration of 1 rad by cam angle squared, N m."""
+        return self._torque(self.motion._replace(a=self.motion.a + 1), 1.0) - self._torque(self.motion, 1.0)
+
+    @property
+    def preload(self) -> Any:
+        """Torque of the closing spring before the arm moves, N m; 0 if the load has none."""
+        preload = getattr(self.cam.load, "preload", None)
+        return preload(self.cam.swing, self._rate) if preload else 0.0
 
     @property
     def normal_force(self) -> np.ndarray:
@@ -288,7 +313,7 @@ class HighSpeedContact(OscillatingRollerAnalysis):
 
     @cached_property
     def spring_needed(self) -> np.ndarray:
-        """``-psi''/psi``, the closing spring that holds the arm's inertia, over ``J omega^2``; peaks as above.
+        """``-psi''/psi``: ``K`` of the spring that holds the arm's inertia at the rated speed; peaks as above.
 
         Very negative, and of no account, where the arm has not moved.
         """
@@ -394,7 +419,9 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     @cached_property
     def least_spring_factor(self) -> Any:
-        """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia; ``inf`` if the arm passes its start.
+        """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia at the rated speed.
+
+        ``inf`` if the arm passes its start.
 
         0/0 where the arm has not moved is left out.
         """
@@ -409,7 +436,7 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     @property
     def spring_factor(self) -> Any:
-        """``K``: rate of the closing spring over ``J omega^2``."""
+        """``K``: rate of the closing spring over ``J omega^2`` at the rated speed."""
         return number(self.spring_rate)
 
     @cached_property

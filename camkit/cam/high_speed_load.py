@@ -16,13 +16,14 @@ from ..quantities import Design, quantity
 class InertialSpringLoad(Design):
     """A mass that the arm swings and a spring that keeps it on the cam.
 
-    ``M = J omega^2 [psi'' + (alpha_s PS + psi) K]``: ``PS`` is the swing, ``K`` the rate of the closing spring over
-    ``J omega^2``, ``alpha_s PS`` how far the spring is wound up before the arm moves.
+    ``M = J omega_0^2 [n^2 psi'' + (alpha_s PS + psi) K]``: ``PS`` is the swing, ``K`` the rate of the closing spring
+    over ``J omega_0^2`` at the rated speed, ``alpha_s PS`` how far the spring is wound up before the arm moves.
+    A spring keeps its stiffness: with the share ``n`` of the rated speed inertia grows by ``n^2``, the spring does not.
 
     Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (table 1).
     """
 
-    inertia_speed2: float = quantity("J omega^2", 10, 0.1, 100, "N m", "inertia of the arm by speed squared")
+    inertia_speed2: float = quantity("J omega^2", 10, 0.1, 100, "N m", "inertia of the arm by rated speed squared")
     closing: float = quantity("alpha_s", 0.5, 0, 2, "", "winding of the spring at the start / swing", at_least=0)
 
     name: ClassVar[str] = "inertia and closing spring"
@@ -30,7 +31,11 @@ class InertialSpringLoad(Design):
     def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
         """About the arm's pivot, N m; ``speed`` is a share of the speed for which ``inertia_speed2`` is given."""
         spring = (self.closing * swing + motion.s) * spring_factor
-        return self.inertia_speed2 * speed**2 * (motion.a + spring)
+        return self.inertia_speed2 * (speed**2 * motion.a + spring)
+
+    def preload(self, swing: Any, spring_factor: Any) -> Any:
+        """Torque of the spring before the arm moves, N m."""
+        return self.inertia_speed2 * self.closing * swing * spring_factor
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from typing import Any
 from ..quantities import Measure, PeakMeasure
 from ..study import Study
 from ..units import mm
+from .closing import jump_speed
 from .high_speed import FreeLawCam, HighSpeedCam, number
 from .high_speed_load import InertialSpringLoad
 
@@ -26,7 +27,9 @@ steepest = peak("steepest pressure angle", "deg", lambda a: abs(a.along("pressur
 peak_force = peak("peak normal force", "N", lambda a: a.along("normal_force"))
 peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.along("pressure_between"))
 peak_torque = peak("peak cam torque", "N mm", lambda a: abs(a.along("cam_torque")))
-spring_use = peak("closing spring needed", "%", lambda a: a.along("spring_needed") / a.spring_rate)
+spring_use = peak("closing spring needed", "%", lambda a: a.cam.speed**2 * a.along("spring_needed") / a.spring_rate)
+least_force = -peak("least normal force", "N", lambda a: -a.along("normal_force"))
+lift_off = Measure("speed at which the roller lifts", "%", jump_speed)
 overrun = peak("arm beyond its ends / swing", "%", lambda a: a.beyond)
 least_lead = -PeakMeasure("least travel from the ends (3-4-5: 1)", "", lambda a: -a.lead)
 undercut_margin = -peak("undercut margin 1 - r kappa", "", lambda a: -a.along("margin_between"))
@@ -47,6 +50,8 @@ HIGH_SPEED_MEASURES = (
     spring_factor,
     spring_use,
     overrun,
+    least_force,
+    lift_off,
 )
 """What a table of a high-speed cam shows; peaks are those of rise and fall together."""
 HighSpeedCam.measures = HIGH_SPEED_MEASURES
@@ -85,7 +90,8 @@ def high_speed_study(
     Free are arm, roller and largest radius, with ``free_laws`` the eight coefficients too.  The closing spring is
     then free as well: its weakest rate is a maximum over the angles in turn, which descends better as the limit
     that no more spring is needed than there is.  Methods without slopes do better with ``free_spring=False``, the
-    weakest spring for every law.  ``space`` replaces the bounds of the sizes; ``at_most`` and ``at_least`` add limits.
+    weakest spring for every law.  The roller may not lift at the speed of ``start``.  ``space`` replaces the bounds of
+    the sizes; ``at_most`` and ``at_least`` add limits.
 
     >>> study = high_speed_study()
     >>> print(f"{study.evaluate(study.x0).f[0, 0] * mm**0.5:.4f}")
@@ -94,11 +100,11 @@ def high_speed_study(
     start = start or HighSpeedCam()
     free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}
-    least: dict[Measure, float] = {least_radius: 30 * mm, undercut_margin: CLEAR}
+    least: dict[Measure, float] = {least_radius: 30 * mm, undercut_margin: CLEAR, least_force: 0.0}
     if free_laws:
         least[least_lead] = 0.0
     if free_laws and free_spring and isinstance(start.load, InertialSpringLoad):
-        weakest = float(start.analyse().least_spring_factor)  # inf where the arm passes its start
+        weakest = float(start.analyse().least_spring_factor) * start.speed**2  # inf where the arm passes its start
         start = start.replace(spring_factor=start.spring_factor or min(weakest, STRONG))
         free["spring_factor"] = (WEAK, STRONG)
         most[spring_use] = 1.0

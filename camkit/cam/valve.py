@@ -11,7 +11,8 @@ Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 11
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from typing import Any
 
@@ -22,6 +23,7 @@ from ..geometry import rotated
 from ..motion import Kinematics, Poly345
 from ..quantities import Design, Quantity, choice, declarations, fails, quantity
 from ..units import deg, mm
+from .analysis import Extreme
 from .sizing import least_from_which_on
 from .valve_train import FLAT, FOLLOWERS, ROLLER, ValveTrain, highest
 
@@ -484,6 +486,30 @@ class ValveAnalysis:
     def spring_force(self) -> np.ndarray:
         """Force of the valve spring, N."""
         return self.cam.train.spring_force(np.maximum(self.lift, 0))
+
+    @property
+    def static_resistance(self) -> np.ndarray:
+        """What resists the follower's travel besides inertia, N: the spring."""
+        return self.spring_force
+
+    @property
+    def inertia(self) -> Any:
+        """What the cam throws about, kg: the train while the valve is open, nothing while it is shut."""
+        return np.where(self.valve_open, self.cam.train_mass, 0.0)
+
+    @property
+    def preload(self) -> Any:
+        """Of the valve spring, N."""
+        return self.cam.spring_preload
+
+    @property
+    def loaded_flank(self) -> Any:
+        """The cam's outline, there is no other."""
+        return 1.0
+
+    def highest(self, f: Callable[[Any], Any]) -> Extreme:
+        """The largest value of ``f(analysis)`` over the cam angles of this analysis, found between them too."""
+        return Extreme(*highest(lambda alpha: f(replace(self, cam_angle=alpha)), self.cam_angle))
 
     @cached_property
     def follower_force(self) -> np.ndarray:

@@ -13,6 +13,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from ..quantities import words
+from ..study import KEPT
 from ..units import factor
 from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, WARNING, area, frame, line, new, text
 
@@ -124,7 +125,7 @@ def _limits(ax: Axes, x: Any, y: Any, plane: Any, names: Sequence[str]) -> None:
         style: Any = LABEL | {"bbox": LABEL["bbox"] | {"edgecolor": colour}}
         told = name if np.isfinite(at).all() else ""
         text(ax, f"limit {i} name", at[0], at[1], told, color=INK, fontsize=10.5, zorder=5, **style)
-        kept += [name] if np.nanmax(limit) <= 0 else []
+        kept += [name] if np.nanmax(limit) <= KEPT else []
     told = f"kept all over: {', '.join(kept)}" if kept else ""
     text(ax, "kept", 1.0, 1.015, told, transform=ax.transAxes, ha="right", va="bottom", color=GREY, fontsize=9.5)
 

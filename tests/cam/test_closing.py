@@ -12,6 +12,7 @@ from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
+from camkit.cam.valve import ValveCam
 from camkit.cam.valve_train import ValveTrain
 from camkit.contact import contact_modulus, hertz_line
 from camkit.motion import Cycloidal, Dwell, HalfHarmonicStart, ModifiedTrapezoid, MotionProgram, Return, Rise
@@ -136,9 +137,25 @@ def test_jump_and_preload_of_a_population(cam):
     assert_allclose(jump_margin(many), [jump_margin(one) for one in singles], rtol=1e-13)
 
 
-@pytest.mark.parametrize(("speed", "said"), [(-1 * rpm, "-1"), (np.nan, "nan"), (np.inf, "inf")])
+@pytest.mark.parametrize("angles", ["analyse", "whole"])
+def test_a_valve_train_jumps_where_a_scan_of_speeds_says(angles):
+    cam = ValveCam(spring_preload=60 * N)
+    analysis = cam.analyse() if angles == "analyse" else cam.analyse().whole
+    jumps = float(jump_speed(analysis))
+    speeds, fine = jumps * np.linspace(0.95, 1.05, 21), cam.analyse(20001)
+    lowest = [fine.force_at(s).min() for s in speeds]
+    assert jumps == pytest.approx(np.interp(0, lowest[::-1], speeds[::-1]), rel=1e-4)
+    assert jumps == pytest.approx(float(cam.analyse().jump_speed), rel=1e-8)
+    fast = 1.2 * jumps
+    least = float(preload_needed(analysis, fast))
+    assert cam.replace(spring_preload=least).analyse(20001).force_at(fast).min() == pytest.approx(0, abs=1e-2)
+    pair = ContactPair(cam.contact_width, cam.cam_modulus, cam.follower_modulus)
+    assert_allclose(contact_along(analysis, pair).pressure, analysis.contact_stress, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("speed", "said"), [(-1.5, "-1.5"), (np.nan, "nan"), (np.inf, "inf")])
 def test_a_speed_that_cannot_be_is_refused(speed, said):
-    sentence = f"the speed of the cam is {said} rpm; it must be a finite number of at least 0 rpm"
+    sentence = f"the speed of the cam is {said}; it must be a finite number of at least 0"
     with pytest.raises(ValueError, match=f"^{sentence}$"):
         preload_needed(CAMS[0].analyse(), speed)
 

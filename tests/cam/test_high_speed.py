@@ -11,6 +11,7 @@ from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
 from camkit.cam.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share
+from camkit.cam.closing import ContactPair, contact_along, jump_speed, preload_needed
 from camkit.cam.high_speed import HighSpeedCam, lifted
 from camkit.cam.high_speed_load import ConstantTorque, InertialSpringLoad
 from camkit.cam.high_speed_paper import (
@@ -24,7 +25,9 @@ from camkit.cam.high_speed_paper import (
 from camkit.cam.high_speed_study import (
     HIGH_SPEED_MEASURES,
     high_speed_study,
+    least_force,
     least_lead,
+    lift_off,
     overrun,
     peak_pressure,
     peak_stress,
@@ -33,6 +36,7 @@ from camkit.cam.high_speed_study import (
 )
 from camkit.contact import contact_modulus
 from camkit.export import from_json, to_json
+from camkit.minimum import minimise
 from camkit.motion import LAWS, Degree9, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.shaped import KNOTS, SPLINE, ShapedLaw
 from camkit.profile_files import profile_csv
@@ -264,10 +268,81 @@ def test_the_weakest_spring_just_holds_the_arm():
         assert min((s.acceleration + weaker.spring_factor * s.motion.s).min() for s in weaker.intervals) < -1e-4
 
 
-def test_inertia_grows_with_speed_squared_and_a_constant_torque_does_not():
-    for load, factor in ((SPRING, 4), (TORQUE, 1)):
-        slow, fast = (FREE.replace(load=load, speed=n).analyse(91).rise.normal_force for n in (1.0, 2.0))
-        assert_allclose(fast, factor * slow, rtol=1e-12)
+def torque_of_345(n, factor=2.6, closing=0.5, swing=30 * deg, interval=90 * deg):
+    """``J omega^2 [n^2 psi'' + (alpha_s PS + psi) K]`` over rise and fall, 10 N m: the 3-4-5 polynomial written out."""
+    k = np.linspace(0, 1, 20001)
+    s, a = swing * (10 * k**3 - 15 * k**4 + 6 * k**5), swing * (60 * k - 180 * k**2 + 120 * k**3) / interval**2
+    psi, bend = np.concatenate([s, swing - s]), np.concatenate([a, -a])
+    return 10 * (n**2 * bend + (closing * swing + psi) * factor)
+
+
+def test_a_spring_keeps_its_stiffness_and_speed_lifts_the_roller():
+    rated, fast = (FIRST.replace(spring_factor=2.6, speed=n).analyse(4001) for n in (1.0, 1.5))
+    assert torque_of_345(1.5).min() == pytest.approx(-8.13, abs=5e-3)
+    for n, analysis in ((1.0, rated), (1.5, fast)):
+        assert analysis.resisting_torque.min() == pytest.approx(torque_of_345(n).min(), abs=1e-5)
+        assert bool(analysis.loses_contact) == (n > 1)
+        assert bool(np.isfinite(peak_stress(analysis))) == (n == 1)
+        assert least_force(analysis) * (1 if n == 1 else -1) > 0
+
+
+def test_the_speed_at_which_the_roller_lifts_is_found_by_scanning():
+    """The weakest spring of the first design, and a stiffer one; `lift_off` is a share of the rated speed."""
+    speeds = np.linspace(1, 2, 10001)
+    for factor in (0.0, 2.6, 4.0):
+        design = FIRST.replace(spring_factor=factor, speed=0.7)  # the speed that is set plays no part
+        analysis = design.analyse()
+        k = float(analysis.spring_factor)
+        lowest = np.array([torque_of_345(n, k).min() for n in speeds[::100]])
+        bracket = speeds[::100][np.flatnonzero(lowest < 0)[0] - 1]
+        scanned = brentq(lambda n, k=k: torque_of_345(n, k).min(), bracket, bracket + 0.02)
+        assert lift_off(analysis) == pytest.approx(scanned, rel=1e-6)
+        held, lifted_off = (design.replace(speed=f * scanned).analyse(4001) for f in (0.999, 1.001))
+        assert not held.loses_contact
+        assert lifted_off.loses_contact
+
+
+@pytest.mark.parametrize("design", [FIRST, FREE, FREE.replace(spring_factor=5.0)])
+def test_the_preload_needed_at_a_speed_just_holds_the_roller(design):
+    """A preload is ``J omega^2 alpha_s PS K``: another winding of the same spring."""
+    analysis = design.analyse(801)
+    at_rest = analysis.resisting_torque[-1]  # at the near dwell
+    assert float(analysis.preload[0]) == pytest.approx(at_rest, rel=1e-9)
+    needed = float(preload_needed(analysis, 1.6))
+    closing = needed / (SPRING.inertia_speed2 * design.swing * float(analysis.spring_factor))
+    held = design.replace(load=InertialSpringLoad(closing=closing), speed=1.6).analyse(4001)
+    assert held.resisting_torque.min() == pytest.approx(0, abs=1e-4)
+    assert jump_speed(held) == pytest.approx(1.6, rel=1e-6)
+
+
+def test_a_load_without_inertia_never_lifts_the_roller():
+    analysis = FIRST.replace(load=TORQUE).analyse()
+    assert jump_speed(analysis) == np.inf
+    assert preload_needed(analysis, 2.0) == 0
+    pressure = contact_along(analysis, ContactPair(FIRST.contact_width)).pressure
+    assert_allclose(pressure, analysis.hertz_pressure, rtol=1e-12)
+
+
+def test_a_press_that_turns_faster_lifts_its_slider():
+    """Its weight keeps the roller on the cam: the speed, in rad/s, at which it no longer does, by scanning."""
+    jumps = float(jump_speed(PRESS.analyse()))
+    speeds = jumps * np.linspace(0.9, 1.1, 41)
+    lowest = [float(PRESS.replace(shaft_speed=s).analyse(4001).resisting_torque.min()) for s in speeds]
+    assert jumps == pytest.approx(np.interp(0, lowest[::-1], speeds[::-1]), rel=1e-4)
+    assert PRESS.replace(shaft_speed=1.01 * jumps).analyse().loses_contact
+    lowest = PRESS.replace(shaft_speed=1.2 * jumps).analyse(4001).resisting_torque.min()
+    assert preload_needed(PRESS.analyse(), 1.2 * jumps) == pytest.approx(-lowest, rel=1e-4)
+    contact = contact_along(PRESS.analyse(), ContactPair(PRESS.contact_width)).pressure
+    assert_allclose(contact, PRESS.analyse().hertz_pressure, rtol=1e-12)
+
+
+def test_inertia_grows_with_speed_squared_and_neither_spring_nor_constant_torque_does():
+    for load in (SPRING, TORQUE):
+        slow, fast = (FREE.replace(load=load, speed=n).analyse(91).rise.resisting_torque for n in (1.0, 2.0))
+        phi, h, psi = FREE.analyse(91).rise.cam_angle, 1e-4, Brute(FREE).psi
+        bend = (psi(phi - h) - 2 * psi(phi) + psi(phi + h)) / h**2
+        thrown = 3 * SPRING.inertia_speed2 * bend if load is SPRING else 0 * bend
+        assert_allclose(fast - slow, thrown, rtol=1e-4, atol=1e-3)
 
 
 def test_hertz_pressure_is_proportional_to_the_stress_coefficient():
@@ -601,6 +676,17 @@ def test_studies_ask_what_the_paper_asks():
     assert study.evaluate(study.x0).feasible.tolist() == [True]
     assert [p.printed for p in problems()] == [224, 1.71, None, 125, 1.44, 167, 101, 160]
     assert [p.printed for p in lever_problems()] == [8.77, 8.36, 7.85, 7.44, 7.25]
+
+
+def test_a_study_at_more_than_the_rated_speed_keeps_the_roller_on_the_cam():
+    """A spring that may grow does; with the spring as it is no size helps, and the result says what is missing."""
+    best = minimise(high_speed_study(FIRST.replace(speed=1.5), free_laws=True), recheck=1001)
+    assert best.feasible
+    assert not best.design.analyse(4001).loses_contact
+    assert best.design.spring_factor >= 2.25 * best.design.analyse(4001).least_spring_factor * (1 - 1e-6)
+    stuck = minimise(high_speed_study(FIRST.replace(speed=1.5, spring_factor=2.6)), "de", designs=500)
+    assert not stuck.feasible
+    assert "misses the least normal force of at least 0 N by " in stuck.message
 
 
 def test_a_gain_is_the_share_that_is_left_of_the_print():
