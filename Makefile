@@ -17,7 +17,8 @@ NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.
 
 help:
 	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
-	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila)"
+	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila);"
+	@echo "                for this machine alone unless HOST=... names another address to listen on"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
 	@echo "make lint       run the quick checks only: style, types, imports"
 	@echo "make bench      measure speed"
@@ -28,9 +29,12 @@ lab: $(VENV)/.lab
 	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
 	$(BIN)/jupyter lab $(AS_ROOT) notebooks/00_start_here.ipynb
 
+# Read "Publishing" in README.md before naming another HOST.  The limits are in notebooks/voila.json.
+HOST := 127.0.0.1
+
 app: $(VENV)/.app
 	@echo "Opening the list of notebooks in your browser; a page appears when its notebook has run. Ctrl-C here ends it."
-	$(BIN)/voila notebooks
+	$(BIN)/voila notebooks --Voila.ip=$(HOST) --Voila.config_file_paths=notebooks
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"

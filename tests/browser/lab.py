@@ -121,6 +121,34 @@ def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> I
                 process.wait()
 
 
+@contextmanager
+def voila_server(folder: Path, source: Path, *options: str) -> Iterator[str]:
+    """Voilà as `make app` starts it, over ``folder / "notebooks"``; its address.  It writes to ``server.log``."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    published = ("--Voila.ip=127.0.0.1", "--Voila.config_file_paths=notebooks", "--no-browser", f"--port={port}")
+    command = [sys.executable, "-m", "voila", "notebooks", *published, *options]
+    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(source), "OPENBLAS_NUM_THREADS": "1"}
+    with (folder / "server.log").open("w") as log:
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
+    address = f"http://127.0.0.1:{port}"
+    try:
+        eventually(lambda: process.poll() is not None or _answers(address), seconds=60)
+        assert process.poll() is None, (folder / "server.log").read_text()
+        yield address
+    finally:
+        process.terminate()
+        process.wait(30)
+
+
+def _answers(address: str) -> bool:
+    try:
+        return bool(urllib.request.urlopen(address, timeout=5).status == 200)
+    except (urllib.error.URLError, ConnectionError, TimeoutError):
+        return False
+
+
 def isolation(folder: Path) -> dict[str, str]:
     """The environment in which the user's own settings and kernels do not count."""
     homes = {

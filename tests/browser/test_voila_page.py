@@ -1,12 +1,6 @@
 """The live notebooks as pages without code, served by Voilà: `make app`."""
 
-import os
 import shutil
-import socket
-import subprocess
-import sys
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,7 +12,7 @@ from camkit import DoorHandleCam
 from camkit.cam.door_handle import CURVE_TABLE
 from camkit.quantities import declarations
 from camkit.units import factor
-from lab import eventually, isolation, screenshot
+from lab import screenshot, voila_server
 
 REPOSITORY = Path(__file__).parents[2]
 DOOR_HANDLE = "01_door_handle_cam.ipynb"
@@ -42,32 +36,13 @@ def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterato
     """Every notebook's page, asked for at once so that they run beside each other."""
     folder = tmp_path_factory.mktemp("voila")
     shutil.copytree(REPOSITORY / "notebooks", folder / "notebooks", ignore=shutil.ignore_patterns(".*"))
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    address = f"http://127.0.0.1:{port}"
-    command = [sys.executable, "-m", "voila", "notebooks", "--no-browser", f"--port={port}"]
-    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(REPOSITORY), "OPENBLAS_NUM_THREADS": "1"}
-    with (folder / "server.log").open("w") as log:
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
     context = browser.new_context(viewport={"width": 1280, "height": 720})
-    try:
-        eventually(lambda: _answers(address), seconds=60)
+    with voila_server(folder, REPOSITORY) as address:
         opened = {name: context.new_page() for name in (DOOR_HANDLE, *OTHERS)}
         for name, page in opened.items():
             page.goto(f"{address}/voila/render/{name}", wait_until="commit")
         yield opened
-    finally:
         context.close()
-        process.terminate()
-        process.wait(30)
-
-
-def _answers(address: str) -> bool:
-    try:
-        return urllib.request.urlopen(address, timeout=5).status == 200
-    except (urllib.error.URLError, ConnectionError, TimeoutError):
-        return False
 
 
 @pytest.mark.parametrize("name", [DOOR_HANDLE, *OTHERS])

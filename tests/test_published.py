@@ -1,0 +1,56 @@
+"""`make app`: what it binds to, and the limits of the kernels that it starts."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from camkit.app import kept
+from camkit.app.published import PublishedKernels
+
+REPOSITORY = Path(__file__).parents[1]
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="no make here")
+@pytest.mark.parametrize(
+    ("arguments", "host"), [([], "127.0.0.1"), (["HOST=0.0.0.0"], "0.0.0.0"), (["HOST=::1"], "::1")]
+)
+def test_pages_are_shown_to_this_machine_unless_told_otherwise(arguments, host):
+    """On the command line: some shells export a HOST of their own."""
+    said = subprocess.run(
+        ["make", "-n", "app", *arguments],
+        cwd=REPOSITORY, env=os.environ | {"HOST": "example.org"}, capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    assert f" --Voila.ip={host} " in said
+    assert " --Voila.config_file_paths=notebooks" in said
+
+
+def test_the_limits_of_published_pages_are_known_by_these_names():
+    limits = json.loads((REPOSITORY / "notebooks" / "voila.json").read_text())
+    name = PublishedKernels.__name__
+    assert limits["VoilaConfiguration"] == {"multi_kernel_manager_class": f"{PublishedKernels.__module__}.{name}"}
+    kernels = PublishedKernels(**limits[name])
+    assert {key: getattr(kernels, key) for key in limits[name]} == limits[name]
+    assert kernels.most > 0
+    assert kernels.cull_idle_timeout > 0
+    assert kernels.cull_connected
+
+
+def test_a_published_page_keeps_its_searches_to_itself(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    beside = kept.keep("kind-1", "{}")
+    beside.checkpoint.write_bytes(b"")
+    beside.let_go()
+    monkeypatch.setenv("VOILA_BASE_URL", "/")
+    assert kept.unfinished("kind") is None
+    own = kept.keep("kind-1", "{}")
+    assert own.page.parent != beside.page.parent
+    assert own.page.parent.stat().st_mode & 0o077 == 0
+    own.checkpoint.write_bytes(b"")
+    own.let_go()
+    again = kept.unfinished("kind")
+    assert again.page == own.page
+    again.remove()
