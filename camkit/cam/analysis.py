@@ -10,20 +10,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..geometry import offset_curvature, rotated
 from ..motion import Kinematics
-from . import statics, valve_train
-
-
-class Extreme(NamedTuple):
-    """An extreme value over the cam and the cam angle (rad) at which it stands: numbers, or ``(p,)``."""
-
-    value: Any
-    cam_angle: Any
+from ..quantities import fails
+from . import peaks, statics
+from .peaks import Extreme
 
 
 @dataclass(frozen=True)
@@ -39,12 +34,35 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def buildable(self) -> Any:
-        """Whether the design can be built, ``(..., 1)``."""
+    def clear(self) -> Any:
+        """At which of the cam angles the design can be built."""
 
     @abstractmethod
+    def refusal(self) -> str:
+        """Why it cannot be built, in a sentence."""
+
+    def at(self, cam_angle: Any) -> Any:
+        """The same cam at other cam angles."""
+        other = replace(self, cam_angle=cam_angle)
+        other.__dict__["resolved"] = self.resolved  # a cached property: the cam has one resolution
+        return other
+
+    @cached_property
+    def resolved(self) -> Any:
+        """The same cam at the cam angles that show every stretch of its motion, however narrow."""
+        other = replace(self, cam_angle=self.cam.motion.resolution.angle)
+        other.__dict__["resolved"] = other
+        return other
+
+    @cached_property
+    def buildable(self) -> Any:
+        """Whether the design can be built, ``(..., 1)``."""
+        return np.all(self.clear, axis=-1, keepdims=True) if self is self.resolved else self.resolved.buildable
+
     def refuse_impossible(self) -> None:
         """``ValueError`` in a sentence if this is one design and it cannot be built."""
+        if fails(self.buildable[..., 0]):
+            raise ValueError(self.resolved.refusal())
 
     @property
     @abstractmethod
@@ -116,6 +134,11 @@ class CamAnalysis(ABC):
         """What resists the follower's travel, N, or N m for an arm."""
 
     @cached_property
+    def _found(self) -> dict[Callable[[Any], Any], Extreme]:
+        """What `highest` has found: an objective and a limit often ask for the same peak."""
+        return {}
+
+    @cached_property
     def motion(self) -> Kinematics:
         """The follower's travel and its derivatives with respect to the cam angle, ``s, v, a, j`` (m or rad)."""
         return self.cam.motion(self.cam_angle)
@@ -180,9 +203,11 @@ class CamAnalysis(ABC):
         return statics.efficiency(self, self.driving_flank)
 
     def highest(self, f: Callable[[Any], Any]) -> Extreme:
-        """The largest value of ``f(analysis)`` over the cam, found between its cam angles too."""
-        value, angle = highest(self, f)
-        return Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in (value, angle)))
+        """The largest value of ``f(analysis)`` over the cam, whichever cam angles the analysis has."""
+        if f not in self._found:
+            found = highest(self, f)
+            self._found[f] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
+        return self._found[f]
 
     def lowest(self, f: Callable[[Any], Any]) -> Extreme:
         """As `highest`, for the least value."""
@@ -192,7 +217,12 @@ class CamAnalysis(ABC):
 
 def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
     """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
-    return Extreme(*valve_train.highest(lambda phi: f(replace(analysis, cam_angle=phi)), analysis.cam_angle))
+    shown, resolution = analysis.resolved, analysis.cam.motion.resolution
+
+    def value(angle: Any) -> Any:
+        return f(shown if angle is resolution.angle else analysis.at(angle))
+
+    return peaks.highest(value, resolution.angle, resolution.inner)
 
 
 def lowest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:

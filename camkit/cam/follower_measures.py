@@ -8,12 +8,12 @@ import numpy as np
 
 from ..quantities import Measure
 from .closing import ContactPair, contact_along, jump_speed, torque_balance
-from .measures import CURVE, base_radius, mean_efficiency, peak_force, peak_torque, steepest
+from .measures import CURVE, base_radius, mean_efficiency, peak, peak_force, peak_torque, steepest
 
 least_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
 undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
-least_force = Measure("least contact force", "N", lambda a: a.contact_force.min(-1))
+least_force = Measure("least contact force", "N", lambda a: a.lowest(lambda at: at.contact_force).value)
 mean_torque = Measure(
     "mean cam torque with friction", "N mm", lambda a: torque_balance(a.cam_angle, a.rubbing.cam_torque).mean
 )
@@ -30,7 +30,7 @@ jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)
 
 def peak_pressure(pair: ContactPair) -> Measure:
     """The largest Hertz pressure along the cam for a pair of materials; ``nan`` if a flank is undercut."""
-    return Measure("peak contact pressure", "MPa", lambda a: contact_along(a, pair).pressure.max(-1))
+    return Measure("peak contact pressure", "MPa", peak(lambda a: contact_along(a, pair).pressure))
 
 
 _CLOSING = (least_force, mean_torque, jump_margin)

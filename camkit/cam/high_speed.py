@@ -348,6 +348,11 @@ class Interval(HighSpeedContact):
     whole: HighSpeedAnalysis
 
     @property
+    def resolved(self) -> HighSpeedAnalysis:
+        """That of the whole cam."""
+        return self.whole.resolved
+
+    @property
     def spring_rate(self) -> Any:
         """``K`` of the whole cam."""
         return self.whole.spring_rate
@@ -391,11 +396,6 @@ class HighSpeedAnalysis(HighSpeedContact):
     def min_radius(self) -> Any:
         """``r_k1``: smallest radius of the profile, m."""
         return number(self.cam.min_radius)
-
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and a law swings the arm where it cannot go."""
-        self.rise.refuse_impossible()
-        self.fall.refuse_impossible()
 
     @property
     def intervals(self) -> tuple[Interval, Interval]:

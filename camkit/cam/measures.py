@@ -14,11 +14,20 @@ import numpy as np
 from ..quantities import Measure
 
 
-def least_convex_radius_of(curvature: Any) -> Any:
-    """Least radius of curvature where the curve is convex; ``inf`` where it never is, ``nan`` stays."""
-    most = curvature.max(-1)
-    with np.errstate(divide="ignore"):
-        return np.where(most > 0, 1 / most, np.where(np.isnan(most), np.nan, np.inf))
+def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A function of an analysis: the largest value of ``f`` over the cam."""
+    return lambda analysis: analysis.highest(f).value
+
+
+def least_radius_where(bent: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A function of an analysis: the least radius where the curvature ``bent`` is above 0; ``inf`` if nowhere."""
+
+    def radius(analysis: Any) -> Any:
+        most = peak(bent)(analysis)
+        with np.errstate(divide="ignore"):
+            return np.where(most > 0, 1 / most, np.where(np.isnan(most), np.nan, np.inf))[()]
+
+    return radius
 
 
 def mean_over(angle: Any, values: Any, where: Any) -> Any:
@@ -38,24 +47,24 @@ def work_ratio(analysis: Any) -> Any:
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
-steepest = Measure("steepest pressure angle", "deg", lambda a: abs(a.pressure_angle).max(-1))
-base_radius = Measure("base radius (pitch)", "mm", lambda a: a.pitch_radius.min(-1))
-least_convex_radius = Measure("least convex radius (pitch)", "mm", lambda a: least_convex_radius_of(a.curvature))
-least_concave_radius = Measure("least concave radius (pitch)", "mm", lambda a: least_convex_radius_of(-a.curvature))
-undercut_margin = Measure(
-    "undercut margin of the groove",
-    "",
-    lambda a: 1 - (a.cam.roller_radius * (abs(a.curvature) if a.groove else a.curvature)).max(-1),
-)
-peak_force = Measure("peak contact force", "N", lambda a: abs(a.contact_force).max(-1))
-peak_torque = Measure("peak cam torque", "N mm", lambda a: abs(a.cam_torque).max(-1))
+def _tightest(analysis: Any) -> Any:
+    return analysis.cam.roller_radius * (abs(analysis.curvature) if analysis.groove else analysis.curvature)
+
+
+steepest = Measure("steepest pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
+base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
+least_convex_radius = Measure("least convex radius (pitch)", "mm", least_radius_where(lambda a: a.curvature))
+least_concave_radius = Measure("least concave radius (pitch)", "mm", least_radius_where(lambda a: -a.curvature))
+undercut_margin = Measure("undercut margin of the groove", "", lambda a: 1 - peak(_tightest)(a))
+peak_force = Measure("peak contact force", "N", peak(lambda a: abs(a.contact_force)))
+peak_torque = Measure("peak cam torque", "N mm", peak(lambda a: abs(a.cam_torque)))
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a.cam_angle, a.efficiency, a.velocity != 0))
 work_efficiency = Measure("work out / work in", "%", work_ratio)
 
 MOTION = (
-    Measure("peak velocity", "", lambda a: abs(a.velocity).max(-1)),
-    Measure("peak acceleration", "1/rad", lambda a: abs(a.acceleration).max(-1)),
-    Measure("peak jerk", "1/rad^2", lambda a: abs(a.jerk).max(-1)),
+    Measure("peak velocity", "", peak(lambda a: abs(a.velocity))),
+    Measure("peak acceleration", "1/rad", peak(lambda a: abs(a.acceleration))),
+    Measure("peak jerk", "1/rad^2", peak(lambda a: abs(a.jerk))),
 )
 """Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
 

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, counted, fails, quantity
+from ..quantities import Design, counted, quantity
 from ..units import deg, mm, rpm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
@@ -142,34 +142,32 @@ class OscillatingFlatAnalysis(FlatAnalysis):
     def _face_distance(self) -> Any:
         return self.cam.centre_distance * np.sin(self._swing) + self.cam.face_offset
 
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the design can be built, ``(..., 1)``: face clear of the cam axis and long enough."""
+    @property
+    def clear(self) -> Any:
+        """Where the face is clear of the cam axis and long enough."""
         upright, slow = abs(self._swing) < np.pi / 2, self._gain > 0
         reached = upright & slow & (self._contact_length <= self.cam.arm_length)
-        return (reached & (self._face_distance > 0)).all(-1, keepdims=True)
+        return reached & (self._face_distance > 0)
 
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if not fails(self.buildable[..., 0]):
-            return
+    def refusal(self) -> str:
+        """Why it cannot be built, in a sentence."""
         low, high = np.degrees([self._swing.min(), self._swing.max()])
         if low <= -90 or high >= 90:
-            raise ValueError(
+            return (
                 f"the arm swings from {low:.4g} to {high:.4g} deg from the line of centres; "
                 "it must stay between -90 and 90 deg"
             )
         if self._gain.min() <= 0:
-            raise ValueError(
+            return (
                 f"the arm moves with the cam by {1 - self._gain.min():.4g} rad for each rad of cam angle; "
                 "it must stay below 1, or the face is touched nowhere"
             )
         if self._face_distance.min() <= 0:
-            raise ValueError(
+            return (
                 f"the face comes down to {self._face_distance.min() / mm:.4g} mm from the cam axis; "
                 "it must stay above 0 mm"
             )
-        raise ValueError(
+        return (
             f"the face is touched up to {self._contact_length.max() / mm:.4g} mm from the arm's pivot; "
             f"the arm is {self.cam.arm_length / mm:.4g} mm long and must reach that far"
         )

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, counted, fails, quantity
+from ..quantities import Design, counted, quantity
 from ..units import deg, mm
 from .analysis import RollerAnalysis
 from .conjugate import opposite
@@ -95,24 +95,22 @@ class OscillatingRollerAnalysis(RollerAnalysis):
 
     cam: OscillatingRollerCam
 
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the design can be built, ``(..., 1)``: arm clear of the line of centres, roller of the axis."""
+    @property
+    def clear(self) -> Any:
+        """Whether the arm is clear of the line of centres and the roller of the axis, ``(..., 1)``."""
         psi = self.cam.start_angle + self.motion.s
         low, high = psi.min(-1, keepdims=True), psi.max(-1, keepdims=True)  # nearest to the axis at the low end
         return (low > 0) & (high < np.pi) & (self._pitch_radius(low) > self.cam.roller_radius)
 
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if not fails(self.buildable[..., 0]):
-            return
+    def refusal(self) -> str:
+        """Why it cannot be built, in a sentence."""
         psi = self.cam.start_angle + self.motion.s
         if psi.min() <= 0 or psi.max() >= np.pi:
-            raise ValueError(
+            return (
                 f"the arm swings from {np.degrees(psi.min()):.4g} to {np.degrees(psi.max()):.4g} deg from the line "
                 "of centres; it must stay between 0 and 180 deg"
             )
-        raise ValueError(
+        return (
             f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
             f"{self._pitch_radius(psi).min() / mm:.4g} mm of the cam axis; it must stay outside it"
         )

@@ -101,16 +101,15 @@ class TranslatingFlatAnalysis(FlatAnalysis):
 
     cam: TranslatingFlatCam
 
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the design can be built, ``(..., 1)``: the face stays above the cam axis."""
-        return (self.cam.base_radius + self.motion.s > 0).all(-1, keepdims=True)
+    @property
+    def clear(self) -> Any:
+        """Where the face stays above the cam axis."""
+        return self.cam.base_radius + self.motion.s > 0
 
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if fails(self.buildable[..., 0]):
-            least = (self.cam.base_radius + self.motion.s).min()
-            raise ValueError(f"the face comes down to {least / mm:.4g} mm above the cam axis; it must stay above 0 mm")
+    def refusal(self) -> str:
+        """Why it cannot be built, in a sentence."""
+        least = (self.cam.base_radius + self.motion.s).min()
+        return f"the face comes down to {least / mm:.4g} mm above the cam axis; it must stay above 0 mm"
 
     @cached_property
     def travel(self) -> np.ndarray:

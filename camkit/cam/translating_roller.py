@@ -152,23 +152,20 @@ class TranslatingRollerAnalysis(RollerAnalysis):
 
     cam: TranslatingRollerCam
 
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the design can be built, ``(..., 1)``: roller above the cam axis's level and clear of the axis."""
+    @property
+    def clear(self) -> Any:
+        """Where the roller is above the level of the cam axis and clear of the axis."""
         h = self.cam.start_height + self.motion.s
-        clear = (h > 0) & (np.hypot(self.cam.offset, h) > self.cam.roller_radius)
-        return clear.all(-1, keepdims=True)
+        return (h > 0) & (np.hypot(self.cam.offset, h) > self.cam.roller_radius)
 
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if not fails(self.buildable[..., 0]):
-            return
+    def refusal(self) -> str:
+        """Why it cannot be built, in a sentence."""
         h = self.cam.start_height + self.motion.s
         if h.min() <= 0:
-            raise ValueError(
+            return (
                 f"the roller's centre comes down to {h.min() / mm:.4g} mm above the cam axis; it must stay above 0 mm"
             )
-        raise ValueError(
+        return (
             f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
             f"{np.hypot(self.cam.offset, h).min() / mm:.4g} mm of the cam axis; it must stay outside it"
         )

@@ -23,7 +23,7 @@ from ..geometry import rotated
 from ..motion import Kinematics, Poly345
 from ..quantities import Design, Quantity, choice, declarations, fails, quantity
 from ..units import deg, mm
-from .analysis import Extreme
+from .peaks import Extreme
 from .sizing import least_from_which_on
 from .valve_train import FLAT, FOLLOWERS, ROLLER, ValveTrain, highest
 
@@ -31,6 +31,8 @@ LEAST_GAP = 1e-3
 """Exponents closer than this count as repeated: the coefficients would be the difference of huge numbers."""
 BLEND = 1 / 3
 """Share of a ramp over which the follower gains the seating velocity; the rest of it is straight."""
+FLANK_ANGLES = 129
+"""Even cam angles of the flank between which extremes are looked for, however many an analysis has."""
 ROUNDING = 1e-12
 """A lift this little (m) below 0 is the start of the flank."""
 
@@ -378,9 +380,18 @@ class ValveAnalysis:
         ample = np.maximum(np.maximum(3 * rho, np.sqrt(3 * w * rho)), np.cbrt(6 * v**2 * rho))
         return least_from_which_on(lambda size: rho * self._tightest_on(np.asarray(size)[..., None])[0] <= 1, ample)
 
+    def highest(self, f: Callable[[Any], Any]) -> Extreme:
+        """The largest value of ``f(analysis)`` over the opening flank, whichever cam angles the analysis has."""
+        return highest(lambda angle: f(replace(self, cam_angle=angle)), self._flank_angle)
+
+    def lowest(self, f: Callable[[Any], Any]) -> Extreme:
+        """As `highest`, for the least value."""
+        value, angle = self.highest(lambda at: -f(at))
+        return Extreme(-value, angle)
+
     @cached_property
     def _flank_angle(self) -> np.ndarray:
-        return np.linspace(0, 1, self.cam_angle.shape[-1]) * self.cam.half_angle
+        return np.linspace(0, 1, FLANK_ANGLES) * self.cam.half_angle
 
     @property
     def _geometry(self) -> tuple[Kinematics, Any, Any]:
@@ -506,10 +517,6 @@ class ValveAnalysis:
     def loaded_flank(self) -> Any:
         """The cam's outline, there is no other."""
         return 1.0
-
-    def highest(self, f: Callable[[Any], Any]) -> Extreme:
-        """The largest value of ``f(analysis)`` over the cam angles of this analysis, found between them too."""
-        return Extreme(*highest(lambda alpha: f(replace(self, cam_angle=alpha)), self.cam_angle))
 
     @cached_property
     def follower_force(self) -> np.ndarray:

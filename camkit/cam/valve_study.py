@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from ..quantities import Measure
 from ..study import Study, WeightedSum, weighted
 from ..units import deg, mm
-from .measures import peak_force, steepest
+from .measures import peak, peak_force, steepest
 from .valve import ValveAnalysis, ValveCam
 
 fullness = Measure("fullness", "", lambda a: a.fullness)
@@ -20,10 +20,10 @@ peak_acceleration = Measure("peak positive acceleration", "m/s^2", lambda a: a.p
 nose_radius = Measure("radius at the nose (flat follower)", "mm", lambda a: a.nose_radius)
 least_radius = Measure("least convex radius anywhere", "mm", lambda a: a.least_radius)
 least_hollow_radius = Measure("least hollow radius", "mm", lambda a: a.least_hollow_radius)
-face_reach = Measure("reach of the contact on a flat face", "mm", lambda a: abs(a.velocity).max(-1))
+face_reach = Measure("reach of the contact on a flat face", "mm", peak(lambda a: abs(a.velocity)))
 jump_margin = Measure("overspeed before the follower jumps", "%", lambda a: a.jump_margin)
-peak_stress = Measure("peak contact stress", "MPa", lambda a: a.contact_stress.max(-1))
-peak_camshaft_torque = Measure("peak camshaft torque", "N m", lambda a: abs(a.cam_torque).max(-1))
+peak_stress = Measure("peak contact stress", "MPa", peak(lambda a: a.contact_stress))
+peak_camshaft_torque = Measure("peak camshaft torque", "N m", peak(lambda a: abs(a.cam_torque)))
 
 VALVE_MEASURES = (
     fullness,

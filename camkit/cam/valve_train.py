@@ -13,6 +13,8 @@ import numpy as np
 
 from ..geometry import offset_curvature
 from ..motion import Kinematics
+from . import peaks
+from .peaks import Extreme
 
 
 @dataclass(frozen=True)
@@ -81,24 +83,16 @@ FLAT, ROLLER = FlatFollower(), RollerFollower()
 FOLLOWERS = (FLAT, ROLLER)
 
 
-def highest(function: Callable[[Any], Any], angle: Any, zooms: int = 3) -> tuple[Any, Any]:
-    """The largest value of ``function`` over the last axis of ``angle``, and the angle at which it stands.
-
-    The best angle's neighbours enclose it; each zoom looks again, ten times closer, between them.
+def highest(function: Callable[[Any], Any], angle: Any) -> Extreme:
+    """The largest value of a smooth ``function`` over the even cam angles ``angle``, and where it stands.
 
     >>> value, angle = highest(np.sin, np.linspace(0, 3, 31))
     >>> print(f"{value:.6f} at {angle:.4f}")
     1.000000 at 1.5708
     """
-    for _ in range(zooms):
-        angle, values = np.broadcast_arrays(angle, function(angle))
-        best = np.argmax(values, axis=-1, keepdims=True)
-        low = np.take_along_axis(angle, np.maximum(best - 1, 0), -1)
-        high = np.take_along_axis(angle, np.minimum(best + 1, angle.shape[-1] - 1), -1)
-        angle = low + (high - low) * np.linspace(0, 1, 21)
-    values = function(angle)
-    best = np.argmax(values, axis=-1, keepdims=True)
-    return np.take_along_axis(values, best, -1)[..., 0], np.take_along_axis(angle, best, -1)[..., 0]
+    inner = np.ones(np.shape(angle)[-1], dtype=bool)
+    inner[[0, -1]] = False
+    return peaks.highest(function, angle, inner)
 
 
 @dataclass(frozen=True)

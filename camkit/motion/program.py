@@ -28,6 +28,7 @@ from ..quantities import fails
 from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
 from .law import Kinematics, finite
+from .resolution import Resolution, resolve
 
 TURN = 2 * np.pi
 SAME_ANGLE = 1e-9
@@ -57,6 +58,11 @@ class Segment(ABC):
         """The shares of the segment at which its motion may jump or have a corner."""
         return ()
 
+    @property
+    def still(self) -> bool:
+        """Whether the follower rests."""
+        return False
+
     @abstractmethod
     def motion(self, u: Any) -> Kinematics:
         """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
@@ -80,6 +86,10 @@ class Dwell(Segment):
     @property
     def change(self) -> Any:
         return 0.0
+
+    @property
+    def still(self) -> bool:
+        return True
 
     def motion(self, u: Any) -> Kinematics:
         rest = 0.0 * u
@@ -187,6 +197,11 @@ class MotionProgram:
     def edges(self) -> Any:
         """The cam angles of the joints from 0 to ``span``, rad: ``(k + 1,)`` for ``k`` segments, or ``(p, k + 1)``."""
         return np.concatenate([np.atleast_1d(edge) for edge in np.broadcast_arrays(*self.starts)], axis=-1)
+
+    @cached_property
+    def resolution(self) -> Resolution:
+        """Cam angles that show every segment, however narrow, with its joints and kinks from both sides."""
+        return resolve(self)
 
     @property
     def periodic(self) -> Any:

@@ -121,9 +121,9 @@ def test_jump_and_preload_agree_with_the_valve_train():
     cam = CAMS[1].replace(load=SLIDE.replace(force=0, gravity=0))
     train = ValveTrain(SLIDE.mass, SLIDE.spring_rate, SLIDE.preload)
     angle = cam.analyse().cam_angle
-    assert jump_speed(cam.analyse()) == pytest.approx(train.jump_speed(cam.motion, angle), rel=1e-12)
+    assert jump_speed(cam.analyse()) == pytest.approx(train.jump_speed(cam.motion, angle), rel=1e-9)
     expected = train.preload_needed(cam.motion, angle, 1200 * rpm)
-    assert preload_needed(cam.analyse(), 1200 * rpm) == pytest.approx(expected, rel=1e-12)
+    assert preload_needed(cam.analyse(), 1200 * rpm) == pytest.approx(expected, rel=1e-9)
 
 
 @every_cam
@@ -231,7 +231,8 @@ def test_pressure_along_the_cam(cam):
     assert_allclose(found.half_width, half, rtol=1e-12)
     assert_allclose(found.shear / found.pressure, 0.3003, rtol=1e-4)
     assert_allclose(found.shear_depth / found.half_width, 0.7862, rtol=1e-4)
-    assert peak_pressure(PAIR)(analysis) == found.pressure.max()
+    assert peak_pressure(PAIR)(analysis) == pytest.approx(found.pressure.max(), rel=1e-4)
+    assert peak_pressure(PAIR)(analysis) >= found.pressure.max() * (1 - 1e-12)
 
 
 def test_a_published_contact():
