@@ -232,18 +232,21 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Fo
         return np.where(evaluation.feasible, f, WORST * (1 + np.where(np.isfinite(f), missed, 1)))
 
     crowd = 2 ** int(np.ceil(np.log2(10 * len(study.free))))
-    found = differential_evolution(
-        told,
-        study.bounds.T,
-        init=qmc.scale(qmc.Sobol(len(study.free), rng=seed).random(crowd), *study.bounds),
-        x0=_start(study),
-        maxiter=max(designs // crowd - 1, 1),
-        tol=1e-9,
-        seed=seed,
-        polish=False,
-        updating="deferred",
-        vectorized=True,
-    )
+    try:
+        found = differential_evolution(
+            told,
+            study.bounds.T,
+            init=qmc.scale(qmc.Sobol(len(study.free), rng=seed).random(crowd), *study.bounds),
+            x0=_start(study),
+            maxiter=max(designs // crowd - 1, 1),
+            tol=1e-9,
+            seed=seed,
+            polish=False,
+            updating="deferred",
+            vectorized=True,
+        )
+    except RuntimeError as wrapped:  # scipy takes what the study refuses for a fault of its own
+        raise (wrapped.__cause__ if isinstance(wrapped.__cause__, ValueError) else wrapped) from None
     why = "its designs had drawn together" if found.success else "it had looked at as many designs as it may"
     return _Found(_better(judge, found.x), looked, (), why)
 

@@ -6,7 +6,7 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -69,6 +69,22 @@ def _number(value: Any) -> bool:
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 
+def _numbers(measure: Measure, analysis: Any, p: int, kind: str) -> Any:
+    """A measure of ``p`` designs of a kind, ``(p,)``."""
+    try:
+        value = measure(analysis)
+    except AttributeError as lacking:
+        why = f", whose analysis has no {words(lacking.name)}" if lacking.name else ""
+        raise ValueError(f"the {measure.name} does not apply to the {kind}{why}") from lacking
+    try:
+        return np.broadcast_to(value, p)
+    except ValueError:
+        shape = " x ".join(map(str, np.shape(value)))
+        raise ValueError(
+            f"the {measure.name} gives {shape} numbers for {p} designs; a measure gives one for each design"
+        ) from None
+
+
 @dataclass(frozen=True)
 class Evaluation:
     """What a study says of ``p`` designs; what cannot be built has ``inf`` objectives and is infeasible."""
@@ -99,8 +115,9 @@ class Study:
     declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
     ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.
 
-    Raises ``ValueError`` for a name that is not a number of the design, for bounds that are reversed, not finite
-    or impossible, for a limit that is not finite, and for no free quantity or no objective at all.
+    Raises ``ValueError`` for what is no design that can be analysed, for a name that is not a number of the design,
+    for bounds that are reversed, not finite or impossible, for a limit that is not finite, and for no free quantity or
+    no objective at all.  `evaluate` does for a measure that does not apply to the design.
     """
 
     start: Any
@@ -111,6 +128,9 @@ class Study:
     angles: int = 361
 
     def __post_init__(self) -> None:
+        if isinstance(self.start, type) or not is_dataclass(self.start) or not hasattr(self.start, "analyse"):
+            given = f"the class {self.start.__name__}" if isinstance(self.start, type) else type(self.start).__name__
+            raise ValueError(f"a study needs a design that can be analysed, such as a cam; it was given {given}")
         declared = {k: q for k, q in declarations(self.start).items() if isinstance(q, Quantity)}
         if isinstance(self.free, str) or not self.free:
             raise ValueError("a study needs the names of one or more free quantities")
@@ -195,13 +215,15 @@ class Study:
 
     def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
-        f = self._columns([measure(analysis) for measure in self.minimise], len(x))
-        g = self._columns([sense * (m(analysis) - v) / (abs(v) or 1.0) for m, v, sense in self.limits], len(x))
+        kind = type(self.start).__name__
+        f = self._columns([_numbers(measure, analysis, len(x), kind) for measure in self.minimise], len(x))
+        limits = [(_numbers(m, analysis, len(x), kind), v, sense) for m, v, sense in self.limits]
+        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
         return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
 
     @staticmethod
     def _columns(values: list[Any], p: int) -> np.ndarray:
-        return np.stack([np.broadcast_to(v, p) for v in values], axis=-1) if values else np.zeros((p, 0))
+        return np.stack(values, axis=-1) if values else np.zeros((p, 0))
 
     def worst_miss(self, g: np.ndarray) -> str:
         """Which limit one design, with ``g`` of an `Evaluation`, misses by most and by how much, in words."""

@@ -8,10 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import Measure, Study, weighted
-from camkit.quantities import Design, quantity
+import camkit
+from camkit import DoubleUniversalJoint, Friction, Measure, Study, minimise, weighted
+from camkit.linkage.load import RockerLoad
+from camkit.linkage.measures import swing
+from camkit.linkage.rssr import RSSR
+from camkit.quantities import Design, Quantity, declarations, quantity
 from camkit.study import WeightedSum
 from camkit.units import mm
+from camkit.universal_joint import fluctuation
 
 
 @dataclass(frozen=True)
@@ -151,3 +156,56 @@ def test_the_sign_of_a_weighted_sum_survives_new_weights():
     effort = weighted("effort", {area: 1.0}, (1.0,))
     study = can_study(minimise=(-effort,))
     assert study.weighing((1.0,)).evaluate(study.x0).f[0, 0] == study.evaluate(study.x0).f[0, 0]
+
+
+@pytest.mark.parametrize(
+    ("start", "given"),
+    [
+        (TinCan, "the class TinCan"),
+        (RockerLoad(), "RockerLoad"),
+        (Friction(), "Friction"),
+        (None, "NoneType"),
+        ("a cam", "str"),
+    ],
+)
+def test_what_cannot_be_analysed_is_refused(start, given) -> None:
+    with pytest.raises(ValueError, match=r".") as said:
+        Study(start, ("radius",), (area,))
+    assert str(said.value) == (f"a study needs a design that can be analysed, such as a cam; it was given {given}")
+
+
+def test_measures_of_another_mechanism_are_refused() -> None:
+    joint, free = DoubleUniversalJoint(), ("second_angle",)
+    with pytest.raises(
+        ValueError,
+        match=r"^the output swing does not apply to the DoubleUniversalJoint, whose analysis has no rocker angle$",
+    ):
+        Study(joint, free, (swing,)).evaluate([[0.1]])
+    with pytest.raises(ValueError, match=r"^the output swing does not apply"):
+        Study(joint, free, (fluctuation,), at_most={swing: 1.0}).evaluate([[0.1]])
+    for method in ("slsqp", "de", "ga"):
+        with pytest.raises(ValueError, match=r"^the output swing does not apply"):
+            minimise(Study(joint, free, (swing,)), method)
+    curve = Measure("speed", "rpm", lambda a: a.output_speed)
+    for designs, shape in (([[0.1]], "1 x 361"), ([[0.1], [0.2]], "2 x 361")):
+        with pytest.raises(
+            ValueError, match=rf"^the speed gives {shape} numbers for {len(designs)} designs; a measure"
+        ):
+            Study(joint, free, (curve,)).evaluate(designs)
+
+
+DESIGNS = [value for value in vars(camkit).values() if isinstance(value, type) and issubclass(value, Design)]
+
+
+@pytest.mark.parametrize("kind", [kind for kind in DESIGNS if hasattr(kind, "analyse") and kind is not RSSR])
+def test_every_design_is_analysed_at_a_number_of_positions(kind) -> None:
+    """What a study asks of a design: its measures are one number each, those of two designs two."""
+    design = kind()
+    name = next(k for k, q in declarations(design).items() if isinstance(q, Quantity))
+    value = getattr(design, name)
+    many = design.replace(**{name: np.array([[value], [value]])})
+    one, two = design.analyse(61), many.analyse(61)
+    for measure in kind.measures:
+        assert np.size(measure(one)) == 1, measure.name
+        both = np.broadcast_to(measure(two), 2)
+        assert both == pytest.approx([measure(one)] * 2, rel=1e-9, nan_ok=True), measure.name

@@ -79,6 +79,8 @@ class RSSR(Links):
     [237.596379 195.880281]
     >>> print(np.degrees(linkage.limit_angles()).round(6))
     [265.623052 274.376948]
+    >>> np.degrees(np.ptp(linkage.replace(crank=20*mm).analyse().rocker_angle)).round(3)
+    23.462
 
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a crank angle that cannot be reached.
     """
@@ -182,16 +184,24 @@ class RSSR(Links):
         return _vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
 
     def analyse(
-        self, crank_angle: Any, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
+        self, crank_angle: Any = 361, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
     ) -> RSSRAnalysis:
         """Positions, motion and static forces at the given crank angles (rad).
+
+        A whole number of 2 or more in place of angles is how many there are over one turn, both ends included, as
+        every other design is analysed; an angle in rad is a ``float``.
 
         There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
         crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
         """
         if branch not in (1, -1):
             raise ValueError(f"the branch is {branch!r}; it must be +1 or -1")
-        angles = np.atleast_1d(np.asarray(crank_angle, dtype=float))
+        if isinstance(crank_angle, (int, np.integer)) and crank_angle >= 2:
+            crank_angle, through = np.linspace(0, 2 * np.pi, crank_angle), True
+        try:
+            angles = np.atleast_1d(np.asarray(crank_angle, dtype=float))
+        except (TypeError, ValueError):
+            angles = np.zeros(0)
         if not (angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
             raise ValueError("the crank angles must be one or more finite numbers")
         analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)

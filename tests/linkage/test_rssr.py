@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from camkit import Measure, Study, minimise
 from camkit.linkage.cabin_door_paper import adams_linkage
 from camkit.linkage.rssr import RSSR, inclination
 from camkit.units import deg, mm
@@ -481,3 +482,25 @@ def test_other_refusals():
         RSSR(crank=-5 * mm)
     with pytest.raises(ValueError, match="axis distance h_0"):
         RSSR(axis_distance=-1 * mm)
+
+
+def test_a_bare_linkage_in_a_study_turns_all_the_way_round():
+    """The swing over a turn at 20 and 60 mm of crank; one of 100 mm cannot turn round."""
+    whole = Measure("swing", "deg", lambda a: np.ptp(a.rocker_angle, axis=-1))
+    study = Study(RSSR(), {"crank": (20 * mm, 60 * mm)}, (whole,))
+    evaluation = study.evaluate([[20 * mm], [60 * mm], [100 * mm]])
+    assert evaluation.f[:, 0] / deg == pytest.approx([23.462, 67.520, np.inf], abs=1e-3)
+    assert evaluation.feasible.tolist() == [True, True, False]
+    best = minimise(study)
+    assert (best.x[0] / mm, best.f / deg) == pytest.approx((20, 23.462), abs=1e-3)
+    a = RSSR(crank=20 * mm).analyse(7)
+    assert a.crank_angle == pytest.approx(np.arange(7) * 60 * deg)
+    assert a.rocker_angle == pytest.approx(RSSR(crank=20 * mm).analyse(np.arange(7) * 60 * deg).rocker_angle)
+    with pytest.raises(ValueError, match=r"^the crank cannot sweep from 0 to 360 deg: the linkage can be assembled"):
+        RSSR().analyse()
+
+
+@pytest.mark.parametrize("angles", ["a", None, [[1], [1, 2]], [], np.nan])
+def test_crank_angles_that_are_no_numbers_are_refused(angles):
+    with pytest.raises(ValueError, match=r"^the crank angles must be one or more finite numbers$"):
+        RSSR().analyse(angles)
