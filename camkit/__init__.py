@@ -35,7 +35,7 @@ from .motion import __all__ as _motion_names
 from .plane import Plane
 from .polish import SumOfResiduals, polish
 from .profile_files import profile_csv, profile_dxf
-from .quantities import Measure, PeakMeasure, quantity
+from .quantities import Measure, PeakMeasure, UnitRemark, quantity
 from .shaft import UniversalJointShaft, lightest_shaft, shaft_study
 from .side_by_side import side_by_side
 from .study import Study, weighted
@@ -118,6 +118,7 @@ __all__ = [
     "Tolerances",
     "TranslatingFlatCam",
     "TranslatingRollerCam",
+    "UnitRemark",
     "UniversalJoint",
     "UniversalJointShaft",
     "ValveCam",

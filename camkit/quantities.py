@@ -15,25 +15,67 @@ ValueError: the arm l (pivot to roller centre) is -10 mm; it must be a finite nu
 
 A design is a frozen dataclass.  Its fields hold one number each, or arrays of shape ``(p, 1)`` for a
 population of ``p`` designs: one number that cannot be built is refused in a sentence, a member of a
-population that cannot be built becomes ``nan`` and disturbs nobody else.
+population that cannot be built becomes ``nan`` and disturbs nobody else.  What is no number is checked against
+the annotation of its field (`refuse_kinds`).  A number that was meant in the unit of its declaration, but typed
+without it, draws a `UnitRemark`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
+from functools import cache, cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
+from .kinds import number, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, table
 from .units import factor, in_unit
+
+BEYOND = 1000
+"""How many times larger than all that a slider offers a number may be, unless its declaration says ``at_most``."""
+FAR = 4
+"""A number is far out of its range if it is at least so many times larger than its end, or smaller."""
+
+
+class UnitRemark(UserWarning):
+    """A number looks as if its unit had been left out, such as ``base_radius=30`` in place of ``30 * mm``."""
+
+
+_silent: ContextVar[bool] = ContextVar("_silent", default=False)
+
+
+@contextmanager
+def unremarked() -> Iterator[None]:
+    """Within this context no `UnitRemark` is made: the numbers come from a panel, a file or a search."""
+    token = _silent.set(True)
+    try:
+        yield
+    finally:
+        _silent.reset(token)
+
+
+def _level() -> int:
+    """How many calls away the one stands that is not camkit's own."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__, "dataclasses"):
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """The declaration of one number of a design; ``default, low, high, above, at_least`` are in ``unit``."""
+    """The declaration of one number of a design; ``default, low, high, above, at_least, at_most`` are in ``unit``.
+
+    ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the largest of
+    ``low, high, default`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
+    """
 
     symbol: str
     default: float
@@ -43,25 +85,48 @@ class Quantity:
     meaning: str
     above: float | None = 0.0
     at_least: float | None = None
+    at_most: float | None = None
 
-    @property
+    @cached_property
     def factor(self) -> float:
         """SI value of one unit."""
         return factor(self.unit)
 
+    @cached_property
+    def most(self) -> float:
+        """The largest size that the number may have, in ``unit``."""
+        return self._top * BEYOND if self.at_most is None else self.at_most
+
+    @cached_property
+    def _top(self) -> float:
+        return max(abs(self.low), abs(self.high), abs(self.default))
+
+    @cached_property
+    def _most(self) -> float:
+        """The largest size in SI."""
+        return self.most * self.factor
+
     @property
     def possible(self) -> str:
-        """The hard limit in words."""
+        """The hard limit in words; the largest size is named where the declaration gives it."""
+        return self._possible(self.at_most is not None)
+
+    def possible_for(self, value: Any) -> str:
+        """The hard limit in words for somebody who wanted ``value`` (SI): the largest size too, if that is missed."""
+        return self._possible(np.isfinite(value) and abs(value) > self._most)
+
+    def _possible(self, most: Any) -> str:
         unit = f" {self.unit}" if self.unit else ""
+        upto = f"at most {self.most:.6g}{unit}"
         if self.at_least is not None:
-            return f"a finite number of at least {self.at_least:g}{unit}"
+            return f"a finite number of at least {self.at_least:g}{unit}" + f" and {upto}" * bool(most)
         if self.above is not None:
-            return f"a finite number above {self.above:g}{unit}"
-        return "a finite number"
+            return f"a finite number above {self.above:g}{unit}" + f" and {upto}" * bool(most)
+        return "a finite number" + f" of a size of {upto}" * bool(most)
 
     def allows(self, value: Any) -> Any:
         """Whether ``value`` (SI) can be built, element by element."""
-        ok = np.isfinite(value)
+        ok = abs(value) <= self._most
         if self.at_least is not None:
             return ok & (value >= self.at_least * self.factor)
         if self.above is not None:
@@ -72,6 +137,29 @@ class Quantity:
         """``value`` (SI) as a person reads it."""
         return f"{in_unit(value, self.unit):.6g} {self.unit}".rstrip()
 
+    def unit_left_out(self, value: float) -> bool:
+        """Whether ``value`` (SI) is as round as people type, far out of the range, and within it if in the unit."""
+        low, top, far = self._range
+        size = abs(value)
+        if low / far <= size <= top * far or not low / 2 <= size * self.factor <= 2 * top:
+            return False
+        return float(f"{size:.5g}") == size
+
+    @cached_property
+    def _range(self) -> tuple[float, float, float]:
+        """The ends of the range by size (from 0: a twentieth of the top), SI, and how far out of it is far."""
+        top = self._top * self.factor
+        low = min(abs(self.low), abs(self.high)) * self.factor if self.low * self.high > 0 else top / 20
+        return low, top, max(FAR, self.factor**0.5, self.factor**-0.5)
+
+    def remark(self, name: str, value: Any) -> None:
+        """A `UnitRemark` if ``value`` (SI) is one number that looks as if its unit had been left out."""
+        if _silent.get() or isinstance(value, np.ndarray) or not self.unit_left_out(value):
+            return
+        meant = "/100" if self.unit == "%" else "*" + self.unit.replace(" ", "*").replace("^", "**")
+        said = f"the {words(name)} is {self.text(value)}, numbers being in SI units; did you mean {value:g}{meant}?"
+        warnings.warn(UnitRemark(said), stacklevel=_level())
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -81,6 +169,22 @@ class Choice:
     default: Any
     options: tuple[Any, ...]
     meaning: str
+
+    @cached_property
+    def _common(self) -> frozenset[str]:
+        """What every option can be asked for."""
+        asked = (frozenset(n for n in dir(o) if n[0] != "_") for o in self.options)
+        return frozenset.intersection(*asked) - frozenset(dir(Design))
+
+    def allows(self, value: Any) -> bool:
+        """Whether ``value`` is one of the options or another like them."""
+        if isinstance(value, type):
+            return False
+        return type(value) in self._types or all(hasattr(value, name) for name in self._common)
+
+    @cached_property
+    def _types(self) -> frozenset[type]:
+        return frozenset(map(type, self.options))
 
 
 def quantity(
@@ -93,13 +197,15 @@ def quantity(
     *,
     above: float | None = 0.0,
     at_least: float | None = None,
+    at_most: float | None = None,
 ) -> Any:
     """A dataclass field for one number, all arguments in ``unit``.
 
     ``low`` and ``high`` are what a slider offers.  What is possible at all is ``above`` (strictly,
-    0 unless said otherwise; ``None``: any finite number) or ``at_least``.
+    0 unless said otherwise; ``None``: any finite number) or ``at_least``, and a size of ``at_most`` (a thousand
+    times what a slider offers, unless said otherwise).
     """
-    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least)
+    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least, at_most)
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
@@ -110,24 +216,37 @@ def choice(symbol: str, default: Any, options: Sequence[Any], meaning: str) -> A
 
 def declarations(design: Any) -> dict[str, Quantity | Choice]:
     """The declared fields of a design or a design class, in order."""
-    return {f.name: f.metadata["declared"] for f in dataclasses.fields(design) if "declared" in f.metadata}
+    return dict(_declared(design if isinstance(design, type) else type(design)))
+
+
+@cache
+def _declared(kind: type) -> dict[str, Quantity | Choice]:
+    return {f.name: f.metadata["declared"] for f in dataclasses.fields(kind) if "declared" in f.metadata}
 
 
 def fails(ok: Any) -> bool:
     """True if ``ok`` is one false answer; a population's answers are a mask and never fail as a whole."""
+    if type(ok) is bool:
+        return not ok
     return np.ndim(ok) == 0 and not ok
 
 
-def counted(n: Any, what: str, least: int = 2) -> int:
-    """``n`` if it is a whole number of at least ``least``; a ``ValueError`` in a sentence otherwise."""
+def counted(n: Any, what: str, least: int = 2, most: int = 10_000_000) -> int:
+    """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < least:
-        raise ValueError(f"the number of {what} is {n!r}; it must be a whole number of at least {least}")
+        raise ValueError(f"the number of {what} is {shown(n)}; it must be a whole number of at least {least}")
+    if n > most:
+        raise ValueError(f"the number of {what} is {shown(n)}; it must be a whole number of at most {most}")
     return int(n)
 
 
 def words(name: str) -> str:
     """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.mass`` -> ``load mass``."""
     return name.replace("_", " ").replace(".", " ")
+
+
+def _subject(name: str, declared: Quantity) -> str:
+    return f"the {words(name)}" if name == declared.symbol else f"the {words(name)} {declared.symbol}"
 
 
 class Design:
@@ -137,25 +256,37 @@ class Design:
     """Every measure of such a design, for tables and files."""
 
     def __post_init__(self) -> None:
-        for name, declared in declarations(self).items():
+        declared = _declared(type(self))
+        for name, entry in declared.items():
             value = getattr(self, name)
-            if isinstance(declared, Quantity):
-                self._check(name, declared, value)
-            elif not hasattr(value, "name"):
-                options = ", ".join(option.name for option in declared.options)
-                raise ValueError(f"the {words(name)} is {value!r}; it must be one of {options} or another like them")
+            if isinstance(entry, Quantity):
+                self._check(name, entry, value)
+            elif not entry.allows(value):
+                options = ", ".join(option.name for option in entry.options)
+                raise ValueError(
+                    f"the {words(name)} is {shown(value)}; it must be one of {options} or another like them"
+                )
+        refuse_kinds(self, declared)
+        refuse_lengths(self)
 
-    def _check(self, name: str, declared: Quantity, value: Any) -> None:
+    def _check(self, name: str, declared: Quantity, given: Any) -> None:
         """Refuse one number that cannot be built; drop the members of a population that cannot."""
-        subject = f"the {words(name)}" if name == declared.symbol else f"the {words(name)} {declared.symbol}"
-        if not isinstance(value, (int, float, np.ndarray, np.number)) or isinstance(value, bool):
-            raise ValueError(f"{subject} is {value!r}; it must be {declared.possible}")
+        value = number(given)
+        if value is None:
+            column = ", or a column of them of the shape (p, 1)" if isinstance(given, np.ndarray) else ""
+            raise ValueError(f"{_subject(name, declared)} is {shown(given)}; it must be {declared.possible}{column}")
+        if value is not given:
+            object.__setattr__(self, name, value)
         ok = declared.allows(value)
         if fails(ok):
             raise ValueError(
-                f"{subject} ({declared.meaning}) is {declared.text(float(value))}; it must be {declared.possible}"
+                f"{_subject(name, declared)} ({declared.meaning}) is {declared.text(float(value))}; "
+                f"it must be {declared.possible_for(value)}"
             )
-        self.keep(ok)
+        if type(value) is float:
+            declared.remark(name, value)
+        else:
+            self.keep(ok)
 
     def keep(self, ok: Any) -> None:
         """Members of a population for which ``ok`` does not hold become ``nan`` in every number that is a column.
@@ -164,7 +295,7 @@ class Design:
         """
         if np.all(ok):
             return
-        numbers = [name for name, declared in declarations(self).items() if isinstance(declared, Quantity)]
+        numbers = [name for name, declared in _declared(type(self)).items() if isinstance(declared, Quantity)]
         for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:
             object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 
@@ -176,7 +307,12 @@ class Design:
                 f"{type(self).__name__} has no {', '.join(sorted(unknown))}; "
                 f"it has {', '.join(f.name for f in dataclasses.fields(self))}"  # type: ignore[arg-type]
             )
-        return dataclasses.replace(self, **changes)  # type: ignore[type-var]
+        with unremarked():
+            changed = dataclasses.replace(self, **changes)  # type: ignore[type-var]
+        for name, declared in declarations(self).items():
+            if name in changes and isinstance(declared, Quantity):
+                declared.remark(name, getattr(changed, name))
+        return changed
 
     def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import Measure, Quantity, counted, declarations, words
+from .quantities import Measure, Quantity, counted, declarations, unremarked, words
 
 
 @dataclass(frozen=True)
@@ -171,8 +171,10 @@ class Study:
         if not (declared.allows(low) and declared.allows(high)):
             raise ValueError(
                 f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}; "
-                f"each must be {declared.possible}"
+                f"each must be {declared.possible if declared.allows(high) else declared.possible_for(high)}"
             )
+        declared.remark(name, float(low))
+        declared.remark(name, float(high))
 
     @property
     def bounds(self) -> np.ndarray:
@@ -200,7 +202,8 @@ class Study:
         columns = (
             [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
         )
-        return self.start.replace(**dict(zip(self.free, columns, strict=True)))
+        with unremarked():
+            return self.start.replace(**dict(zip(self.free, columns, strict=True)))
 
     def analyse(self, x: Any) -> Any:
         """The analysis of the design or population ``x``."""

@@ -1,5 +1,6 @@
 """Declarations: what a slider, a bound, a table and a refusal read from one place."""
 
+from collections.abc import Callable
 from dataclasses import FrozenInstanceError, dataclass, field
 
 import numpy as np
@@ -8,9 +9,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
-from camkit import ArmLoad, DoorHandleCam, Friction, OscillatingRollerCam
+from camkit import (
+    ArmLoad,
+    ContactPair,
+    DoorHandleCam,
+    Friction,
+    HighSpeedCam,
+    OscillatingFlatCam,
+    OscillatingRollerCam,
+    SlideLoad,
+    Study,
+    TranslatingRollerCam,
+    UnitRemark,
+    UniversalJointShaft,
+)
 from camkit.motion import LAWS, Cycloidal, Poly345
-from camkit.quantities import Choice, Design, Measure, Quantity, choice, declarations, quantity
+from camkit.quantities import Choice, Design, Measure, Quantity, choice, declarations, quantity, unremarked
 from camkit.units import deg, mm
 
 
@@ -68,10 +82,12 @@ def test_symbols_and_meanings_are_there_once(kind):
 @pytest.mark.parametrize(
     ("limits", "words", "allowed", "refused"),
     [
-        ({}, "a finite number above 0 mm", [1e-9, 5], [0, -1, np.nan, np.inf]),
+        ({}, "a finite number above 0 mm", [1e-9, 2], [0, -1, 2.01, 1e160, np.nan, np.inf]),
         ({"above": -3}, "a finite number above -3 mm", [-2.9 * mm], [-3 * mm, -np.inf]),
-        ({"at_least": 0}, "a finite number of at least 0 mm", [0, 1], [-1e-9, np.nan]),
-        ({"above": None}, "a finite number", [-1e9, 0, 1e9], [np.nan, np.inf, -np.inf]),
+        ({"at_least": 0}, "a finite number of at least 0 mm", [0, 1], [-1e-9, 1e300, np.nan]),
+        ({"above": None}, "a finite number", [-2, 0, 2], [-2.01, 2.01, np.nan, np.inf, -np.inf]),
+        ({"at_most": 4}, "a finite number above 0 mm and at most 4 mm", [4 * mm], [4.01 * mm]),
+        ({"above": None, "at_most": 4}, "a finite number of a size of at most 4 mm", [-4 * mm], [-4.01 * mm]),
     ],
 )
 def test_what_is_possible_is_said_and_checked_alike(limits, words, allowed, refused):
@@ -86,12 +102,155 @@ def test_what_is_possible_is_said_and_checked_alike(limits, words, allowed, refu
 @given(st.floats(allow_nan=True, allow_infinity=True))
 @settings(deadline=None)
 def test_one_number_is_kept_or_refused(value):
-    possible = np.isfinite(value) and value > 0
+    possible = 0 < value <= 900  # a thousand times the 900 mm that a slider offers
     if possible:
         assert Crowbar(length=value).length == value
     else:
         with pytest.raises(ValueError, match=r"^the length L \(claw to grip\) is .*; it must be a finite number above"):
             Crowbar(length=value)
+
+
+TOO_LARGE = {
+    "far beyond a slider": (900.1, "is 900100 mm; it must be a finite number above 0 mm and at most 900000 mm"),
+    "1e160": (1e160, "is 1e+163 mm; it must be a finite number above 0 mm and at most 900000 mm"),
+    "an integer of 5000 digits": (10**5000, "is inf mm; it must be a finite number above 0 mm"),
+}
+
+
+@pytest.mark.parametrize(("value", "said"), TOO_LARGE.values(), ids=TOO_LARGE)
+def test_a_number_too_large_is_refused_and_in_a_population_nan(value, said):
+    with pytest.raises(ValueError) as refused:  # noqa: PT011  the whole sentence is compared
+        Crowbar(length=value)
+    assert str(refused.value) == f"the length L (claw to grip) {said}"
+    column = np.array([[0.3], [np.inf if value > 1e300 else value]])
+    assert_array_equal(Crowbar(length=column).length, [[0.3], [np.nan]])
+
+
+@pytest.mark.parametrize("kind", [DoorHandleCam, HighSpeedCam, TranslatingRollerCam, UniversalJointShaft])
+@pytest.mark.parametrize("size", [1e160, 1e300, -1e300])
+def test_no_number_of_a_design_overflows(kind, size):
+    for name, declared in declarations(kind).items():
+        if isinstance(declared, Quantity):
+            with pytest.raises(ValueError, match="; it must be a finite number"):
+                kind(**{name: size})
+
+
+LEFT_OUT = {
+    "mm": (lambda: TranslatingRollerCam(base_radius=30),
+           "the base radius is 30000 mm, numbers being in SI units; did you mean 30*mm?"),
+    "deg": (lambda: OscillatingFlatCam(start_angle=22),
+            "the start angle is 1260.51 deg, numbers being in SI units; did you mean 22*deg?"),
+    "rpm": (lambda: SlideLoad(speed=3000),
+            "the speed is 28647.9 rpm, numbers being in SI units; did you mean 3000*rpm?"),
+    "GPa": (lambda: ContactPair(cam_modulus=210),
+            "the cam modulus is 2.1e-07 GPa, numbers being in SI units; did you mean 210*GPa?"),
+    "N/mm": (lambda: SlideLoad(spring_rate=5),
+             "the spring rate is 0.005 N/mm, numbers being in SI units; did you mean 5*N/mm?"),
+    "a change": (lambda: TranslatingRollerCam().replace(base_radius=30),
+                 "the base radius is 30000 mm, numbers being in SI units; did you mean 30*mm?"),
+    "bounds": (lambda: Study(TranslatingRollerCam(), {"base_radius": (0.03, 60)}, [Measure("height", "", len)]),
+               "the base radius is 60000 mm, numbers being in SI units; did you mean 60*mm?"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("make", "sentence"), LEFT_OUT.values(), ids=LEFT_OUT)
+def test_a_unit_that_was_left_out_is_remarked_once_where_it_was_typed(make, sentence):
+    with pytest.warns(UnitRemark) as remarks:
+        make()
+    assert [str(remark.message) for remark in remarks] == [sentence]
+    assert remarks[0].filename == __file__
+
+
+def test_a_remark_on_one_quantity_is_not_made_again_for_a_change_of_another(recwarn):
+    with unremarked():
+        cam = TranslatingRollerCam(base_radius=30)
+    cam.replace(roller_radius=9 * mm)
+    assert not recwarn
+
+
+@every_design
+def test_no_number_within_a_declared_range_draws_a_remark(kind, recwarn):
+    """Nor does any that is a few times as large or as small."""
+    for name, declared in declarations(kind).items():
+        if isinstance(declared, Quantity):
+            ends = np.array([declared.low, declared.default, declared.high]) * declared.factor
+            for value in (ends[:, None] * [1 / 4, 1 / 3, 1, 2, 4]).ravel():
+                assert not declared.unit_left_out(float(value)), (name, value)
+    assert not recwarn
+
+
+def test_members_of_a_population_and_designs_of_a_study_draw_no_remark(recwarn):
+    TranslatingRollerCam(base_radius=np.array([[0.03], [30.0]]))
+    Study(TranslatingRollerCam(), ["base_radius"], [Measure("height", "", len)]).design([30.0])
+    assert not recwarn
+
+
+@dataclass(frozen=True)
+class Toolbox(Design):
+    """Holds another design and what is no number."""
+
+    bar: Crowbar = field(default_factory=Crowbar)
+    width: float = quantity("b", 300, 100, 900, "mm", "of the box")
+    locks: int = 1
+    open: bool = False
+    label: str = ""
+    key: object = None
+    shelves: tuple[float, ...] = ()
+    test: Callable[[float], bool] | None = None
+
+
+KINDS = {
+    "a design": ({"bar": "long"}, "the bar is 'long'; it must be a Crowbar"),
+    "a class": ({"bar": Crowbar}, "the bar is <class 'tests.test_quantities.Crowbar'>; it must be a Crowbar"),
+    "a whole number": ({"locks": 1.5}, "the locks is 1.5; it must be a whole number"),
+    "no truth": ({"locks": True}, "the locks is True; it must be a whole number"),
+    "a truth": ({"open": 1}, "the open is 1; it must be True or False"),
+    "a text": ({"label": 7}, "the label is 7; it must be a text"),
+    "a tuple": ({"shelves": 0.3}, "the shelves is 0.3; it must be a tuple"),
+    "a function": ({"test": "x > 1"}, "the test is 'x > 1'; it must be a function or None"),
+    "a complex number": ({"width": 1 + 2j}, "the width b is (1+2j); it must be a finite number above 0 mm"),
+    "a truth for a number": ({"width": np.True_}, "the width b is np.True_; it must be a finite number above 0 mm"),
+    "None": ({"width": None}, "the width b is None; it must be a finite number above 0 mm"),
+    "a list": ({"width": [0.3]}, "the width b is [0.3]; it must be a finite number above 0 mm"),
+    "an array of the shape (3,)": (
+        {"width": np.ones(3)},
+        "the width b is an array of shape (3,); it must be a finite number above 0 mm, "
+        "or a column of them of the shape (p, 1)",
+    ),
+    "an array of the shape (2, 3)": (
+        {"width": np.ones((2, 3))},
+        "the width b is an array of shape (2, 3); it must be a finite number above 0 mm, "
+        "or a column of them of the shape (p, 1)",
+    ),
+    "an array of truths": (
+        {"width": np.array([[True]])},
+        "the width b is an array of bool of shape (1, 1); it must be a finite number above 0 mm, "
+        "or a column of them of the shape (p, 1)",
+    ),
+    "columns of different lengths": (
+        {"width": np.ones((2, 1)), "bar": Crowbar(length=np.ones((3, 1)))},
+        "the Toolbox has columns of 3 in its bar and 2 in its width; they must be equally long",
+    ),
+}
+
+
+@pytest.mark.parametrize(("values", "sentence"), KINDS.values(), ids=KINDS)
+def test_a_field_of_another_kind_than_annotated_is_refused(values, sentence):
+    with pytest.raises(ValueError) as refused:  # noqa: PT011  the whole sentence is compared
+        Toolbox(**values)
+    assert str(refused.value).replace("<class 'test_quantities", "<class 'tests.test_quantities") == sentence
+
+
+def test_numbers_of_any_type_are_kept_as_floats():
+    for value in (1, np.int8(1), np.float32(1), np.array(1), np.array(1.0)):
+        assert type(Crowbar(length=value).length) in (float, np.float64)
+        assert Crowbar(length=value) == Crowbar(length=1.0)
+    column = Crowbar(length=np.array([[1], [2]], dtype=np.uint8)).length
+    assert (column.dtype, column.tolist()) == (float, [[1.0], [2.0]])
+
+
+def test_a_column_of_one_member_goes_with_any():
+    Toolbox(width=np.ones((1, 1)), bar=Crowbar(length=np.ones((3, 1))))
 
 
 def test_a_population_is_kept_without_a_refusal():

@@ -13,7 +13,7 @@ import numpy as np
 from .. import export, profile_files
 from ..markup import html, table
 from ..plot.picture import View, below, positions_of, small_png, strip
-from ..quantities import Design, Measure, Quantity, declarations
+from ..quantities import Design, Measure, Quantity, declarations, unremarked
 from ..study import keeps
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
@@ -39,10 +39,11 @@ def declared_in(design: Any) -> dict[str, Any]:
 def changed(design: Any, values: Mapping[str, Any]) -> Any:
     """``design`` with other values, also of designs that it holds."""
     changes = {name: value for name, value in values.items() if "." not in name}
-    for part in dict.fromkeys(name.partition(".")[0] for name in values.keys() - changes.keys()):
-        inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
-        changes[part] = getattr(design, part).replace(**inner)
-    return design.replace(**changes)
+    with unremarked():  # a panel's numbers have their units
+        for part in dict.fromkeys(name.partition(".")[0] for name in values.keys() - changes.keys()):
+            inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
+            changes[part] = getattr(design, part).replace(**inner)
+        return design.replace(**changes)
 
 
 class Explorer(Panel):

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy import cos, inf, pi, sin
 
+from ..kinds import finite
 from ..quantities import fails, quantity
-from .law import Kinematics, Law, Peaks, finite, mirrored
+from .law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")
 

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
+from ..kinds import finite
 from ..quantities import fails
 from .extremes import law_peaks
-from .law import Kinematics, Law, Peaks, finite
+from .law import Kinematics, Law, Peaks
 from .polynomial import Poly345
 
 LETTERS = ("s", "v", "a", "j")

@@ -79,14 +79,3 @@ def mirrored(u: Any, first_half: Callable[[Any], Kinematics]) -> Kinematics:
     late = u > 0.5
     s, v, a, j = first_half(np.where(late, 1 - u, u))
     return Kinematics(np.where(late, 1 - s, s), v, np.where(late, -a, a), j)
-
-
-def finite(value: Any) -> Any:
-    """Whether ``value`` is a finite number, element by element; ``False`` for what is no number.
-
-    >>> finite(1.5), finite("1.5"), finite(np.array([[1.0], [np.nan]])).tolist()
-    (np.True_, False, [[True], [False]])
-    """
-    if isinstance(value, (int, float, np.ndarray, np.number)) and not isinstance(value, bool):
-        return np.isfinite(value)
-    return False

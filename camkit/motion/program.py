@@ -24,10 +24,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kinds import finite
 from ..quantities import fails
 from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
-from .law import Kinematics, finite
+from .law import Kinematics
 from .resolution import Resolution, resolve
 
 TURN = 2 * np.pi

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import finite
 from ..quantities import fails, quantity
-from .law import Kinematics, Law, Peaks, finite
+from .law import Kinematics, Law, Peaks
 
 
 @dataclass(frozen=True)

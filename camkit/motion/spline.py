@@ -15,9 +15,10 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
+from ..kinds import finite
 from ..quantities import fails
 from .extremes import law_peaks
-from .law import Kinematics, Law, Peaks, finite
+from .law import Kinematics, Law, Peaks
 
 
 @dataclass(frozen=True)

@@ -511,7 +511,7 @@ def test_a_weak_spring_loses_contact():
             r"smallest radius r_k1 of the profile is -\d+.* mm; it must",
         ),
         ({"rise_law": "cycloidal"}, r"the rise law is 'cycloidal'; it must be one of"),
-        ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be a motion law"),
+        ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be one of"),
         ({"rise_c0": "much"}, r"the rise c0 c_0 is 'much'"),
         ({"rotation": 0}, r"the rotation is 0; it must be \+1 or -1"),
     ],

@@ -1,0 +1,162 @@
+"""What kind of thing a value is: a number or a column of numbers, and what a field's annotation asks for.
+
+Every frozen dataclass that a user makes checks its fields here, so that a wrong kind is refused in a sentence when it
+is given, and not by an error of Python when it is used.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from collections.abc import Callable, Container, Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+LONGEST = 60
+"""A value whose text is longer is named by its type."""
+
+
+def number(value: Any) -> Any:
+    """``value`` as a float, or as an array of floats of shape ``(p, 1)``; ``None`` for anything else.
+
+    >>> number(5), number(np.array([[1], [2]])).tolist(), number(True), number([1.0]), number(np.ones(3))
+    (5.0, [[1.0], [2.0]], None, None, None)
+    """
+    if type(value) is float:
+        return value
+    if isinstance(value, np.ndarray):
+        real, fits = value.dtype.kind in "iuf", value.shape == () or value.shape[1:] == (1,)
+        return value.astype(float, copy=False)[()] if real and fits else None
+    if isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return np.copysign(np.inf, 1 if value > 0 else -1)
+    return None
+
+
+def finite(value: Any) -> Any:
+    """Whether ``value`` is a finite number, element by element of a column; ``False`` for what is no number.
+
+    >>> finite(1.5), finite("1.5"), finite(np.array([[1.0], [np.nan]])).tolist()
+    (np.True_, False, [[True], [False]])
+    """
+    known = number(value)
+    return False if known is None else np.isfinite(known)
+
+
+def shown(value: Any) -> str:
+    """``value`` as a sentence can hold it.
+
+    >>> shown("22"), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
+    ("'22'", 'an array of shape (3,)', 'a dict')
+    """
+    if isinstance(value, np.ndarray):
+        kind = "" if value.dtype.kind in "iuf" else f" of {value.dtype.name}"
+        return (
+            f"an array{kind} of shape {value.shape}" if value.size != 1 or kind else f"an array of {value.item():.6g}"
+        )
+    try:
+        text = repr(value)
+    except ValueError:  # an integer of thousands of digits
+        return "a very large number"
+    if len(text) > LONGEST or "\n" in text or " at 0x" in text:
+        return "a very large number" if isinstance(value, int) else f"a {type(value).__name__}"
+    return text
+
+
+class Kind(NamedTuple):
+    """What an annotation asks for: a test of a value, and how a sentence says it."""
+
+    holds: Callable[[Any], bool]
+    said: str
+
+
+def refuse_kinds(thing: Any, but: Container[str] = ()) -> None:
+    """``ValueError`` in a sentence for a field of the dataclass ``thing`` that is not of its annotation's kind.
+
+    The fields in ``but`` are left out, and those annotated ``Any``.
+    """
+    for name, kind in _kinds(type(thing)):
+        value = getattr(thing, name)
+        if name not in but and not kind.holds(value):
+            raise ValueError(f"the {name.replace('_', ' ')} is {shown(value)}; it must be {kind.said}")
+
+
+def refuse_lengths(thing: Any) -> None:
+    """``ValueError`` in a sentence if columns in the dataclass ``thing``, or in what it holds, differ in length.
+
+    A column of one member goes with any other.
+    """
+    found = ((f.name, _lengths(getattr(thing, f.name))) for f in dataclasses.fields(thing))
+    several = [(name, length) for name, lengths in found for length in lengths if length != 1]
+    if len({length for _, length in several}) > 1:
+        told = " and ".join(f"{length} in its {name.replace('_', ' ')}" for name, length in several)
+        raise ValueError(f"the {type(thing).__name__} has columns of {told}; they must be equally long")
+
+
+def _lengths(value: Any) -> set[int]:
+    """How many members the columns within ``value`` have."""
+    if type(value) is float:
+        return set()
+    if isinstance(value, np.ndarray):
+        return {len(value)} if value.ndim == 2 else set()
+    if isinstance(value, (tuple, list)):
+        return set().union(*map(_lengths, value))
+    if dataclasses.is_dataclass(value):
+        return set().union(*(_lengths(getattr(value, f.name)) for f in dataclasses.fields(value)))
+    return set()
+
+
+@cache
+def _kinds(cls: type) -> tuple[tuple[str, Kind], ...]:
+    """The fields of a dataclass that can be checked."""
+    hints = typing.get_type_hints(cls)
+    kinds = ((f.name, _kind(hints[f.name])) for f in dataclasses.fields(cls))
+    return tuple((name, kind) for name, kind in kinds if kind is not None)
+
+
+def _one(value: Any) -> bool:
+    return np.ndim(value) == 0 and bool(finite(value))
+
+
+SIMPLE: dict[Any, Kind] = {
+    float: Kind(_one, "a finite number"),
+    int: Kind(lambda v: isinstance(v, (int, np.integer)) and not isinstance(v, bool), "a whole number"),
+    bool: Kind(lambda v: isinstance(v, (bool, np.bool_)), "True or False"),
+    str: Kind(lambda v: isinstance(v, str), "a text"),
+    types.NoneType: Kind(lambda v: v is None, "None"),
+}
+
+
+def _kind(hint: Any) -> Kind | None:
+    """What an annotation asks for; ``None`` where anything will do."""
+    if hint in SIMPLE:
+        return SIMPLE[hint]
+    origin, parts = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (typing.Union, types.UnionType):
+        kinds = [_kind(part) for part in parts]
+        known = [kind for kind in kinds if kind is not None]
+        if len(known) < len(kinds):
+            return None
+        return Kind(lambda v: any(k.holds(v) for k in known), " or ".join(k.said for k in known))
+    if origin is Callable:
+        return Kind(lambda v: callable(v) and not isinstance(v, type), "a function")
+    if origin is tuple:
+        return _sequence(_kind(parts[0]) if isinstance(parts[0], type) and parts[0] is not float else None)
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return Kind(lambda v: isinstance(v, Mapping), "a mapping such as {name: value}")
+    if isinstance(hint, type) and hint is not object:
+        article = "an" if hint.__name__[0] in "AEIOU" else "a"
+        return Kind(lambda v: isinstance(v, hint), f"{article} {hint.__name__}")
+    return None
+
+
+def _sequence(kind: Kind | None) -> Kind:
+    def holds(value: Any) -> bool:
+        return isinstance(value, (tuple, list, np.ndarray)) and (kind is None or all(kind.holds(v) for v in value))
+
+    return Kind(holds, "a tuple" if kind is None else f"a tuple of which each is {kind.said}")
