@@ -80,7 +80,7 @@ def refuse_kinds(thing: Any, but: Container[str] = ()) -> None:
 
     The fields in ``but`` are left out, and those annotated ``Any``.
     """
-    for name, kind in _kinds(type(thing)):
+    for name, kind in _kinds(type(thing)):  # type: ignore[arg-type]
         value = getattr(thing, name)
         if name not in but and not kind.holds(value):
             raise ValueError(f"the {name.replace('_', ' ')} is {shown(value)}; it must be {kind.said}")

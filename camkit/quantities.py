@@ -256,7 +256,7 @@ class Design:
     """Every measure of such a design, for tables and files."""
 
     def __post_init__(self) -> None:
-        declared = _declared(type(self))
+        declared = _declared(type(self))  # type: ignore[arg-type]
         for name, entry in declared.items():
             value = getattr(self, name)
             if isinstance(entry, Quantity):
@@ -295,7 +295,7 @@ class Design:
         """
         if np.all(ok):
             return
-        numbers = [name for name, declared in _declared(type(self)).items() if isinstance(declared, Quantity)]
+        numbers = [name for name, declared in declarations(self).items() if isinstance(declared, Quantity)]
         for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:
             object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 

@@ -163,7 +163,7 @@ class ShaftAnalysis:
     def buildable(self) -> Any:
         """Whether every quantity is possible, the bore inside the tube, speeds in order and the joint able to turn."""
         s = self.shaft
-        possible = [q.allows(getattr(s, name)) for name, q in declarations(s).items()]  # type: ignore[union-attr]
+        possible = [q.allows(getattr(s, name)) for name, q in declarations(s).items()]
         in_order = (s.inner_diameter < s.outer_diameter) & (s.speed <= s.max_speed) & (s.joint_angle < np.pi / 2)
         return reduce(np.logical_and, possible, in_order)
 
