@@ -184,8 +184,9 @@ class Explorer(Panel):
         self._table.value = self._table_html()
 
     def rows(self) -> list[tuple[Measure, float, float]]:
-        """Every measure with its value now and at the start, SI."""
-        return [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
+        """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
+        every = [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
+        return [(m, now, first) for m, now, first in every if not (np.isinf(now) and np.isinf(first))]
 
     def _table_html(self) -> str:
         rows = [self._row_cells(*row) for row in self.rows()]

@@ -20,6 +20,9 @@ from ..quantities import fails
 from . import peaks, statics
 from .peaks import Extreme
 
+JUMP = 1e-6
+"""A jump of position or speed below this share of the largest one is rounding."""
+
 
 @dataclass(frozen=True)
 class CamAnalysis(ABC):
@@ -198,9 +201,38 @@ class CamAnalysis(ABC):
         return statics.rubbing(self)
 
     @cached_property
-    def free_body_efficiency(self) -> np.ndarray:
-        """Power out over power in, from the free-body diagram."""
+    def efficiency(self) -> np.ndarray:
+        """Power out over power in, from the free-body diagram: cam to follower, or back where it drives the cam."""
         return statics.efficiency(self, self.driving_flank)
+
+    @property
+    def form_closed(self) -> Any:
+        """Whether the cam holds the follower from both sides and nothing else does: it cannot jump."""
+        return False
+
+    @cached_property
+    def _corners(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """By how much the speed of the follower jumps from each piece of the motion to the next, and where.
+
+        ``(..., k)``; the last one leads back to the first.  A leap of the follower itself counts as both ways.
+        """
+        shown, program = self.resolved, self.cam.motion
+        first, last = program.resolution.first, program.resolution.last
+        s, v = (x - 0.0 * shown.cam_angle for x in shown.motion[:2])
+        leaps, jumps = (np.roll(x[..., first], -1, axis=-1) - x[..., last] for x in (s, v))
+        leaps = np.where(abs(leaps) > JUMP * abs(s).max(-1, keepdims=True), np.inf, 0.0)
+        real = abs(jumps) > JUMP * abs(v).max(-1, keepdims=True)
+        inside = program.periodic | (np.arange(len(first)) < len(first) - 1)
+        angle = np.roll(shown.cam_angle[..., first], -1, axis=-1)
+        return np.where(inside, np.where(real, jumps, 0.0), 0.0), np.where(inside, leaps, 0.0), angle
+
+    def corner(self, way: int) -> Extreme:
+        """The largest jump of the follower's speed, upwards (``way`` = 1) or downwards (-1), m/rad or 1; 0: none."""
+        jumps, leaps, angle = self._corners
+        size = np.maximum(way * jumps, leaps)
+        most = np.argmax(size, axis=-1, keepdims=True)
+        angle = np.broadcast_to(angle, size.shape)
+        return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in (size, angle)))
 
     def highest(self, f: Callable[[Any], Any]) -> Extreme:
         """The largest value of ``f(analysis)`` over the cam, whichever cam angles the analysis has."""
@@ -275,8 +307,18 @@ class RollerAnalysis(CamAnalysis):
         """The same for a groove's outer flank, which the roller cuts where the pitch curve is hollow."""
         return self._margin(-1)
 
+    def sharpest(self, side: int) -> Extreme:
+        """The largest convex (``side`` = 1) or hollow (-1) curvature of the pitch curve, 1/m; ``inf`` at a corner.
+
+        The pitch curve has a corner where the follower's speed jumps: a convex one where it drops.
+        """
+        found, corner = self.highest(_convex if side > 0 else _hollow), self.corner(-side)
+        jumps = (corner.value > 0) & ~np.isnan(found.value)
+        value, angle = (np.where(jumps, *pair)[()] for pair in ((np.inf, found.value), (corner.cam_angle, found[1])))
+        return Extreme(value, angle)
+
     def _margin(self, flank: int) -> Extreme:
-        most, angle = self.highest(lambda analysis: flank * analysis.curvature)
+        most, angle = self.sharpest(flank)
         radius = _radius(most) - np.atleast_1d(self.cam.roller_radius)[..., 0]
         return Extreme(radius[()], angle)
 
@@ -288,6 +330,14 @@ class RollerAnalysis(CamAnalysis):
     def groove(self) -> bool:
         """Whether the roller runs in a groove; a cam that does not say has one."""
         return bool(getattr(self.cam, "groove", True))
+
+    @property
+    def form_closed(self) -> Any:
+        """Whether the groove alone holds the roller: there is no spring."""
+        if not self.groove:
+            return False
+        spring = np.atleast_1d(self.cam.load.spring_rate + self.cam.load.preload)
+        return spring[..., 0] == 0
 
     @property
     def driving_flank(self) -> Any:
@@ -378,8 +428,13 @@ class FlatAnalysis(CamAnalysis):
 
     @cached_property
     def profile_margin(self) -> Extreme:
-        """Least radius of curvature of the profile, m; at or below 0 the face cuts it away."""
-        return self.lowest(lambda analysis: analysis.profile_radius)
+        """Least radius of curvature of the profile, m; at or below 0 the face cuts it away.
+
+        ``-inf`` where the follower's speed drops at once: the face cuts off the corner.
+        """
+        found, corner = self.lowest(lambda analysis: analysis.profile_radius), self.corner(-1)
+        drops = (corner.value > 0) & ~np.isnan(found.value)
+        return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
 
     @property
     def driving_flank(self) -> Any:
@@ -421,13 +476,16 @@ class FlatAnalysis(CamAnalysis):
         """``nan``: there is no outer flank."""
         return np.nan * self.profile
 
-    @property
-    def efficiency(self) -> np.ndarray:
-        """Power out over power in, from the free-body diagram: cam to follower going out, back again coming in."""
-        return self.free_body_efficiency
-
 
 def _radius(curvature: Any) -> Any:
     """Radius of the most convex place; ``inf`` if it is hollow or straight."""
     with np.errstate(divide="ignore"):
         return np.where(curvature <= 0, np.inf, 1 / curvature)
+
+
+def _convex(analysis: Any) -> Any:
+    return analysis.curvature
+
+
+def _hollow(analysis: Any) -> Any:
+    return -analysis.curvature

@@ -22,7 +22,8 @@ from ..quantities import Design, fails, quantity
 def jump_speed(analysis: Any) -> Any:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
-    0 if the follower does not even stay on a resting cam, ``inf`` if it stays at any speed.
+    0 if the follower does not even stay on a resting cam, ``inf`` if it stays at any speed, as it does in a groove
+    without a spring: that is form closed.
 
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
     >>> from camkit.units import rpm
@@ -35,8 +36,9 @@ def jump_speed(analysis: Any) -> Any:
         thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
         return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
 
+    slack = analysis.highest(slackness).value
     with np.errstate(divide="ignore"):
-        return 1 / np.sqrt(analysis.highest(slackness).value)
+        return 1 / np.sqrt(np.where(getattr(analysis, "form_closed", False), 0.0 * np.isfinite(slack), slack))[()]
 
 
 def preload_needed(analysis: Any, speed: Any) -> Any:

@@ -133,47 +133,19 @@ class Friction(Design):
     def published_efficiency(self, contact: Contact) -> Any:
         """Power out over power in as published, every friction counted as a loss: equation (21), put right.
 
-        ``eta = |v| T / M`` with ``lam = arctan f`` and ``k`` as in `free_body_efficiency`
+        ``eta = |v| T / M`` with ``lam = arctan f`` and ``k = +1`` where the arm's angle changes against the rotation
 
             T = F [l cos(alpha + k lam) - r sin(lam) - rho_2 - rho_3]
             M = F [R sin(alpha - beta + lam) - r sin(lam) + rho_1]
 
         The print lacks the square root over ``R^2`` and misplaces brackets.  Two terms are on the cautious
         side: the roller's shift ``r sin(lam)`` helps the arm where ``sigma = +1``, and a roller that slides
-        does not turn on its pin.  `free_body_efficiency` has neither.
+        does not turn on its pin.  `camkit.cam.statics.efficiency` has neither.
         """
         c, lam = contact, np.arctan(self.coefficient)
         shift = c.roller_radius * np.sin(lam)
         arm = c.arm_length * np.cos(c.alpha + c.sense * lam) - shift - self.roller_pin - self.arm_pivot
         cam = abs(c.offset) * np.cos(lam) + c.reach * np.sin(lam) - shift + self.cam_axis
-        return _power_ratio(c, arm, cam)
-
-    def free_body_efficiency(self, contact: Contact) -> Any:
-        """Power out over power in from the free-body diagram of roller, arm and cam.
-
-        Roller: two forces hold it, at the cam and at its pin, so they share a line.  Either it slides, and the
-        line leans from the normal by ``arctan f``; or it rolls, and the line touches the pin's friction
-        circle, ``r sin(lam) = rho_2``.  The easier one happens: ``lam = min(arctan f, arcsin(rho_2 / r))``.
-        The line leans to the side to which the cam's surface runs, ``sigma`` times a quarter turn from the
-        normal.  With ``e = +1`` where the arm's angle grows (inner flank pushes), ``-1`` where it shrinks (outer
-        flank), and ``k = e sigma``:
-
-        - arm, moments about its pivot: ``T = F [l cos(alpha + k lam) + sigma r sin(lam) - rho_3]``
-        - cam, moments about its axis: ``M = F [|Q| cos(lam) + (B - e r) sin(lam) + rho_1]``
-
-        ``Q = R sin(alpha - beta) = sigma l v cos(alpha)`` is the distance from the cam axis to the contact
-        normal, ``B = R cos(alpha - beta)`` the distance along it to the roller's centre.  ``eta = |v| T / M``;
-        without friction this is 1.
-        """
-        c, r = contact, contact.roller_radius
-        share = np.where(
-            np.greater(r, 0), self.roller_pin / np.where(np.greater(r, 0), r, 1.0), 1.0
-        )  # a knife edge slides
-        rolling = np.arcsin(np.clip(share, 0, 1))
-        lam = np.minimum(np.arctan(self.coefficient), rolling)
-        push = np.where(c.velocity < 0, -1.0, 1.0)
-        arm = c.arm_length * np.cos(c.alpha + c.sense * lam) + c.rotation * r * np.sin(lam) - self.arm_pivot
-        cam = abs(c.offset) * np.cos(lam) + (c.reach - push * r) * np.sin(lam) + self.cam_axis
         return _power_ratio(c, arm, cam)
 
 

@@ -19,46 +19,62 @@ def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda analysis: analysis.highest(f).value
 
 
-def least_radius_where(bent: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """A function of an analysis: the least radius where the curvature ``bent`` is above 0; ``inf`` if nowhere."""
+def _least_radius(side: int) -> Callable[[Any], Any]:
+    """The least radius of the pitch curve where it is convex (``side`` = 1) or hollow (-1); ``inf`` if nowhere."""
 
     def radius(analysis: Any) -> Any:
-        most = peak(bent)(analysis)
+        most = analysis.sharpest(side).value
         with np.errstate(divide="ignore"):
             return np.where(most > 0, 1 / most, np.where(np.isnan(most), np.nan, np.inf))[()]
 
     return radius
 
 
-def mean_over(angle: Any, values: Any, where: Any) -> Any:
-    """Mean of ``values`` over the steps of the cam angle at either end of which ``where`` holds (trapezoid rule)."""
-    step = np.diff(angle, axis=-1) * (where[..., 1:] | where[..., :-1])
-    return ((values[..., 1:] + values[..., :-1]) / 2 * step).sum(-1) / step.sum(-1)
+def _groove_margin(analysis: Any) -> Any:
+    """``1 - r_T kappa`` on the inner flank, ``1 + r_T kappa`` on a groove's outer one too, at its least."""
+    sides = (1, -1) if analysis.groove else (1,)
+    r, most = np.atleast_1d(analysis.cam.roller_radius)[..., 0], [analysis.sharpest(side).value for side in sides]
+    with np.errstate(invalid="ignore"):
+        margin = 1 - r * reduce(np.maximum, most)
+    return np.where((r == 0) & np.isinf(most).any(0), 1.0, margin)[()]  # a knife edge fits into every corner
+
+
+def mean_over(analysis: Any, name: str) -> Any:
+    """Mean over the cam angle of what the analysis calls ``name``, over the strokes: dwells are left out.
+
+    ``nan`` if the follower does not move at all.
+    """
+    shown, resolution = analysis.resolved, analysis.cam.motion.resolution
+    angle, values = shown.cam_angle, getattr(shown, name)
+    step = np.diff(angle, axis=-1) * resolution.moves[:-1] * resolution.moves[1:]
+    total = ((values[..., 1:] + values[..., :-1]) / 2 * step).sum(-1)
+    span = step.sum(-1)
+    return np.where(span > 0, total / np.where(span > 0, span, 1.0), np.nan)[()]
 
 
 def work_ratio(analysis: Any) -> Any:
     """Work out over work in of a constant resisting torque: the power-weighted mean efficiency."""
-    v, eta = abs(analysis.velocity), analysis.efficiency
+    shown = analysis.resolved
+    v, eta = abs(shown.velocity), shown.efficiency
     moving = (v > 0) & (eta > 0)
     power_in = np.divide(v, eta, out=np.zeros_like(v * eta), where=moving)
     jammed = ((v > 0) & (eta <= 0)).any(-1)
-    work_out, work_in = (np.trapezoid(power, analysis.cam_angle, axis=-1) for power in (v, power_in))
+    work_out, work_in = (np.trapezoid(power, shown.cam_angle, axis=-1) for power in (v, power_in))
     ratio = np.divide(work_out, work_in, out=np.zeros_like(1.0 * work_in), where=work_in > 0)
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
-def _tightest(analysis: Any) -> Any:
-    return analysis.cam.roller_radius * (abs(analysis.curvature) if analysis.groove else analysis.curvature)
-
-
 steepest = Measure("steepest pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
-least_convex_radius = Measure("least convex radius (pitch)", "mm", least_radius_where(lambda a: a.curvature))
-least_concave_radius = Measure("least concave radius (pitch)", "mm", least_radius_where(lambda a: -a.curvature))
-undercut_margin = Measure("undercut margin of the groove", "", lambda a: 1 - peak(_tightest)(a))
+least_convex_radius = Measure("least convex radius (pitch)", "mm", _least_radius(1))
+least_concave_radius = Measure("least concave radius (pitch)", "mm", _least_radius(-1))
+undercut_margin = Measure("undercut margin of the groove", "", _groove_margin)
 peak_force = Measure("peak contact force", "N", peak(lambda a: abs(a.contact_force)))
 peak_torque = Measure("peak cam torque", "N mm", peak(lambda a: abs(a.cam_torque)))
-mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a.cam_angle, a.efficiency, a.velocity != 0))
+mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "efficiency"))
+published_mean_efficiency = Measure(
+    "mean efficiency, published formula", "%", lambda a: mean_over(a, "published_efficiency")
+)
 work_efficiency = Measure("work out / work in", "%", work_ratio)
 
 MOTION = (
@@ -80,6 +96,8 @@ CURVE = (
     work_efficiency,
 )
 """What a table of one cam curve shows."""
+ARM_CURVE = (*CURVE, published_mean_efficiency)
+"""As `CURVE`, for a roller on a rocking arm, of whose efficiency a formula is published."""
 
 
 def part(measure: Measure, name: str) -> Measure:

@@ -23,7 +23,7 @@ from ..units import deg, mm
 from .analysis import RollerAnalysis
 from .conjugate import opposite
 from .load import ArmLoad, Contact, Friction
-from .measures import CURVE
+from .measures import ARM_CURVE
 from .statics import Pivot
 
 
@@ -223,14 +223,9 @@ class OscillatingRollerAnalysis(RollerAnalysis):
         return Contact(l, self.cam.roller_radius, self.cam.rotation, v, alpha, offset, reach)
 
     @cached_property
-    def efficiency(self) -> np.ndarray:
+    def published_efficiency(self) -> np.ndarray:
         """Power out over power in against a resisting torque, as published: cautious at the roller."""
         return self.cam.friction.published_efficiency(self._contact)
 
-    @cached_property
-    def free_body_efficiency(self) -> np.ndarray:
-        """Power out over power in against a resisting torque, from the free-body diagram."""
-        return self.cam.friction.free_body_efficiency(self._contact)
 
-
-OscillatingRollerCam.measures = CURVE
+OscillatingRollerCam.measures = ARM_CURVE

@@ -39,6 +39,11 @@ class SlideLoad(Design):
         refuse_table("force table", "travel", "force", self.force_table)
         refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
 
+    @property
+    def side_force(self) -> Any:
+        """The weight's part across the travel, to the right of the rise, N: it presses the follower into its guide."""
+        return self.mass * self.gravity * np.sin(self.up_angle)
+
     def static_force(self, travel: Any, cam_angle: Any = 0.0) -> Any:
         """Force along the travel without inertia, N (``travel`` from the motion's level 0, m)."""
         weight = self.mass * self.gravity * np.cos(self.up_angle)

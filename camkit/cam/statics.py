@@ -13,6 +13,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 Vector = tuple[Any, Any]
+ROUNDING = 1e-9
+"""A support that bears less than this share of the forces bears nothing."""
 
 
 class Bearing(Protocol):
@@ -23,6 +25,12 @@ class Bearing(Protocol):
 
     def share(self, point: Vector, force: Vector) -> Any:
         """What ``force`` in ``point`` does along the follower's motion after the bearing's friction."""
+
+    def least(self, load: Any) -> Any:
+        """What the follower resists with while nothing pushes it: ``load`` and the bearing's friction."""
+
+    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+        """How many times ``force`` in ``point`` moves the follower against ``load``; ``inf`` where friction jams it."""
 
 
 @dataclass(frozen=True)
@@ -42,27 +50,74 @@ class Pivot:
         moment = point[1] * force[0] - (point[0] - self.distance) * force[1]
         return moment - np.sign(self.velocity) * self.friction_circle
 
+    def least(self, load: Any) -> Any:
+        """The ``load``: a pivot that bears nothing does not rub."""
+        return load
+
+    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+        """``load`` over `share`, N per N."""
+        return _pushing(load, self.share(point, force))
+
 
 @dataclass(frozen=True)
 class Guide:
-    """A straight guide along +y, borne at both ends: at the height ``mouth`` and ``length`` above it."""
+    """A straight guide along +y, borne at both ends: at the height ``mouth`` and ``length`` above it.
+
+    ``across`` is the part of the follower's weight along +x, which acts in the middle of the guide, N.
+    """
 
     axis: Any
     mouth: Any
     length: Any
     velocity: Any
     coefficient: Any
+    across: Any = 0.0
 
     def velocity_at(self, point: Vector) -> Vector:
         """Along the guide."""
         return 0.0 * self.velocity, self.velocity
 
+    @property
+    def _rub(self) -> Any:
+        """Coefficient of friction, against the motion."""
+        return np.sign(self.velocity) * self.coefficient
+
+    def _ends(self, point: Vector, force: Vector) -> Vector:
+        """What the upper and the lower end bear of a force: like the supports of a beam."""
+        top = ((point[0] - self.axis) * force[1] + (self.mouth - point[1]) * force[0]) / self.length
+        return top, force[0] + top
+
     def share(self, point: Vector, force: Vector) -> Any:
-        """Force along the guide less the friction at its ends, which share the side force like a beam's supports."""
-        below = self.mouth - point[1]
-        top = ((point[0] - self.axis) * force[1] + below * force[0]) / self.length
-        rubbing = self.coefficient * (abs(top) + abs(force[0] + top))
-        return force[1] - np.sign(self.velocity) * rubbing
+        """Force along the guide less the friction at its ends, without the follower's weight."""
+        top, bottom = self._ends(point, force)
+        return force[1] - self._rub * (abs(top) + abs(bottom))
+
+    def least(self, load: Any) -> Any:
+        """``load`` and the friction of the weight across the guide."""
+        return load + self._rub * abs(self.across)
+
+    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+        """The least ``F >= 0`` with ``F y = load + mu (|F t - W / 2| + |F b + W / 2|)``, ``t, b`` borne by the ends.
+
+        The sums are straight between the places where an end changes sides, so each pair of sides gives one ``F``,
+        which counts if it bears them out.
+        """
+        (top, bottom), half = self._ends(point, force), self.across / 2
+        best = np.inf + 0.0 * (load + top)
+        for one, two in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+            needed = _pushing(load + self._rub * half * (two - one), force[1] - self._rub * (one * top + two * bottom))
+            with np.errstate(invalid="ignore"):
+                ends = one * (needed * top - half), two * (needed * bottom + half)
+                borne = np.minimum(*ends) >= -ROUNDING * (abs(needed) + abs(half))
+            best = np.where(borne, np.minimum(best, needed), best)
+        return best
+
+
+def _pushing(load: Any, share: Any) -> Any:
+    """``load / share`` where that is a push; ``inf`` where it would have to pull."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed = load / share
+        return np.where((needed >= 0) | np.isnan(load + share), needed, np.inf)
 
 
 class Push(NamedTuple):
@@ -74,6 +129,10 @@ class Push(NamedTuple):
     """Torque that turns the cam against it, N m per N."""
     normal: Any
     """Its part along the contact normal."""
+    point: Vector
+    """Where it acts, machine's frame, m."""
+    force: Vector
+    """The force itself, N per N."""
 
 
 def push(analysis: Any, flank: Any) -> Push:
@@ -87,13 +146,15 @@ def push(analysis: Any, flank: Any) -> Push:
     normal = flank * np.cos(analysis.lean)
     force = normal * nx + along * past_x, normal * ny + along * past_y
     torque = sigma * (x * force[1] - y * force[0]) + analysis.cam.friction.cam_axis
-    return Push(analysis.bearing.share(point, force), torque, normal)
+    return Push(analysis.bearing.share(point, force), torque, normal, point, force)
 
 
 def efficiency(analysis: Any, flank: Any) -> Any:
     """Power out over power in with ``flank`` pushing; 0 where the follower rests or friction jams it.
 
     Where the follower moves with the push, the cam drives it; where it moves against the push, it drives the cam.
+    Of what passes through the contact: the friction of a weight across the guide, which is there without it, is not
+    counted here but in `rubbing`.
     """
     v, pushed = analysis.velocity, push(analysis, flank)
     out = v * pushed.follower
@@ -114,8 +175,7 @@ class Rubbing(NamedTuple):
 def rubbing(analysis: Any) -> Rubbing:
     """The forces that the load on the follower calls for: by the inner flank, or the outer one where it pulls."""
     Q = analysis.resistance
-    flank = np.where(Q < 0, -1.0, 1.0)
+    flank = np.where(analysis.bearing.least(Q) < 0, -1.0, 1.0)
     pushed = push(analysis, flank)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        force = np.where(flank * pushed.follower > 0, Q / pushed.follower, np.inf + 0.0 * pushed.follower)
+    force = analysis.bearing.needed(pushed.point, pushed.force, Q)
     return Rubbing(force * pushed.normal, force * pushed.cam)

@@ -170,7 +170,9 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         """The guide in which the follower slides."""
         friction = self.cam.friction
         mouth = self.cam.base_radius + top_level(self.cam.motion) + friction.overhang
-        return Guide(self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide)
+        return Guide(
+            self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, self.cam.load.side_force
+        )
 
     @property
     def lever(self) -> np.ndarray:

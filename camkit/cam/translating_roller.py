@@ -236,7 +236,9 @@ class TranslatingRollerAnalysis(RollerAnalysis):
         """The guide in which the follower slides."""
         friction = self.cam.friction
         mouth = self.cam.start_height + top_level(self.cam.motion) + friction.overhang
-        return Guide(self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide)
+        return Guide(
+            self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, self.cam.load.side_force
+        )
 
     @property
     def lever(self) -> np.ndarray:
@@ -257,11 +259,6 @@ class TranslatingRollerAnalysis(RollerAnalysis):
     def resistance(self) -> np.ndarray:
         """Force along the travel that the cam has to overcome, N, positive against the rise."""
         return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
-
-    @property
-    def efficiency(self) -> np.ndarray:
-        """Power out over power in against a resisting force, from the free-body diagram."""
-        return self.free_body_efficiency
 
 
 TranslatingRollerCam.measures = ROLLER_CURVE

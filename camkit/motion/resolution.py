@@ -25,6 +25,8 @@ class Resolution(NamedTuple):
     """Where each piece begins, ``(k,)``; its first and last angles lie a hair inside it, so that both sides speak."""
     last: np.ndarray
     """Where each piece ends, ``(k,)``."""
+    moves: np.ndarray
+    """Which angles belong to a segment that moves, ``(n,)``."""
 
     @property
     def inner(self) -> np.ndarray:
@@ -52,7 +54,7 @@ def resolve(program: MotionProgram) -> Resolution:
     lead = np.broadcast_shapes(*(angle.shape[:-1] for angle in angles))
     joined = np.concatenate([np.broadcast_to(angle, (*lead, angle.shape[-1])) for angle in angles], axis=-1)
     ends = np.cumsum(sizes)
-    return Resolution(joined, ends - sizes, ends - 1)
+    return Resolution(joined, ends - sizes, ends - 1, np.repeat([steps > REST for *_, steps in pieces], sizes))
 
 
 def _pieces(segment: Segment) -> list[tuple[Any, Any, int]]:

@@ -190,7 +190,7 @@ def curvature(analysis: Any, ax: Axes) -> Axes:
 
 
 def efficiency(analysis: Any, ax: Axes) -> Axes:
-    """Power out over power in: as published (full) and from the free-body diagram (thin)."""
+    """Power out over power in: from the free-body diagram (full) and, of a rocking roller, as published (thin)."""
     first = new(ax)
     if first:
         frame(ax, "Efficiency", "cam angle  [deg]", "eta  [%]")
@@ -199,16 +199,9 @@ def efficiency(analysis: Any, ax: Axes) -> Axes:
         colour, moves = CURVE_COLOUR.get(name, BLUE), _moving(curve)
         x = curve.cam_angle / deg
         line(ax, name, x, gaps(100 * curve.efficiency, moves), color=colour, label=name)
-        line(
-            ax,
-            f"{name} free body",
-            x,
-            gaps(100 * curve.free_body_efficiency, moves),
-            color=colour,
-            linewidth=1,
-            linestyle="--",
-            label="_",
-        )
+        if hasattr(curve, "published_efficiency"):
+            published, thin = gaps(100 * curve.published_efficiency, moves), {"linewidth": 1, "linestyle": "--"}
+            line(ax, f"{name} published", x, published, color=colour, label="_", **thin)
     if first:
         _legend(ax, analysis)
     return ax

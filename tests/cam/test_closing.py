@@ -8,6 +8,7 @@ from camkit import OscillatingRollerCam
 from camkit.cam.closing import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
 from camkit.cam.follower_measures import jump_margin, least_force, mean_torque, peak_pressure
 from camkit.cam.load import ArmLoad
+from camkit.cam.measures import least_concave_radius, least_convex_radius, undercut_margin
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
@@ -15,7 +16,16 @@ from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_train import ValveTrain
 from camkit.contact import contact_modulus, hertz_line
-from camkit.motion import Cycloidal, Dwell, HalfHarmonicStart, ModifiedTrapezoid, MotionProgram, Return, Rise
+from camkit.motion import (
+    Cycloidal,
+    Dwell,
+    FreePolynomial,
+    HalfHarmonicStart,
+    ModifiedTrapezoid,
+    MotionProgram,
+    Return,
+    Rise,
+)
 from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
 
 
@@ -274,3 +284,94 @@ def test_pressures_of_a_population():
     for i in (0, 2):
         single = CAMS[0].replace(base_radius=float(bases[i, 0])).analyse(91)
         assert found[i] == pytest.approx(peak_pressure(PAIR)(single), rel=1e-12)
+
+
+# ---------------------------------------------------------------- a groove, and jumps of the speed
+
+
+def test_a_groove_without_a_spring_cannot_be_left():
+    """It is form closed: no speed makes the follower jump; a plate without a spring does not hold it at all."""
+    free = SlideLoad(spring_rate=0, preload=0)
+    groove = TranslatingRollerCam(load=free)
+    assert np.isinf(jump_speed(groove.analyse()))
+    assert np.isinf(jump_margin(groove.analyse()))
+    assert jump_speed(groove.replace(groove=False).analyse()) == 0
+    arm = OscillatingRollerCam(load=ArmLoad(torque=5))
+    assert np.isinf(jump_margin(arm.analyse()))
+    some = TranslatingRollerCam(load=SlideLoad(spring_rate=0, preload=np.array([[0.0], [100.0]])))
+    speeds = jump_speed(some.analyse())
+    assert np.isinf(speeds[0])
+    assert speeds[1] == pytest.approx(jump_speed(TranslatingRollerCam(load=free.replace(preload=100.0)).analyse()))
+
+
+def leaves_moving(end, lift):
+    """A rise that ends (or a later one that begins) with a speed of its own, between dwells."""
+    moving = FreePolynomial(start=(0, 0, 0), end=(1, end)) if end else Cycloidal()
+    begins = Cycloidal() if end else FreePolynomial(start=(0, 1.5), end=(1, 0, 0))
+    rest = (Dwell(60 * deg), Return(120 * deg, lift, begins), Dwell(60 * deg))
+    return MotionProgram((Rise(120 * deg, lift, moving), *rest))
+
+
+def cut_by(points, centres, radius):
+    """By how much a roller in any of its positions cuts into some of the points."""
+    gap = np.hypot(*(points[:, ::20, None] - centres[:, None, :])).min(-1)
+    return radius - gap.min()
+
+
+@pytest.mark.parametrize("sigma", [1, -1])
+@pytest.mark.parametrize("kind", ["slides", "rocks"])
+def test_a_jump_of_the_speed_cuts_the_corner_off_a_flank(kind, sigma):
+    """Where it drops that of the inner flank, where it rises a groove's outer one: by geometry."""
+    lift = 20 * mm if kind == "slides" else 20 * deg
+    of = TranslatingRollerCam if kind == "slides" else OscillatingRollerCam
+    drop = of(motion=leaves_moving(1.5, lift), rotation=sigma)
+    rise = drop.replace(motion=opposite(drop.motion, lift))
+    for cam, cut, kept in ((drop, "inner", "outer"), (rise, "outer", "inner")):
+        fine, r = cam.analyse(20001), cam.roller_radius
+        flank = {"inner": fine.profile, "outer": fine.outer_profile}
+        margin = {"inner": fine.profile_margin, "outer": fine.outer_profile_margin}
+        assert margin[cut].value == pytest.approx(-r)
+        assert margin[cut].cam_angle == pytest.approx(120 * deg, abs=1e-6)
+        assert cut_by(flank[cut], fine.pitch, r) > 0.02 * r
+        assert margin[kept].value > 0
+        assert cut_by(flank[kept], fine.pitch, r) < 1e-4 * r
+        assert undercut_margin(fine) == -np.inf
+        assert (least_convex_radius(fine) == 0) == (cut == "inner")
+        assert (least_concave_radius(fine) == 0) == (cut == "outer")
+    plate = rise.replace(groove=False)
+    assert undercut_margin(plate.analyse()) > 0
+    edge = drop.replace(roller_radius=0)
+    assert undercut_margin(edge.analyse()) == 1
+    assert edge.analyse().profile_margin.value == 0
+
+
+def opposite(program, lift):
+    """The same motion from ``lift`` downwards, so that what dropped rises."""
+    moves = [s if isinstance(s, Dwell) else (Return if isinstance(s, Rise) else Rise)(s.angle, s.lift, s.law)
+             for s in program.segments]  # fmt: skip
+    return MotionProgram(tuple(moves), start=lift)
+
+
+@pytest.mark.parametrize("sigma", [1, -1])
+@pytest.mark.parametrize("cam", [TranslatingFlatCam(), OscillatingFlatCam()], ids=["slides", "rocks"])
+def test_a_drop_of_the_speed_cuts_the_corner_off_a_flat_face_cam(cam, sigma):
+    lift = 20 * mm if isinstance(cam, TranslatingFlatCam) else 12 * deg
+    cam = cam.replace(motion=leaves_moving(1.5, lift), rotation=sigma)
+    fine = cam.analyse(7201)
+    assert fine.profile_margin.value == -np.inf
+    assert fine.profile_margin.cam_angle == pytest.approx(120 * deg, abs=1e-6)
+    normal = fine.on_cam(fine.normal)
+    distance = (normal * fine.profile).sum(0)
+    room = (distance[:, None] - normal.T @ fine.profile[:, ::10]).min()
+    assert room < -0.1 * mm  # another position of the face cuts the profile
+    risen = cam.replace(motion=opposite(cam.motion, lift)).analyse(7201)
+    assert risen.profile_margin.value > 0
+
+
+def test_the_last_joint_counts_only_where_the_cam_closes():
+    jolt = FreePolynomial(start=(0, 0, 0), end=(1, 1.5))
+    closed = MotionProgram((Return(180 * deg, 10 * mm, Cycloidal()), Rise(180 * deg, 10 * mm, jolt)), start=10 * mm)
+    assert TranslatingRollerCam(closed).analyse().profile_margin.value == pytest.approx(-8 * mm)
+    assert TranslatingRollerCam(closed).analyse().profile_margin.cam_angle == pytest.approx(0, abs=1e-6)
+    opened = MotionProgram((Return(180 * deg, 10 * mm, Cycloidal()), Rise(170 * deg, 10 * mm, jolt)), start=10 * mm)
+    assert TranslatingRollerCam(opened).analyse().profile_margin.value > 0

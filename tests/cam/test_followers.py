@@ -11,11 +11,10 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import OscillatingRollerCam, Study
-from camkit.cam import statics
 from camkit.cam.analysis import FlatAnalysis
 from camkit.cam.conjugate import opposite, pair_forces
 from camkit.cam.load import ArmLoad, Friction
-from camkit.cam.measures import peak_force, steepest
+from camkit.cam.measures import mean_efficiency, peak_force, steepest
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
@@ -566,8 +565,8 @@ def test_without_friction_the_forces_with_friction_are_those_without(brute, sigm
     assert_allclose(rubbed.contact_force, analysis.contact_force, rtol=1e-12)
     assert_allclose(rubbed.cam_torque, analysis.cam_torque, rtol=1e-11, atol=1e-12)
     moving = analysis.velocity != 0
-    assert_allclose(analysis.free_body_efficiency[moving], 1, atol=1e-7)  # hardly moving: rounding over rounding
-    assert_array_equal(analysis.free_body_efficiency[~moving], 0)
+    assert_allclose(analysis.efficiency[moving], 1, atol=1e-7)  # hardly moving: rounding over rounding
+    assert_array_equal(analysis.efficiency[~moving], 0)
 
 
 @every_follower
@@ -575,12 +574,27 @@ def test_without_friction_the_forces_with_friction_are_those_without(brute, sigm
 def test_more_friction_leaves_less(brute, sigma):
     cam = brute.at(sigma).cam
     falling = [
-        cam.replace(friction=cam.friction.replace(coefficient=f)).analyse().free_body_efficiency
-        for f in (0.0, 0.02, 0.1, 0.3)
+        cam.replace(friction=cam.friction.replace(coefficient=f)).analyse().efficiency for f in (0.0, 0.02, 0.1, 0.3)
     ]
     assert (np.diff(falling, axis=0) <= 1e-12).all()
     assert (np.array(falling) <= 1).all()
     assert np.max(falling) > 0.5
+
+
+def by_hand(analysis):
+    """The efficiency of a roller on an arm in a groove, derived by hand from its free-body diagram.
+
+    The force at the roller leans by ``lam`` to where the cam's surface runs.  ``e`` = +1 where the arm's angle grows
+    and ``k = e sigma``: arm ``T = F [l cos(alpha + k lam) + sigma r sin(lam) - rho_3]``, cam
+    ``M = F [l |v| cos(alpha) cos(lam) + (B - e r) sin(lam) + rho_1]``, ``B`` from the cam axis along the normal.
+    """
+    cam, friction, v, alpha = analysis.cam, analysis.cam.friction, analysis.velocity, analysis.pressure_angle
+    a, l, r, psi = cam.centre_distance, cam.arm_length, cam.roller_radius, analysis.arm_angle
+    lam, e = min(np.arctan(friction.coefficient), np.arcsin(friction.roller_pin / r)), np.where(v < 0, -1, 1)
+    B = a * np.sin(psi) * np.cos(alpha) + (l - a * np.cos(psi)) * np.sin(alpha)
+    arm = l * np.cos(alpha + e * cam.rotation * lam) + cam.rotation * r * np.sin(lam) - friction.arm_pivot
+    shaft = l * abs(v) * np.cos(alpha) * np.cos(lam) + (B - e * r) * np.sin(lam) + friction.cam_axis
+    return np.where(v == 0, 0, np.maximum(abs(v) * arm, 0) / shaft)
 
 
 @both_senses
@@ -588,9 +602,28 @@ def test_more_friction_leaves_less(brute, sigma):
     "friction", [Friction(), Friction(coefficient=0.2, roller_pin=0.3 * mm)], ids=["slides", "rolls"]
 )
 def test_the_shared_statics_agree_with_the_rocking_rollers_own_formula(friction, sigma):
-    """`Friction.free_body_efficiency` was derived by hand for one follower; the shared vectors know no follower."""
     analysis = replace(FOLLOWERS["rocking roller"].cam, rotation=sigma, friction=friction).analyse()
-    assert_allclose(statics.efficiency(analysis, analysis.driving_flank), analysis.free_body_efficiency, atol=1e-14)
+    assert_allclose(analysis.efficiency, by_hand(analysis), atol=1e-14)
+
+
+def test_the_mean_efficiency_of_a_plate_cam_on_an_arm():
+    """On a plate the returning arm drives the cam by the inner flank; only in a groove by the outer one."""
+    load = ArmLoad(mass=0.5, speed=300 * rpm, spring_rate=5, preload=2)
+    plate = OscillatingRollerCam(groove=False, load=load)
+    for cam, percent in ((plate, 58.05), (plate.replace(groove=True), 62.74)):
+        fine = cam.analyse(200_001)
+        moving = fine.velocity != 0
+        assert mean_efficiency(cam.analyse(31)) == pytest.approx(fine.efficiency[moving].mean(), abs=2e-4)
+        assert mean_efficiency(cam.analyse()) * 100 == pytest.approx(percent, abs=0.02)
+
+
+def test_the_mean_efficiency_is_over_the_strokes_alone():
+    """However narrow they are and however long the follower rests."""
+    for rest in (1, 178):
+        rise = (Dwell(rest * deg), Rise(2 * deg, 0.3 * mm, Cycloidal()), Dwell((300 - rest) * deg))
+        cam = TranslatingRollerCam(MotionProgram(rise))
+        fine = replace(cam.analyse(), cam_angle=rest * deg + np.linspace(1e-9, 2 - 1e-9, 100_001) * deg)
+        assert mean_efficiency(cam.analyse(31)) == pytest.approx(fine.efficiency.mean(), abs=2e-4)
 
 
 def beam(brute, analysis, K, along):
@@ -603,6 +636,7 @@ def beam(brute, analysis, K, along):
     held = (brute.centre if isinstance(brute, Roller) else brute.foot)(JOINTS[:1])[1, 0] + friction.overhang
     u, v = analysis.normal * np.cos(analysis.lean) + along * np.sin(analysis.lean), np.sign(analysis.velocity)
     arm = cross(K - [[brute.cam.offset], [0]], u)
+    weight = brute.cam.load.mass * brute.cam.load.gravity * np.sin(brute.cam.load.up_angle)
     out = np.full((3, len(v)), np.nan)
     for one, two in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
         rub, same = -v * friction.guide, np.ones_like(v)
@@ -611,18 +645,22 @@ def beam(brute, analysis, K, along):
             [u[1], rub * one, rub * two],
             [arm, -held * same, -(held + friction.guide_length) * same],
         ]
-        loads = np.stack([0 * v, analysis.resistance, 0 * v], axis=-1)
+        middle = held + friction.guide_length / 2  # of the guide, where the weight's part across acts
+        loads = np.stack([0 * v - weight, analysis.resistance, 0 * v + middle * weight], axis=-1)
         found = np.linalg.solve(np.moveaxis(rows, -1, 0), loads[..., None])[..., 0].T
         out = np.where((found[1] * one >= 0) & (found[2] * two >= 0), found, out)
     return out
 
 
 @both_senses
+@pytest.mark.parametrize("up_angle", [0, 30, 90, -90, 180])
 @pytest.mark.parametrize("name", ["sliding roller", "offset roller", "sliding face"])
-def test_forces_with_friction_are_those_of_a_beam_in_its_guide(name, sigma):
+def test_forces_with_friction_are_those_of_a_beam_in_its_guide(name, up_angle, sigma):
+    """The follower's weight loads the guide, too, where it is not upright; here 20 kg."""
     brute = FOLLOWERS[name].at(sigma)
     friction = SlideFriction(coefficient=0.12, guide=0.15, overhang=25 * mm)
-    brute = replace(brute, cam=brute.cam.replace(friction=friction))
+    load = brute.cam.load.replace(mass=20, speed=50 * rpm, preload=500, up_angle=up_angle * deg)
+    brute = replace(brute, cam=brute.cam.replace(friction=friction, load=load))
     analysis = analysed(brute.cam)
     K = turned(analysis.profile, sigma * INSIDE)
     past = sigma * np.array([-K[1], K[0]]) - [[0], [1]] * analysis.velocity
@@ -780,7 +818,7 @@ def test_the_opposite_of_the_opposite_motion_is_the_motion():
 
 ARRAYS = (
     "pressure_angle", "curvature", "profile_curvature", "pitch", "profile", "pitch_radius", "contact_force",
-    "cam_torque", "efficiency", "free_body_efficiency", "resistance", "static_resistance", "lever", "fit", "normal",
+    "cam_torque", "efficiency", "resistance", "static_resistance", "lever", "fit", "normal",
 )  # fmt: skip
 ALSO_OF_A_GROOVE = ("outer_profile", "outer_profile_curvature")
 SHARED = ("motion", "velocity", "acceleration", "jerk", "undercut", "outer_undercut", "turn", "cam_angle")
