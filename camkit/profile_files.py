@@ -9,8 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from .cam.flank import flanks
 from .markup import csv_cell
 from .units import in_unit
+
+FAULT = "FAULT"
+"""The layer of what a cam was to have and the tool cuts away."""
+TEXT = 2.5
+"""Height of the sentence on that layer, mm."""
 
 
 def table_csv(columns: Mapping[str, Any]) -> str:
@@ -32,11 +38,15 @@ def table_csv(columns: Mapping[str, Any]) -> str:
 def profile_csv(analysis: Any) -> str:
     """The profile of a cam as CSV text, a row for each cam angle, units in the heading.
 
-    Of an analysis that covers a part of the cam it takes the ``whole``.
+    Of an analysis that covers a part of the cam it takes the ``whole``.  Where the cam is undercut, the flank is what
+    the tool leaves of it (see `flanks`): the column ``undercut`` names the flanks that are cut away at a row's cam
+    angle, their points stand on the corner that is left, and the columns ``theory`` hold what was asked for.
 
-    >>> from camkit import DoorHandleCam
-    >>> print(profile_csv(DoorHandleCam().analyse(361)).splitlines()[0])
+    >>> from camkit import DoorHandleCam, TranslatingRollerCam
+    >>> print(profile_csv(TranslatingRollerCam().analyse(361)).splitlines()[0])
     stretch,cam_angle_deg,pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,outer_profile_x_mm,outer_profile_y_mm
+    >>> "undercut,theory_profile_x_mm" in profile_csv(DoorHandleCam().analyse(361)).splitlines()[0]
+    True
     """
     return table_csv(_profile_columns(_one_cam(analysis)))
 
@@ -50,18 +60,33 @@ def _one_cam(analysis: Any) -> Any:
 
 
 def _profile_columns(analysis: Any) -> dict[str, Any]:
+    made = flanks(analysis)
     columns = {"stretch": list(analysis.stretch), "cam_angle_deg": in_unit(analysis.profile_angle, "deg")}
-    for name in ("pitch", "profile", "outer_profile"):
-        for axis, values in zip("xy", getattr(analysis, name), strict=True):
-            columns[f"{name}_{axis}_mm"] = in_unit(values, "mm")
-    return {name: column for name, column in columns.items() if name == "stretch" or np.isfinite(column).any()}
+    columns |= _point_columns({"pitch": analysis.pitch, **made.points})
+    if made.cuts:
+        away = [[flank for flank, rows in made.cut_away.items() if rows[k]] for k in range(len(columns["stretch"]))]
+        columns["undercut"] = [" and ".join(flanks) for flanks in away]
+        columns |= _point_columns({f"theory {flank}": points for flank, points in made.theory.items()})
+    return columns
+
+
+def _point_columns(curves: Mapping[str, np.ndarray]) -> dict[str, Any]:
+    """Two columns for each curve, in mm, but for a curve that is not there."""
+    return {
+        f"{name.replace(' ', '_')}_{axis}_mm": in_unit(values, "mm")
+        for name, points in curves.items()
+        if np.isfinite(points).any()
+        for axis, values in zip("xy", points, strict=True)
+    }
 
 
 def profile_dxf(analysis: Any) -> str:
     """The profile of a cam as a DXF drawing in mm, the cam axis at the origin, for CAD and machine tools.
 
-    Pitch curve, profile and a groove's outer profile are polylines on layers of these names, closed where the curve
-    is, through the points at which it was analysed.  Written by ezdxf.
+    Pitch curve, profile, a groove's outer profile and the ends of an open groove are polylines on layers of these
+    names, closed where the curve is, through the points at which it was analysed.  Of a cam that is undercut the
+    profile is what the tool leaves (see `flanks`); what was asked for besides is on the layer ``FAULT``, with a
+    sentence.  Written by ezdxf.
 
     >>> from camkit import TranslatingRollerCam
     >>> text = profile_dxf(TranslatingRollerCam().analyse())
@@ -71,20 +96,31 @@ def profile_dxf(analysis: Any) -> str:
     import ezdxf  # the maths does without
 
     analysis = _one_cam(analysis)
-    drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
-    for name in ("pitch", "profile", "outer_profile"):
-        layer = drawing.layers.add(name.replace("_", " ")).dxf.name
-        for piece in _pieces(in_unit(getattr(analysis, name), "mm").T):
-            closed = bool(np.allclose(piece[0], piece[-1], atol=1e-6))
-            line = piece[:-1] if closed else piece
-            drawing.modelspace().add_lwpolyline(line.tolist(), close=closed, dxfattribs={"layer": layer})
+    made, drawing = flanks(analysis), ezdxf.new("R2010", units=ezdxf.units.MM)
+
+    def draw(layer: str, points: np.ndarray, closed: bool) -> None:
+        if layer not in drawing.layers:
+            drawing.layers.add(layer, color=ezdxf.colors.RED if layer == FAULT else ezdxf.colors.BLACK)
+        line = in_unit(points, "mm").T.tolist()
+        drawing.modelspace().add_lwpolyline(line, close=closed, dxfattribs={"layer": layer})
+
+    for points in _pieces(analysis.pitch):
+        closed = bool(np.allclose(points[:, 0], points[:, -1], rtol=0, atol=1e-9))
+        draw("pitch", points[:, :-1] if closed else points, closed)
+    for piece in made.left:
+        draw(piece.flank, piece.points, piece.closed)
+    for piece in made.lost:
+        draw(FAULT, piece.points, piece.closed)
+    if made.message:
+        below = in_unit(analysis.profile[1].min(), "mm") - 4 * TEXT
+        drawing.modelspace().add_text(made.message, height=TEXT, dxfattribs={"layer": FAULT}).set_placement((0, below))
     out = io.StringIO()
     drawing.write(out)
     return out.getvalue()
 
 
 def _pieces(points: np.ndarray) -> list[np.ndarray]:
-    """Runs of finite points ``(n, 2)`` between gaps."""
-    finite = np.isfinite(points).all(-1)
-    runs = np.split(np.arange(len(points)), np.flatnonzero(np.diff(finite)) + 1)
-    return [points[run] for run in runs if finite[run[0]] and len(run) > 1]
+    """Runs of finite points ``(2, n)`` between gaps."""
+    finite = np.isfinite(points).all(0)
+    runs = np.split(np.arange(points.shape[1]), np.flatnonzero(np.diff(finite)) + 1)
+    return [points[:, run] for run in runs if finite[run[0]] and len(run) > 1]

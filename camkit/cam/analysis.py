@@ -456,6 +456,11 @@ class FlatAnalysis(CamAnalysis):
         """Curvature of the profile; the face adds nothing."""
         return self.profile_curvature
 
+    @property
+    def face_normal(self) -> np.ndarray:
+        """The face's normal as the cam sees it, outward, at each cam angle."""
+        return self.on_cam(self.normal)
+
     @cached_property
     def pitch(self) -> np.ndarray:
         """The profile, m."""

@@ -459,6 +459,11 @@ class ValveAnalysis:
         return self.on_cam(np.stack([0 * height, height if self.cam.follower == ROLLER else np.nan * height]))
 
     @property
+    def face_normal(self) -> np.ndarray | None:
+        """A flat face's normal as the cam sees it, outward, at each cam angle; ``None`` under a roller."""
+        return rotated(np.array([0.0, 1.0]), -self.turn) if self.cam.follower == FLAT else None
+
+    @property
     def outer_profile(self) -> np.ndarray:
         """``nan``: a valve cam has no groove and so no outer flank."""
         return np.nan * self.profile
