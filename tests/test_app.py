@@ -164,9 +164,10 @@ def downloaded(panel, description):
     return sent[0]
 
 
-def upload(panel, description, text):
+def upload(panel, description, file):
     """As the page does it when a person has chosen a file."""
-    next(u for u in inside(panel, Upload) if u.description == description)._handle_custom_msg({"text": text}, [])
+    data = memoryview(file if isinstance(file, bytes) else file.encode())
+    next(u for u in inside(panel, Upload) if u.description == description)._handle_custom_msg({}, [data])
 
 
 def alert(panel):
@@ -415,7 +416,8 @@ FILE = to_json(DoorHandleCam())
         (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
         (FILE.replace("50.0", "9" * 400, 1), "the "),
         ("[" * 100000, "the file is damaged"),
-        (FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'), "the torque table"),
+        (FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'),
+         "the file says [[0, 'a']] for 'door_torque_table'; a list of pairs of numbers belongs there"),
         (to_json(OscillatingRollerCam()), "the file holds a"),
     ],
     ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],

@@ -11,6 +11,7 @@ import anywidget
 import ipywidgets as w
 import traitlets
 
+from ..json_file import MOST_BYTES
 from ..markup import Html, attribute, escaped, html, joined
 from ..quantities import Choice, Quantity, words
 from ..units import in_unit
@@ -167,8 +168,9 @@ class Menu:
 
     def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
         self._changed, self._silent = changed, False
+        self.declared = declared
         self.menu = w.Dropdown(
-            options=[(option.name, option) for option in declared.options], value=value,
+            options=self._options(value), value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
         )  # fmt: skip
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
@@ -185,9 +187,16 @@ class Menu:
         """Show ``value`` without telling anyone."""
         self._silent = True
         try:
+            if (options := self._options(value)) != list(self.menu.options):
+                self.menu.options = options
             self.menu.value = value
         finally:
             self._silent = False
+
+    def _options(self, value: Any) -> list[tuple[str, Any]]:
+        """What the declaration offers, and ``value`` if it is something of one's own."""
+        own = () if value in self.declared.options else (value,)
+        return [(option.name, option) for option in (*self.declared.options, *own)]
 
     def _chosen(self, _: Any) -> None:
         if not self._silent:
@@ -213,15 +222,16 @@ class Download(anywidget.AnyWidget):
 
 
 class Upload(anywidget.AnyWidget):
-    """A button; ``use(text)`` is called with the text of the file that a person chooses."""
+    """A button; ``use(data)`` is called with the bytes of the file that a person chooses."""
 
     _esm = Path(__file__).with_name("upload.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
     accept = traitlets.Unicode(".json").tag(sync=True)
+    most = traitlets.Int(MOST_BYTES + 1).tag(sync=True)
 
-    def __init__(self, description: str, use: Callable[[str], None]) -> None:
+    def __init__(self, description: str, use: Callable[[bytes], None]) -> None:
         super().__init__(description=description)
-        self.on_msg(lambda _, message, __: use(message["text"]))
+        self.on_msg(lambda _, __, buffers: use(bytes(buffers[0])))
 
 
 def banner() -> w.HTML:

@@ -46,6 +46,11 @@ def changed(design: Any, values: Mapping[str, Any]) -> Any:
         return design.replace(**changes)
 
 
+def remarked(found: export.Read) -> str:
+    """What a panel says of a file that it has loaded; nothing if there is nothing to remark."""
+    return f"The file is loaded, but {'; and '.join(found.remarks)}." if found.remarks else ""
+
+
 class Explorer(Panel):
     """Sliders for a design's quantities; pictures and measures follow at once.
 
@@ -128,14 +133,16 @@ class Explorer(Panel):
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
 
-    def load_json(self, text: str) -> None:
+    def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            design = export.from_json(text, type(self.design))
+            found = export.read(file, type(self.design))
+            found.thing.analyse()
         except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
-            self.load(design)
+            self.load(found.thing)
+            tell(self._banner, remarked(found))
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value."""

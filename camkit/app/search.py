@@ -20,11 +20,11 @@ from ..decision import CHOOSERS, ahp, judgement_matrix
 from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
-from ..quantities import Quantity, declarations, words
+from ..quantities import Measure, Quantity, declarations, words
 from ..study import Study
 from ..units import in_unit
 from .controls import Download, Upload, banner, label_html, small_html, tell
-from .explore import Explorer, changed, declared_in
+from .explore import Explorer, changed, declared_in, remarked
 from .judge import Judgements
 from .kept import Kept, keep, unfinished
 from .panel import Panel
@@ -270,7 +270,7 @@ class Search(Panel):
     def _check_settings(self, settings: Mapping[str, Any]) -> None:
         for name, value in settings.items():
             known = isinstance(value, export.SETTINGS.get(name, ()))
-            if not known or value not in getattr(getattr(self, name), "options", (value,)):
+            if not known or not _offered(value, getattr(self, name)):
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
 
     def _check_judgements(self, judgements: Mapping[str, Any]) -> None:
@@ -431,7 +431,9 @@ class Search(Panel):
         """Everything on the page, to be saved."""
         judgements = {name: panel.upper for name, panel in self._judges().items()}
         front = self.front
-        return export.Work(self.study, self.explorer.design, judgements, self._settings(), front.x, front.record)
+        methods = {name: panel.method.value for name, panel in self._judges().items()}
+        settings = self._settings()
+        return export.Work(self.study, self.explorer.design, judgements, settings, front.x, front.record, methods)
 
     def _settings(self) -> dict[str, Any]:
         return {
@@ -453,29 +455,39 @@ class Search(Panel):
             )
         self._check_settings(work.search)
         self._check_judgements(work.judgements)
-        self.study, self._x = work.study, np.asarray(work.x)
-        empty = Front(work.study, self._x, np.zeros((0, len(work.study.minimise))))
-        self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else empty
-        self.front = replace(self.front, record=work.record)
+        work.design.analyse()
+        x = np.asarray(work.x)
+        empty = Front(work.study, x, np.zeros((0, len(work.study.minimise))))
+        front = front_of(work.study.evaluate(x), work.study) if len(x) else empty
+        self.study, self._x, self.front = work.study, x, replace(front, record=work.record)
         for name, bounds in self.bounds.items():
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():
             getattr(self, name).value = value
         for name, panel in self._judges().items():
             if name in work.judgements:
+                panel.method.value = work.methods.get(name, "eigenvector")
                 panel.load(work.judgements[name])
         self.explorer.load(work.design)
         self.status.value = f"loaded: {len(self.front)} designs on the front"
         self._show_front()
 
-    def load_json(self, text: str) -> None:
+    def load_json(self, file: str | bytes) -> None:
         """Show the study that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            self.load(export.from_json(text, export.Work))
-        except (ValueError, KeyError) as refusal:
+            found = export.read(file, export.Work, self._measures())
+            self.load(found.thing)
+        except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
-            tell(self._banner, "")
+            tell(self._banner, remarked(found))
+
+    def _measures(self) -> tuple[Measure, ...]:
+        """Every measure that a study of this page may have beside those of its mechanism."""
+        weights = {"weights": self.criteria.weights} if self.criteria else {}
+        start, space = self.explorer.start, {name: bounds.value for name, bounds in self.bounds.items()}
+        studies = (make(start, reference=start, space=space, **weights) for make in self.studies.values())
+        return (*self.explorer.measures, *(m for study in studies for m in study.measures))
 
     def summary(self) -> str:
         """The front's ends and the winner."""
@@ -484,6 +496,11 @@ class Search(Panel):
         f = self.front.f[self.winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def _offered(value: Any, control: Any) -> bool:
+    """Whether a menu or a box of whole numbers takes a value."""
+    return value in control.options if hasattr(control, "options") else control.min <= value <= control.max
 
 
 def _left(generation: Generation) -> str:
