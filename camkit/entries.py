@@ -30,11 +30,15 @@ def key(name: str, declared: Any) -> str:
 
 
 def exact_in_unit(value: float, unit: str) -> float:
-    """``value`` (SI) in ``unit``, in fifteen digits if these give it back to the last bit, in more if those do."""
+    """``value`` (SI) in ``unit``: fifteen digits, or more where those give it back more exactly.
+
+    >>> exact_in_unit(0.04809, "mm"), exact_in_unit(0.3, "deg")
+    (48.09, 17.188733853924695)
+    """
     plain, si = in_unit(float(value), unit), factor(unit)
     near = float(value) / si
     tried = (plain, near, float(np.nextafter(near, -np.inf)), float(np.nextafter(near, np.inf)))
-    return next((number for number in tried if number * si == value), plain)
+    return min(tried, key=lambda number: abs(number * si - value))
 
 
 def entry_of(thing: Any, where: str = "value") -> Any:
@@ -200,7 +204,7 @@ def _wanted(hint: Any) -> str:
     """What an annotation names, in words."""
     said = {Any: "a number", float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
     if isinstance(hint, type) and hint not in said and get_origin(hint) is None:
-        return f"a {hint.__name__}"
+        return f"{'an' if hint.__name__[0] in 'AEIO' else 'a'} {hint.__name__}"
     if get_origin(hint) is tuple and get_args(hint)[-1:] == (...,):
         inner = get_args(hint)[0]
         return "a list of pairs of numbers" if get_origin(inner) is tuple else "a list of values"

@@ -156,7 +156,7 @@ def read(file: str | bytes, kind: type | None = None, measures: Iterable[Measure
 
 def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures: Iterable[Measure]) -> Any:
     if held == "design":
-        return reading.thing(entry, kind or object)
+        return reading.thing(_mapping(entry, held), kind or object)
     work = _work(_entries(entry, held, reading), reading, measures)
     return work if held == "work" or kind is Work else _front(work, _message(entry.get("message", "")), reading)
 
@@ -406,7 +406,11 @@ def _objective(entry: Any, named: Mapping[str, Measure]) -> Measure:
 def _sum(entry: Any, named: Mapping[str, Measure]) -> WeightedSum:
     """A weighted sum."""
     entry = {"sign": 1} | _mapping(entry, "weighted sum")
-    if entry.keys() != {"name", "weights", "reference", "sign"} or entry["sign"] not in (1, -1):
+    if (
+        entry.keys() != {"name", "weights", "reference", "sign"}
+        or entry["sign"] not in (1, -1)
+        or entry["sign"] is True
+    ):
         raise ValueError("the file is damaged: its weighted sum is not as camkit writes it")
     parts = {_found(k, named): v for k, v in _mapping(entry["weights"], "weights").items()}
     weights = _numbers(list(parts.values()), "weights", len(parts))

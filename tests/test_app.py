@@ -416,8 +416,10 @@ FILE = to_json(DoorHandleCam())
         (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
         (FILE.replace("50.0", "9" * 400, 1), "the "),
         ("[" * 100000, "the file is damaged"),
-        (FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'),
-         "the file says [[0, 'a']] for 'door_torque_table'; a list of pairs of numbers belongs there"),
+        (
+            FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'),
+            "the file says [[0, 'a']] for 'door_torque_table'; a list of pairs of numbers belongs there",
+        ),
         (to_json(OscillatingRollerCam()), "the file holds a"),
     ],
     ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],
