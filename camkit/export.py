@@ -479,6 +479,9 @@ def _judged(name: str, entry: Any) -> tuple[Any, ...]:
     flat = [value for row in rows for value in (_listed(row, name) if isinstance(row, list) else [row])]
     if len(flat) > MOST_ROWS or not all(value is None or is_number(value) for value in flat):
         raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}, where numbers belong")
+    sizes = {len(row) if isinstance(row, list) else 0 for row in rows}
+    if sizes - {0} and (sizes != {len(rows)} or len(rows) < 2):
+        raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}; a matrix is square")
     judgement_matrix(rows or [[1]])
     return tuple(tuple(row) if isinstance(row, list) else row for row in rows)
 

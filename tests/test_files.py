@@ -1,6 +1,7 @@
 """Files from anywhere: what camkit wrote comes back, whatever the study; anything else is told in a sentence."""
 
 import copy
+import html
 import importlib
 import inspect
 import json
@@ -653,7 +654,7 @@ def page():
 
 
 def said(panel):
-    return panel._banner.value.replace("<div role='alert'>", "").replace("</div>", "")
+    return html.unescape(panel._banner.value.replace("<div role='alert'>", "").replace("</div>", ""))
 
 
 BAD = {
