@@ -17,7 +17,7 @@ import numpy as np
 
 from .json_file import shown
 from .motion import Law, MotionProgram, Segment
-from .quantities import Choice, Design, Quantity, declarations, words
+from .quantities import Choice, Design, Quantity, declarations, unremarked, words
 from .units import factor, in_unit
 
 MOST_ROWS = 5000
@@ -110,7 +110,8 @@ class Reading:
         kind = known[name]
         values = self._fields(kind, {k: v for k, v in entry.items() if k != "kind"})
         try:
-            return kind(**values)
+            with unremarked():  # a file's numbers have their units
+                return kind(**values)
         except (TypeError, AttributeError, IndexError, ArithmeticError):
             raise ValueError(f"the file is damaged: no {name} can be built of what it says") from None
 
@@ -151,7 +152,7 @@ class Reading:
             if isinstance(entry, str) and option.name == entry:
                 return option
         value = self.thing(entry) if isinstance(entry, dict) else None
-        if value is None or not set.intersection(*(set(dir(o)) for o in declared.options)) <= set(dir(value)):
+        if value is None or not declared.allows(value):
             options = ", ".join(option.name for option in declared.options)
             raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {options}")
         return value
