@@ -511,9 +511,10 @@ class Search(Panel):
 
     def summary(self) -> str:
         """The front's ends and the winner."""
-        if self.winner is None:
+        front, winner = self.front, self.winner
+        if winner is None or winner >= len(front):  # a running search may just have found a smaller front
             return f"no front yet; free: {', '.join(map(words, self.study.free))}"
-        f = self.front.f[self.winner]
+        f = front.f[winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
 
