@@ -21,7 +21,9 @@ from .quantities import Choice, Design, Quantity, declarations, unremarked, word
 from .units import factor, in_unit
 
 MOST_ROWS = 5000
-"""Entries of a list: rows of a table, designs of a front."""
+"""Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``."""
+MOST_THINGS = 500
+"""Entries that are objects themselves, such as the segments of a program."""
 
 
 def key(name: str, declared: Any) -> str:
@@ -96,11 +98,12 @@ class Reading:
     missing: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
 
-    def thing(self, entry: Any, hint: Any = object) -> Any:
+    def thing(self, entry: Any, hint: Any = object, most: int = MOST_ROWS) -> Any:
         """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
         if isinstance(entry, list):
-            if len(entry) > MOST_ROWS:
-                raise ValueError(f"the file has a list of {len(entry)} entries; there can be at most {MOST_ROWS}")
+            most = min(most, MOST_THINGS) if any(isinstance(value, dict) for value in entry) else most
+            if len(entry) > most:
+                raise ValueError(f"the file has a list of {len(entry)} entries; there can be at most {most}")
             return tuple(self.thing(value) for value in entry)
         if not isinstance(entry, dict):
             return entry
@@ -124,7 +127,9 @@ class Reading:
             self.lacks(lacking, kind.__name__, named[lacking])
         hints = _hints(kind)
         return {
-            named[k].name: self._field(entry, k, declared.get(named[k].name), hints.get(named[k].name, object))
+            named[k].name: self._field(
+                entry, k, named[k], declared.get(named[k].name), hints.get(named[k].name, object)
+            )
             for k, entry in entries.items()
         }
 
@@ -134,14 +139,14 @@ class Reading:
             raise ValueError(f"the file lacks {name!r} of the {kind}")
         self.missing.append(f"{name!r} of the {kind}")
 
-    def _field(self, entry: Any, name: str, declared: Any, hint: Any) -> Any:
+    def _field(self, entry: Any, name: str, of: Field[Any], declared: Any, hint: Any) -> Any:
         if isinstance(declared, Quantity):
             if not is_number(entry):
                 raise ValueError(f"the file says {shown(entry)} for {name!r}; it must be {declared.possible}")
             return entry * declared.factor
         if isinstance(declared, Choice):
             return self._choice(entry, name, declared)
-        value = self.thing(entry, hint)
+        value = self.thing(entry, hint, of.metadata.get("most", MOST_ROWS))
         if not fits(value, hint):
             raise ValueError(f"the file says {shown(entry)} for {name!r}; {_wanted(hint)} belongs there")
         return value

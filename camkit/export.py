@@ -19,6 +19,7 @@ from .decision import METHODS, judgement_matrix
 from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number, key
 from .json_file import MOST_BYTES, content_of, digest_remarks, shown, signed, text_of
 from .quantities import Design, Measure, declarations
+from .reference import problems  # noqa: F401 - so that files may name their designs
 from .study import Study, WeightedSum, weighted
 from .units import factor
 

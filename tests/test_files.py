@@ -442,6 +442,13 @@ ABSURD = {
     "a long table": (
         design_with("door_torque_table", to=[[i, 1] for i in range(6000)]), "of 6000 entries"
     ),
+    "a program of 600 segments": (
+        design_with("motion", "segments", of="program", to=[{"kind": "Dwell", "angle": 0.01}] * 600), "of 600 entries"
+    ),
+    "a spline of 400 knots": (
+        design_with("motion_law", to={"kind": "SplineLaw", "u": [0.002 * i for i in range(1, 400)], "s": []}),
+        "of 399 entries; there can be at most 300",
+    ),
     "a huge population": (work_with("search", "population", to=10**9), "1000000000 for 'population'"),
     "a huge number of generations": (work_with("search", "generations", to=10**12), "'generations'"),
     "a negative seed": (work_with("search", "seed", to=-1), "'seed'"),
@@ -708,6 +715,15 @@ def test_a_law_that_the_menu_does_not_offer_is_shown_when_it_is_loaded(page, mon
     assert menu.menu.label == "skewed"
     app.load(DoorHandleCam())
     assert "skewed" not in [name for name, _ in menu.menu.options]
+
+
+def test_what_cannot_be_saved_is_told_in_the_panel(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    own = MotionProgram((Rise(1.0, 0.3, lambda u: Cycloidal()(u)), Return(1.0, 0.3, Cycloidal())))
+    app = explore(OscillatingRollerCam(motion=own), pressure_angle, width=4, height=3)
+    save = next(child for child in app.children[2].children if getattr(child, "description", "") == "Save design")
+    save._handle_custom_msg({"wanted": True}, [])
+    assert said(app) == "Nothing is saved: the law of the Rise is a function of one's own, which no file can hold."
 
 
 def test_the_page_comes_back_with_its_methods_and_a_measure_of_ones_own(page, monkeypatch, tmp_path):

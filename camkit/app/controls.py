@@ -210,15 +210,35 @@ def control(name: str, declared: Quantity | Choice, value: Any, changed: Callabl
 
 
 class Download(anywidget.AnyWidget):
-    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``."""
+    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``.
+
+    ``refused(sentence)`` is called where there is nothing to be had, with the reason.
+    """
 
     _esm = Path(__file__).with_name("download.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
 
-    def __init__(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        description: str,
+        filename: str,
+        mime: str,
+        content: Callable[[], str],
+        refused: Callable[[str], None] | None = None,
+    ) -> None:
         super().__init__(description=description)
-        self.content = content
-        self.on_msg(lambda *_: self.send({"name": filename, "mime": mime, "text": self.content()}))
+        self.filename, self.mime, self.content, self.refused = filename, mime, content, refused
+        self.on_msg(lambda *_: self._pressed())
+
+    def _pressed(self) -> None:
+        try:
+            text = self.content()
+        except ValueError as refusal:
+            if self.refused is None:
+                raise
+            self.refused(f"Nothing is saved: {refusal}.")
+        else:
+            self.send({"name": self.filename, "mime": self.mime, "text": text})
 
 
 class Upload(anywidget.AnyWidget):

@@ -124,7 +124,9 @@ class Explorer(Panel):
         reset.layout.width = "auto"
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
-        save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
+        save = Download(
+            "Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design), self._say
+        )
         table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis))
         drawing = Download(
             "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profile_files.profile_dxf(self.analysis)
@@ -132,6 +134,9 @@ class Explorer(Panel):
         load = Upload("Load design", self.load_json)
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
+
+    def _say(self, sentence: str) -> None:
+        tell(self._banner, sentence)
 
     def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""

@@ -7,6 +7,7 @@ import json
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any
@@ -159,7 +160,7 @@ class Search(Panel):
         self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
 
     def _body(self) -> w.Widget:
-        save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()))
+        save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()), self._say)
         settings = w.HBox([self.population, self.generations, self.seed], layout=w.Layout(flex_flow="row wrap"))
         buttons = w.HBox(
             [self.run_button, self.stop_button, self.resume_button, self.progress],
@@ -492,6 +493,9 @@ class Search(Panel):
         self.status.value = f"loaded: {len(self.front)} designs on the front"
         self._show_front()
 
+    def _say(self, sentence: str) -> None:
+        tell(self._banner, sentence)
+
     def load_json(self, file: str | bytes) -> None:
         """Show the study that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
@@ -505,9 +509,11 @@ class Search(Panel):
     def _measures(self) -> tuple[Measure, ...]:
         """Every measure that a study of this page may have beside those of its mechanism."""
         weights = {"weights": self.criteria.weights} if self.criteria else {}
-        start, space = self.explorer.start, {name: bounds.value for name, bounds in self.bounds.items()}
-        studies = (make(start, reference=start, space=space, **weights) for make in self.studies.values())
-        return (*self.explorer.measures, *(m for study in studies for m in study.measures))
+        start, measures = self.explorer.start, [*self.explorer.measures, *self.study.measures]
+        for make in self.studies.values():
+            with suppress(ValueError):  # of free quantities that this problem does not have
+                measures += make(start, reference=start, space=dict(self.study.free), **weights).measures
+        return tuple(measures)
 
     def summary(self) -> str:
         """The front's ends and the winner."""
