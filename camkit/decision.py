@@ -217,7 +217,8 @@ def _rounded_reciprocal(more: float, less: float) -> bool:
     if decimals < 2:
         return False
     step = 10.0**-decimals
-    return 1 / (more + step / 2) - step < less < 1 / (more - step / 2) + step / 2
+    off = 0 if more == round(more) else step / 2  # what is no whole number may have been rounded itself
+    return 1 / (more + off) - step * (1 - ALIKE) < less < 1 / (more - off) + step / 2 * (1 + ALIKE)
 
 
 def _groups(a: np.ndarray) -> tuple[int, np.ndarray]:
@@ -262,7 +263,7 @@ def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
     ``"eigenvector"``: the principal eigenvector (Saaty 1980).  ``"geometric"``: the geometric means of the rows
     (Crawford, Williams 1985).
     """
-    if method not in METHODS:
+    if not isinstance(method, str) or method not in METHODS:
         raise ValueError(f"the method is {method!r}; there are {' and '.join(map(repr, METHODS))}")
     w = METHODS[method](completed(matrices))
     return np.asarray(w / w.sum(-1, keepdims=True))
@@ -278,7 +279,12 @@ def completed(matrices: Any) -> np.ndarray:
     >>> completed([[1, 5, np.nan], [1 / 5, 1, 1], [np.nan, 1, 1]]).round(9)[0].tolist()
     [1.0, 5.0, 5.0]
     """
-    a = np.asarray(matrices, dtype=float)
+    must = "the judgements must be square matrices of numbers"
+    a = _numbers(matrices, must)
+    if not a.ndim:
+        raise ValueError(must)
+    if a.ndim < 2 or a.shape[-1] != a.shape[-2] or not a.size:
+        raise ValueError(f"the judgements have the shape {a.shape}; they must be square matrices")
     known = ~np.isnan(a)
     if known.all():
         return a
@@ -367,11 +373,16 @@ def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
     return Judgement(a, full, judged_weights(full, method), float(_lambda_max(full)), note)
 
 
-def _objectives(front: Any) -> np.ndarray:
+def _numbers(value: Any, must: str) -> np.ndarray:
+    """An array of numbers, refused with a sentence where it is none."""
     try:
-        f = np.asarray(getattr(front, "f", front), dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError("the front must be a table of numbers, a row for each design") from None
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(must) from None
+
+
+def _objectives(front: Any) -> np.ndarray:
+    f = _numbers(getattr(front, "f", front), "the front must be a table of numbers, a row for each design")
     if not f.size:
         raise ValueError("the front is empty; there is no design to choose")
     if f.ndim != 2:
@@ -382,10 +393,8 @@ def _objectives(front: Any) -> np.ndarray:
 
 
 def _weights(weights: Any, k: int) -> np.ndarray:
-    try:
-        w = np.full(k, 1 / k) if weights is None else np.asarray(weights, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f"the weights are {weights!r}; they must be numbers") from None
+    must = f"the weights are {weights!r}; they must be numbers"
+    w = np.full(k, 1 / k) if weights is None else _numbers(weights, must)
     if w.ndim not in (1, 2) or w.shape[-1] != k:
         raise ValueError(f"there are {w.shape[-1] if w.ndim else 1} weights for {k} objectives")
     if not (np.isfinite(w).all() and (w >= 0).all() and (w.sum(-1) > 0).all()):
@@ -452,7 +461,7 @@ def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
 
     Raises ``ValueError`` for a scale of another name.
     """
-    if scale not in SCALES:
+    if not isinstance(scale, str) or scale not in SCALES:
         raise ValueError(f"the scale is {scale!r}; there are {' and '.join(map(repr, SCALES))}")
     f = _objectives(front)
     y, squares = SCALES[scale](f), _weights(weights, f.shape[1]) ** 2
@@ -544,6 +553,11 @@ class JudgementRange:
     above: int | None
 
 
+def _refuse_no_rule(choose: Any) -> None:
+    if not callable(choose):
+        raise ValueError(f"the rule is {choose!r}; it must be weighted_sum, topsis, knee, crowding or one like them")
+
+
 def judgement_ranges(
     front: Any, judgements: Any, choose: Chooser = weighted_sum, method: str = "eigenvector"
 ) -> tuple[JudgementRange, ...]:
@@ -559,6 +573,7 @@ def judgement_ranges(
 
     Raises ``ValueError`` if there are not as many criteria as objectives.
     """
+    _refuse_no_rule(choose)
     front = _objectives(front)
     judged = ahp(judgements, method)
     winner = choose(front, judged.weights)
@@ -600,6 +615,10 @@ def _rejudged(matrix: np.ndarray, pairs: list[tuple[int, int]], values: np.ndarr
     return many
 
 
+MOST_WEIGHTINGS = 10**6
+"""More weightings than these are not listed."""
+
+
 def weight_lattice(k: int, steps: int) -> np.ndarray:
     """All weights of ``k`` objectives that are multiples of ``1 / steps`` and add to 1, ``(m, k)``.
 
@@ -607,6 +626,8 @@ def weight_lattice(k: int, steps: int) -> np.ndarray:
     [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
     """
     k, steps = counted(k, "objectives", 1), counted(steps, "steps", 1)
+    if max(k, steps) > MOST_WEIGHTINGS or math.comb(steps + k - 1, k - 1) > MOST_WEIGHTINGS:
+        raise ValueError(f"{steps} steps of {k} weights make more than {MOST_WEIGHTINGS:g} weightings; take fewer")
     # Stars and bars: k - 1 bars among the steps part them into k weights.
     places = steps + k - 1
     bars = np.array(list(combinations(range(places), k - 1)), dtype=int).reshape(math.comb(places, k - 1), k - 1)
@@ -638,6 +659,7 @@ def winner_map(front: Any, choose: Chooser = weighted_sum) -> WinnerMap:
     >>> {design: round(share, 2) for design, share in winner_map([[0, 1], [0.2, 0.2], [1, 0]]).shares.items()}
     {1: 0.6, 0: 0.2, 2: 0.2}
     """
+    _refuse_no_rule(choose)
     k = _objectives(front).shape[1]
     weights = weight_lattice(k, LATTICE.get(k, 8))
     return WinnerMap(weights, np.asarray(choose(front, weights)))

@@ -102,7 +102,7 @@ def _point(reference: Any, k: int) -> np.ndarray:
     """A point in the space of ``k`` objectives."""
     try:
         point = np.asarray(reference, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         point = np.full(k, np.nan)
     if point.shape != (k,) or not np.isfinite(point).all():
         raise ValueError(f"the reference point is {reference!r}; it must be {k} finite numbers")

@@ -217,7 +217,12 @@ class Study:
 
     def evaluate(self, x: Any) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
-        x = np.atleast_2d(np.asarray(x, dtype=float))
+        try:
+            x = np.atleast_2d(np.asarray(x, dtype=float))
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError("x must be a table of numbers, a row for each design") from None
+        if x.ndim > 2:
+            raise ValueError(f"x has the shape {x.shape}; it must be a table, a row for each design")
         if x.shape[1] != len(self.free):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
         return self.judge(x, self.analyse(x))

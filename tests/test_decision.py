@@ -5,7 +5,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
@@ -105,14 +105,32 @@ def test_reciprocals_as_papers_print_them():
 
 
 @given(st.integers(2, 9), st.integers(2, 5), st.booleans())
+@settings(deadline=None)
 def test_any_number_of_decimals_rounded_or_cut_off(more, decimals, cut):
     step = 10.0**-decimals
-    less = np.floor(1 / more / step) * step if cut else round(1 / more, decimals)
+    less = 10**decimals // more / 10**decimals if cut else round(1 / more, decimals)
     assert judgement_matrix([[1, more], [less, 1]])[0, 1] == more
-    for wrong in (less + 1.01 * step, less - 2.01 * step):
-        if len(f"{wrong:.12g}") - 2 <= decimals:
-            with pytest.raises(ValueError, match="one must be 1 over the other"):
-                ahp([[1, more], [round(wrong, decimals), 1]])
+    for wrong in (less + 2 * step, less - 2 * step):
+        assume(round(wrong, decimals) != round(wrong, decimals - 1))  # 0.140 reads as 0.14, which is 1/7
+        with pytest.raises(ValueError, match="one must be 1 over the other"):
+            ahp([[1, more], [round(wrong, decimals), 1]])
+
+
+@pytest.mark.parametrize(
+    ("more", "less"),
+    [(8, 0.13), (8, 0.12), (6, 0.17), (6, 0.16), (7, 0.143), (1.06, 0.95), (1.06, 0.94), (2.47, 0.4), (1.25, 0.8)],
+)
+def test_roundings_of_both_sides_of_a_pair(more, less):
+    """1.06 may be 1.0551, whose reciprocal 0.9478 is printed as 0.95."""
+    assert judgement_matrix([[1, less], [more, 1]]).tolist() == [[1, 1 / more], [more, 1]]
+
+
+@pytest.mark.parametrize(
+    ("more", "less"), [(2, 0.51), (2, 0.49), (9, 0.12), (9, 0.1), (8, 0.14), (8, 0.11), (1.06, 0.96), (1.06, 0.92)]
+)
+def test_a_digit_beside_a_rounding_is_a_contradiction(more, less):
+    with pytest.raises(ValueError, match="one must be 1 over the other"):
+        ahp([[1, more], [less, 1]])
 
 
 @pytest.mark.parametrize("lower", [0.3, 0.25, 0.36])

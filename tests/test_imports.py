@@ -17,7 +17,7 @@ import camkit
 REPOSITORY = Path(__file__).parents[1]
 
 # The modules that need the [lab] extra; `import camkit` must not need them.
-LAB = {"app", "archive", "plot", "optimise", "competitive", "minimum", "cycle_time", "trade_offs"}
+LAB = {"app", "archive", "plot", "optimise", "competitive", "toolbox_genetic", "minimum", "cycle_time", "trade_offs"}
 
 # As on a machine where nothing else is installed: an import of anything else fails.
 ONLY_NUMPY_AND_SCIPY = """

@@ -33,7 +33,7 @@ from camkit import (
     weighted_sum,
 )
 from camkit.app import explore, judge
-from camkit.decision import crowding_distance, weight_lattice
+from camkit.decision import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
 from camkit.export import Work, from_json, to_json
 from camkit.optimise import Front
 from camkit.plot.cam import pressure_angle
@@ -261,6 +261,15 @@ IN_WORDS = {
     "a judgement too large for a number": lambda: ahp([10**400]),
     "a stack of judgements": lambda: ahp(np.ones((2, 3, 3))),
     "judgements inside a judgement": lambda: ahp([[1, [2]], [3, 1]]),
+    "a rule that is none": lambda: winner_map([[1, 2], [2, 1]], "TOPSIS"),
+    "a rule for ranges that is none": lambda: judgement_ranges([[1, 2], [2, 1]], [3], None),
+    "scales in a list": lambda: topsis([[1, 2], [2, 1]], scale=["vector"]),
+    "weights of a matrix that is not square": lambda: judged_weights([[1, 2, 3], [1, 2, 3]]),
+    "weights of a matrix of text": lambda: judged_weights("3"),
+    "a front too large for numbers": lambda: topsis([[10**400, 1]]),
+    "designs of text": lambda: a_study().evaluate("x"),
+    "designs in a cube": lambda: a_study().evaluate(np.zeros((2, 2, 1))),
+    "more weightings than there is room for": lambda: weight_lattice(30, 10**6),
     "a complex front": lambda: topsis([[1, 2j], [2, 1]]),
     "a ragged front": lambda: topsis([[1, 2], [1]]),
     "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),

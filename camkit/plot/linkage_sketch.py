@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..units import deg, mm
-from .artists import BLUE, GREEN, GREY, INK, ORANGE, SKY
+from .artists import BLUE, GREEN, GREY, INK, ORANGE, SKY, Formula
 from .linkage import crank_circle, rocker_circle, scene_of
 from .turntable import Turntable
 
@@ -66,7 +66,7 @@ def _axes(scene: Turntable, linkage: Any, root: np.ndarray, hinge: np.ndarray, f
     lean = np.linspace(0, linkage.axis_angle, 21)
     arc = foot[:, None] + 0.7 * reach * np.stack([0 * lean, np.sin(lean), np.cos(lean)])
     scene.path("L", arc, color=INK, linewidth=1.5, zorder=3)
-    scene.words("L name", foot + 1.18 * (arc[:, 10] - foot), "$L$", **LETTER)
+    scene.words("L name", foot + 1.18 * (arc[:, 10] - foot), Formula("$L$"), **LETTER)
     for key, point in (("O", origin), ("foot", foot)):
         scene.ball(key, point, 5, color=GREY)
 
@@ -77,7 +77,7 @@ def _angle(scene: Turntable, key: str, centre: Any, arc: Any, colour: str, lette
     scene.path(f"{key} zero", np.stack([centre, arc[:, 0]], axis=1), color=GREY, linewidth=1, linestyle="--", zorder=3)
     scene.path(f"{key} circle", arc, color=colour, linewidth=0.9, zorder=3)
     scene.path(key, small, color=colour, linewidth=1.6, zorder=3)
-    scene.words(f"{key} name", centre + 1.35 * (small[:, 20] - centre), letter, **LETTER)
+    scene.words(f"{key} name", centre + 1.35 * (small[:, 20] - centre), Formula(letter), **LETTER)
 
 
 def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
@@ -94,9 +94,9 @@ def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
         arc = point[:, None] + 0.7 * size * fan / np.linalg.norm(fan, axis=0)
         scene.arrow(f"v{key}", point, size * folded, color=GREEN, linewidth=2.2, zorder=18)
         scene.path(f"alpha{key}", arc, color=INK, linewidth=1.5, zorder=18)
-        scene.words(f"v{key} name", point + 1.15 * size * folded, letters[0], **LETTER)
-        scene.words(f"alpha{key} name", point + 1.25 * (arc[:, 6] - point), letters[1], **LETTER)
-        scene.words(f"joint{key} name", point + 0.2 * size * away, letters[2], **LETTER)
+        scene.words(f"v{key} name", point + 1.15 * size * folded, Formula(letters[0]), **LETTER)
+        scene.words(f"alpha{key} name", point + 1.25 * (arc[:, 6] - point), Formula(letters[1]), **LETTER)
+        scene.words(f"joint{key} name", point + 0.2 * size * away, Formula(letters[2]), **LETTER)
 
 
 def _beside(scene: Turntable, letter: str, ends: Any, shift: float) -> None:
