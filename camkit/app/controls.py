@@ -11,10 +11,10 @@ import anywidget
 import ipywidgets as w
 import traitlets
 
-from ..json_file import MOST_BYTES
 from ..markup import Html, attribute, escaped, html, joined
 from ..quantities import Choice, Quantity, words
 from ..units import in_unit
+from .number import NumberBox, staying
 
 GREEK = {
     "psi": "&psi;",
@@ -75,11 +75,20 @@ class Knob:
     """One number: symbol, name, slider, box, unit.
 
     The slider moves in steps; a number typed into the box counts to its last digit, even outside the slider's range.
-    ``value`` is in SI, exact; the box shows six digits of it.
+    ``value`` is in SI, exact; the box shows six digits of it.  ``changed()`` is called for another number,
+    ``refused(sentence)`` for what is no number or far too large; the last number then stays.
     """
 
-    def __init__(self, name: str, declared: Quantity, value: float, changed: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        name: str,
+        declared: Quantity,
+        value: float,
+        changed: Callable[[], None],
+        refused: Callable[[str], None],
+    ) -> None:
         self.declared, self.value, self._changed, self._silent = declared, float(value), changed, False
+        self._refused = staying(words(name), refused)
         shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
         self.slider = w.FloatSlider(
             value=shown,
@@ -91,7 +100,9 @@ class Knob:
             layout=w.Layout(width="auto", min_width="60px", flex="1 1 80px"),
         )
         self.slider.value = on_grid(self.slider, shown)
-        self.box = w.FloatText(_six_digits(shown), step=step, tooltip=declared.meaning, layout=w.Layout(width="5.9em"))
+        self.box = NumberBox(
+            _six_digits(shown), self._refused, step=step, meaning=declared.meaning, layout=w.Layout(width="5.9em")
+        )
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
         unit = w.HTML(small_html(declared.unit), layout=w.Layout(flex="0 0 4.2em"))
         self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
@@ -134,10 +145,22 @@ class Knob:
             self._changed()
 
     def _typed(self, shown: float) -> None:
-        if not self._silent:
-            self.value = shown * self.declared.factor
-            self._put(self.slider, shown)
-            self._changed()
+        if self._silent:
+            return
+        value = shown * self.declared.factor
+        if far_too_large(self.declared, value):
+            self.set(self.value)
+            self._refused(f"{self.declared.text(value)} was typed; it must be {self.declared.possible_for(value)}")
+            return
+        self.value = value
+        self._put(self.slider, shown)
+        self._changed()
+
+
+def far_too_large(declared: Quantity, value: float) -> bool:
+    """Whether a finite ``value`` (SI) cannot be and is also larger than all that its slider offers."""
+    largest = max(abs(declared.low), abs(declared.high)) * declared.factor
+    return math.isfinite(value) and abs(value) > largest and not declared.allows(value)
 
 
 def on_grid(slider: w.FloatSlider, shown: float) -> float:
@@ -168,9 +191,8 @@ class Menu:
 
     def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
         self._changed, self._silent = changed, False
-        self.declared = declared
         self.menu = w.Dropdown(
-            options=self._options(value), value=value,
+            options=[(option.name, option) for option in declared.options], value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
         )  # fmt: skip
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
@@ -187,71 +209,50 @@ class Menu:
         """Show ``value`` without telling anyone."""
         self._silent = True
         try:
-            if (options := self._options(value)) != list(self.menu.options):
-                self.menu.options = options
             self.menu.value = value
         finally:
             self._silent = False
-
-    def _options(self, value: Any) -> list[tuple[str, Any]]:
-        """What the declaration offers, and ``value`` if it is something of one's own."""
-        own = () if value in self.declared.options else (value,)
-        return [(option.name, option) for option in (*self.declared.options, *own)]
 
     def _chosen(self, _: Any) -> None:
         if not self._silent:
             self._changed()
 
 
-def control(name: str, declared: Quantity | Choice, value: Any, changed: Callable[[], None]) -> Knob | Menu:
+def control(
+    name: str,
+    declared: Quantity | Choice,
+    value: Any,
+    changed: Callable[[], None],
+    refused: Callable[[str], None],
+) -> Knob | Menu:
     """The control that a declaration asks for."""
-    kind = Menu if isinstance(declared, Choice) else Knob
-    return kind(name, declared, value, changed)  # type: ignore[arg-type]
+    if isinstance(declared, Choice):
+        return Menu(name, declared, value, changed)
+    return Knob(name, declared, value, changed, refused)
 
 
 class Download(anywidget.AnyWidget):
-    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``.
-
-    ``refused(sentence)`` is called where there is nothing to be had, with the reason.
-    """
+    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``."""
 
     _esm = Path(__file__).with_name("download.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
 
-    def __init__(
-        self,
-        description: str,
-        filename: str,
-        mime: str,
-        content: Callable[[], str],
-        refused: Callable[[str], None] | None = None,
-    ) -> None:
+    def __init__(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> None:
         super().__init__(description=description)
-        self.filename, self.mime, self.content, self.refused = filename, mime, content, refused
-        self.on_msg(lambda *_: self._pressed())
-
-    def _pressed(self) -> None:
-        try:
-            text = self.content()
-        except ValueError as refusal:
-            if self.refused is None:
-                raise
-            self.refused(f"Nothing is saved: {refusal}.")
-        else:
-            self.send({"name": self.filename, "mime": self.mime, "text": text})
+        self.content = content
+        self.on_msg(lambda *_: self.send({"name": filename, "mime": mime, "text": self.content()}))
 
 
 class Upload(anywidget.AnyWidget):
-    """A button; ``use(data)`` is called with the bytes of the file that a person chooses."""
+    """A button; ``use(text)`` is called with the text of the file that a person chooses."""
 
     _esm = Path(__file__).with_name("upload.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
     accept = traitlets.Unicode(".json").tag(sync=True)
-    most = traitlets.Int(MOST_BYTES + 1).tag(sync=True)
 
-    def __init__(self, description: str, use: Callable[[bytes], None]) -> None:
+    def __init__(self, description: str, use: Callable[[str], None]) -> None:
         super().__init__(description=description)
-        self.on_msg(lambda _, __, buffers: use(bytes(buffers[0])))
+        self.on_msg(lambda _, message, __: use(message["text"]))
 
 
 def banner() -> w.HTML:
@@ -261,7 +262,7 @@ def banner() -> w.HTML:
     return box
 
 
-def tell(box: w.HTML, sentence: str) -> None:
-    """Show ``sentence`` in a banner, or nothing."""
-    box.value = html("<div role='alert'>{}</div>", sentence) if sentence else ""
+def tell(box: w.HTML, sentence: str, role: str = "alert") -> None:
+    """Show ``sentence`` in a banner, or nothing; a "status" is read aloud when there is time, an "alert" at once."""
+    box.value = html("<div {}>{}</div>", attribute("role", role), sentence) if sentence else ""
     box.layout.display = "" if sentence else "none"

@@ -14,7 +14,7 @@ from ..quantities import Measure, Quantity
 from ..study import Study
 from ..units import deg, in_unit
 from ..watch import Stopped, Watch, watched
-from .controls import Knob
+from .controls import Knob, tell
 from .explore import Explorer
 from .picture import LivePicture
 from .runner import Choices, JobPanel, MakeStudy, Runner, told
@@ -44,10 +44,10 @@ class CycleTime(JobPanel):
         self.choices = Choices(choices)
         self.measure: Measure = self._study().minimise[0]
         self.limit = self._limit_knob(limit)
-        self.shortest = _interval("phi_min", "shortest", shortest)
-        self.longest = _interval("phi_max", "longest", longest)
+        self.shortest = self._interval("phi_min", "shortest", shortest)
+        self.longest = self._interval("phi_max", "longest", longest)
         self.steps: list[IntervalStep] = []
-        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report, explorer.start, make)
+        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report)
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
         self.take = w.Button(description="Load the design", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load())
@@ -60,7 +60,14 @@ class CycleTime(JobPanel):
         unit = self.measure.unit
         shown = in_unit(limit, unit)
         declared = Quantity("max", shown, 0, 2 * shown, unit, f"largest {self.measure.name} that is allowed")
-        return Knob("limit", declared, limit, lambda: None)
+        return Knob("limit", declared, limit, lambda: None, self._refused)
+
+    def _interval(self, symbol: str, name: str, value: float) -> Knob:
+        declared = Quantity(symbol, value / deg, 10, 170, "deg", f"{name} interval that is tried")
+        return Knob(f"{name}_interval", declared, value, lambda: None, self._refused)
+
+    def _refused(self, sentence: str) -> None:
+        tell(self.runner.banner, sentence)
 
     def _asked(self) -> list[w.Widget]:
         runner = self.runner
@@ -113,11 +120,6 @@ class CycleTime(JobPanel):
     def summary(self) -> str:
         """What was asked, and what was found."""
         return "\n".join([*filter(None, [self.choices.words]), self.step.message if self.step else "not run yet"])
-
-
-def _interval(symbol: str, name: str, value: float) -> Knob:
-    declared = Quantity(symbol, value / deg, 10, 170, "deg", f"{name} interval that is tried")
-    return Knob(f"{name}_interval", declared, value, lambda: None)
 
 
 def shorten(

@@ -11,6 +11,7 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export, profile_files
+from ..cam.undercut import undercut_in_words
 from ..markup import html, table
 from ..plot.picture import View, below, positions_of, small_png, strip
 from ..quantities import Design, Measure, Quantity, declarations, unremarked
@@ -18,7 +19,7 @@ from ..study import keeps
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
 from .orbit import Orbit
-from .panel import Panel
+from .panel import IMPOSSIBLE, Panel
 from .picture import DRAWING, LivePicture
 
 VIEWPOINT = {
@@ -44,11 +45,6 @@ def changed(design: Any, values: Mapping[str, Any]) -> Any:
             inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
             changes[part] = getattr(design, part).replace(**inner)
         return design.replace(**changes)
-
-
-def remarked(found: export.Read) -> str:
-    """What a panel says of a file that it has loaded; nothing if there is nothing to remark."""
-    return f"The file is loaded, but {'; and '.join(found.remarks)}." if found.remarks else ""
 
 
 class Explorer(Panel):
@@ -77,17 +73,21 @@ class Explorer(Panel):
         self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
             m: (v, -1) for m, v in (at_least or {}).items()
         }
+        self._at_most = dict(at_most or {})
         self._first = [float(m(self.analysis)) for m in self.measures]
         self._followers: list[Callable[[Any], None]] = []
         self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", width=width, height=height)
-        self._banner = banner()
+        self._banner, self._undercut = banner(), banner()
+        self._impossible = ""
         self.controls = self._make_controls(free or tuple(declarations(design)))
         wanted = dict.fromkeys(name for view in views for name in positions_of(view))
         self.positions = {name: self._position(name, position.get(name)) for name in wanted}
         if {"azimuth", "elevation"} <= self.positions.keys():
             self._orbit = Orbit(self.picture, self.positions, self._show)
         self._table = w.HTML()
-        super().__init__([self._grid(), self._buttons(), self._banner, self.picture.widget, self._table])
+        super().__init__(
+            [self._grid(), self._buttons(), self._banner, self._undercut, self.picture.widget, self._table]
+        )
         self._show()
 
     def _make_controls(self, free: Sequence[str]) -> dict[str, Knob | Menu]:
@@ -96,16 +96,20 @@ class Explorer(Panel):
         if unknown:
             raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
         values = {name: attrgetter(name)(self.design) for name in free}
-        return {name: control(name, declared[name], value, self._changed) for name, value in values.items()}
+        return {
+            name: control(name, declared[name], value, self._changed, self._refuse_number)
+            for name, value in values.items()
+        }
 
     def _position(self, name: str, value: float | None) -> Knob:
         """The control that turns the mechanism or the view of it."""
         if name == "turn":
             angle, low, high = self._turn_range()
             declared = Quantity("phi", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
-            return Knob(f"{angle}_shown", declared, low if value is None else value, self._turned)
+            return Knob(f"{angle}_shown", declared, low if value is None else value, self._turned, self._refuse_number)
         declared = VIEWPOINT[name]
-        return Knob(name, declared, declared.default * deg if value is None else value, self._turned)
+        value = declared.default * deg if value is None else value
+        return Knob(name, declared, value, self._turned, self._refuse_number)
 
     def _turn_range(self) -> tuple[str, float, float]:
         """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
@@ -124,9 +128,7 @@ class Explorer(Panel):
         reset.layout.width = "auto"
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
-        save = Download(
-            "Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design), self._say
-        )
+        save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
         table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis))
         drawing = Download(
             "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profile_files.profile_dxf(self.analysis)
@@ -135,19 +137,14 @@ class Explorer(Panel):
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
 
-    def _say(self, sentence: str) -> None:
-        tell(self._banner, sentence)
-
-    def load_json(self, file: str | bytes) -> None:
+    def load_json(self, text: str) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            found = export.read(file, type(self.design))
-            found.thing.analyse()
+            design = export.from_json(text, type(self.design))
         except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
-            self.load(found.thing)
-            tell(self._banner, remarked(found))
+            self.load(design)
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value."""
@@ -168,32 +165,75 @@ class Explorer(Panel):
             self._try(design)
 
     def _try(self, design: Any) -> None:
+        """Show ``design`` if it can be built, computed and drawn."""
+        last = self.design, self.analysis
         try:
             analysis = design.analyse()
+        except (ArithmeticError, np.linalg.LinAlgError) as error:
+            self._go_back(*last, error)
+            return
         except ValueError as refusal:
             self._refuse(str(refusal))
             return
         self.design, self.analysis = design, analysis
-        self._show()
+        try:
+            self._show()
+        except IMPOSSIBLE as error:
+            self._go_back(*last, error)
+            return
+        self._tell_followers()
+
+    def _tell_followers(self) -> None:
+        """Each of them, whatever the others make of the design."""
         for act in self._followers:
-            act(design)
+            try:
+                act(self.design)
+            except IMPOSSIBLE as error:
+                tell(self._banner, f"What belongs to this design cannot be shown everywhere: {error}.")
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture and the numbers, which would belong to another design."""
-        tell(self._banner, f"This cannot be built: {sentence}.")
+        self._impossible = f"This cannot be built: {sentence}."
+        tell(self._banner, self._impossible)
+        tell(self._undercut, "")
         self.picture.widget.layout.display = self._table.layout.display = "none"
 
+    def _refuse_number(self, sentence: str) -> None:
+        """Say why a number was not taken; what is shown stays."""
+        tell(self._banner, f"{sentence} {self._impossible}".strip())
+
+    def _go_back(self, design: Any, analysis: Any, error: Exception) -> None:
+        """Controls, picture and numbers of the last design, and a sentence that says why."""
+        self.design, self.analysis = design, analysis
+        for name, knob in self.controls.items():
+            knob.set(attrgetter(name)(design))
+        self._fit_turn()
+        self._reveal()
+        tell(self._banner, f"This design cannot be computed and drawn, so the last one stays: {error}.")
+
     def _turned(self) -> None:
-        if self.picture.widget.layout.display != "none":
+        if not self._impossible:
             self._show()
 
-    def _show(self) -> None:
-        tell(self._banner, "")
+    def _fit_turn(self) -> None:
         if "turn" in self.positions:
             self.positions["turn"].between(*self._turn_range()[1:])
+
+    def _show(self) -> None:
+        """Everything is made before anything is shown."""
+        numbers = self._table_html()
+        self._fit_turn()
+        position = {name: knob.value for name, knob in self.positions.items()}
+        self.picture.show(self.analysis, limits=self._at_most, **position)
+        self._table.value = numbers
+        self._reveal()
+
+    def _reveal(self) -> None:
+        """Picture and numbers belong to the design."""
+        self._impossible = ""
+        tell(self._banner, "")
+        tell(self._undercut, undercut_in_words(self.analysis), "status")
         self.picture.widget.layout.display = self._table.layout.display = ""
-        self.picture.show(self.analysis, **{name: knob.value for name, knob in self.positions.items()})
-        self._table.value = self._table_html()
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

@@ -23,7 +23,7 @@ from .controls import banner, tell
 from .explore import Explorer
 from .judge import Judgements
 from .newest import Newest
-from .panel import Panel
+from .panel import IMPOSSIBLE, Panel
 from .picture import LivePicture
 
 MakeStudy = Callable[..., Study]
@@ -111,10 +111,11 @@ class LiveFrontPanel(Panel):
     def _changed(self) -> None:
         """Ask for another front, unless only free quantities have moved."""
         try:
-            mode, study = self.menu.value, self._asked()
-        except ValueError as refusal:
+            self._follow(self.menu.value, self._asked())
+        except IMPOSSIBLE as refusal:
             self._refuse(str(refusal))
-            return
+
+    def _follow(self, mode: str, study: Study) -> None:
         if (mode, study) == self._wanted:
             self._show()
             return

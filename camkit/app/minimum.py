@@ -14,7 +14,9 @@ from ..plot.progress import ShownLooks, best_so_far
 from ..quantities import Measure
 from ..study import Study
 from ..watch import Stopped, Watch, watched
+from .controls import tell
 from .explore import Explorer
+from .number import WholeBox, staying
 from .picture import LivePicture
 from .runner import Choices, JobPanel, MakeStudy, Runner, told
 
@@ -36,15 +38,14 @@ class Improvement(JobPanel):
     ) -> None:
         self.explorer, self.make = explorer, make
         self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
-        self.starts = w.BoundedIntText(
-            1, 1, 100, description="starts", layout=w.Layout(width="190px"), style={"description_width": "112px"}
-        )
+        layout, refused = w.Layout(width="190px"), staying("starts", self._refused, "stay")
+        self.starts = WholeBox(1, 1, 100, refused, description="starts", description_width="112px", layout=layout)
         self.choices.menus["method"].observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report, explorer.start, make)
+        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report)
         self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
         self.back.on_click(lambda _: self.explorer.load(self.before))
         self.verdict = w.HTML()
@@ -58,6 +59,9 @@ class Improvement(JobPanel):
         asked = [menu for menu in menus.values() if len(menu.options) > 1]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
         return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
+
+    def _refused(self, sentence: str) -> None:
+        tell(self.runner.banner, sentence)
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""

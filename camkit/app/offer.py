@@ -9,7 +9,7 @@ import ipywidgets as w
 
 from .controls import banner, tell
 from .explore import Explorer
-from .panel import Panel
+from .panel import IMPOSSIBLE, Panel
 
 Change = Callable[[Any], Any]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
@@ -56,7 +56,7 @@ class Offers(Panel):
     def _make(self, change: Change) -> None:
         try:
             design = change(self.explorer.design)
-        except ValueError as refusal:
+        except IMPOSSIBLE as refusal:
             tell(self._banner, f"This cannot be offered: {refusal}.")
         else:
             self.explorer.load(design)
@@ -79,7 +79,7 @@ class Offers(Panel):
 def _leads_to(change: Change, design: Any) -> bool:
     try:
         return bool(change(design) == design)
-    except ValueError:  # an offer that cannot be made now
+    except IMPOSSIBLE:  # an offer that cannot be made now
         return False
 
 

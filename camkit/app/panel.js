@@ -14,11 +14,12 @@ function wordsFor(control) {
   const own = label && label.style.display !== "none" ? label.textContent.trim() : "";
   const row = control.closest(".widget-hbox");
   if (own || !row) return own || control.title;
-  const asked = row.querySelector("input[type=text][title]");
+  const asked = row.querySelector("input[type=text][title]:not([role=spinbutton])");
   if (asked) return asked.title;
   const words = [...row.querySelectorAll(":scope > .widget-html")].map((cell) => cell.textContent.trim());
   const name = row.querySelector("[data-name]")?.dataset.name ?? words.filter(Boolean).join(", ");
-  const bounds = [...row.querySelectorAll("input[type=number]")];
+  const bounds = [...row.querySelectorAll("input[role=spinbutton]")];
+  if (!name) return control.title;
   if (control.type === "checkbox") return `${name}, free`;
   return bounds.length === 2 ? `${name}, ${control === bounds[0] ? "least" : "greatest"}` : name;
 }

@@ -12,6 +12,9 @@ import ipywidgets as w
 
 from .picture import LivePicture
 
+IMPOSSIBLE = (ValueError, ArithmeticError)
+"""What a design can raise that cannot be built, computed or drawn: a panel says it in a sentence."""
+
 
 class Dress(anywidget.AnyWidget):
     """Nothing to see: the style sheet of the panel that it is put into, and a name for each of its controls."""

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import anywidget
+import numpy as np
 import traitlets
 from matplotlib import rc_context
 
@@ -26,6 +27,9 @@ from ..plot.picture import View, draw, encoded, layout, pixels, small_png
 SETTLE, PAUSE = 0.25, 1.0
 """Seconds after the last move until everything is drawn again, and seconds after which a move is no longer a drag."""
 
+
+FARTHEST = 1e30
+"""No curve is drawn farther than this, in the units of its axes."""
 
 DRAWING = threading.RLock()
 """Held while anything is drawn: figures share matplotlib's fonts, which two threads must not use at once."""
@@ -64,19 +68,39 @@ class LivePicture:
         self.said: Callable[[], str] = str
         self.widget = ImageWidget(description=description)
         self._background: Any = None
+        self._last: tuple[Any, dict[str, Any]] | None = None
         self._later: threading.Timer | None = None
         self._moved = 0.0
 
-    def show(self, analysis: Any, **position: float) -> None:
-        """Show another analysis: at once with the axes as they are, and a little later with axes that fit."""
+    def show(self, analysis: Any, **position: Any) -> None:
+        """Show another analysis: at once with the axes as they are, and a little later with axes that fit.
+
+        What cannot be drawn raises ``ValueError`` or ``ArithmeticError``, and the picture stays as it was.
+        """
         with DRAWING:
-            draw(analysis, self.axes, self.views, **position)
+            try:
+                draw(analysis, self.axes, self.views, **position)
+                self._refuse_far_points()
+            except (ValueError, ArithmeticError):
+                if self._last:
+                    draw(self._last[0], self.axes, self.views, **self._last[1])
+                raise
+            self._last = analysis, position
             if self._background is None:
                 self.settle()
             else:
                 self._blit()
                 self.widget.put(self._jpeg(), "image/jpeg")
                 self._settle_later()
+
+    def _refuse_far_points(self) -> None:
+        """Matplotlib finds no ticks and fills no area for numbers of any size."""
+        for ax in self.axes:
+            for curve in ax.lines:
+                points = np.abs(np.asarray(curve.get_xydata(), dtype=float))
+                far = points[np.isfinite(points)].max(initial=0)
+                if far > FARTHEST:
+                    raise OverflowError(f"a curve reaches {far:.3g}, farther than can be drawn")
 
     def settle(self) -> None:
         """Draw everything anew, axes fitted to the curves."""

@@ -13,29 +13,51 @@ from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
 from ..plot.motion import PROGRAM_VIEWS, ShownProgram
 from ..units import deg, factor, in_unit
 from .controls import banner, tables_html, tell
-from .panel import Panel
+from .number import NumberBox, staying
+from .panel import IMPOSSIBLE, Panel
 from .picture import LivePicture
 
 KINDS = ("rise", "dwell", "return")
 LEAST = 1 * deg
 """The least angle to which a segment can be dragged."""
+MOST = 10_000.0
+"""More cannot be typed, in the unit shown."""
 GRID = 0.5
 """Dragged angles (deg) and lifts snap to multiples of this, in the unit shown."""
+
+
+class LengthBox(NumberBox):
+    """A box for an angle or a lift of at most `MOST` units."""
+
+    def __init__(self, value: float, refused: Callable[[str], None], unit: str, **options: Any) -> None:
+        self._unit = unit
+        super().__init__(value, refused, **options)
+
+    def _read(self, text: str) -> float:
+        value = super()._read(text)
+        if abs(value) > MOST:
+            raise ValueError(f"{value:g} {self._unit} was typed; it must be at most {MOST:g} {self._unit}")
+        return value
 
 
 class SegmentRow:
     """One segment: kind, angle, lift, law."""
 
     def __init__(
-        self, segment: Any, unit: str, changed: Callable[[], None], remove: Callable[[SegmentRow], None]
+        self,
+        segment: Any,
+        unit: str,
+        changed: Callable[[], None],
+        remove: Callable[[SegmentRow], None],
+        refused: Callable[[str], None],
     ) -> None:
-        self.unit = unit
+        self.unit, self._refused = unit, refused
         kind = type(segment).__name__.lower()
         law = getattr(segment, "law", LAWS[2])
         laws = [(option.name, option) for option in (*LAWS, *(() if law in LAWS else (law,)))]
         self.kind = w.Dropdown(options=KINDS, value=kind, layout=w.Layout(width="92px"))
-        self.angle = w.FloatText(in_unit(float(segment.angle), "deg"), layout=w.Layout(width="84px"))
-        self.lift = w.FloatText(in_unit(float(getattr(segment, "lift", 0.0)), unit), layout=w.Layout(width="84px"))
+        self.angle = self._box("angle", "deg", in_unit(float(segment.angle), "deg"))
+        self.lift = self._box("lift", unit, in_unit(float(getattr(segment, "lift", 0.0)), unit))
         self.law = w.Dropdown(options=laws, value=law, layout=w.Layout(width="210px"))
         drop = w.Button(icon="times", tooltip="remove this segment", layout=w.Layout(width="34px"))
         drop.on_click(lambda _: remove(self))
@@ -43,6 +65,10 @@ class SegmentRow:
         self.row = w.HBox(cells, layout=w.Layout(align_items="center"))
         for box in (self.kind, self.angle, self.lift, self.law):
             box.observe(lambda _: changed(), "value")
+
+    def _box(self, name: str, unit: str, value: float) -> NumberBox:
+        refused = staying(name, self._refused)
+        return LengthBox(value, refused, unit, meaning=f"{name}, {unit}", layout=w.Layout(width="84px"))
 
     def segment(self) -> Any:
         """The segment as the row says it."""
@@ -81,7 +107,7 @@ class ProgramEditor(Panel):
 
     def load(self, program: MotionProgram) -> None:
         """Show another program."""
-        self.rows = [SegmentRow(s, self.unit, self._changed, self._remove) for s in program.segments]
+        self.rows = [SegmentRow(s, self.unit, self._changed, self._remove, self._refused) for s in program.segments]
         self._list.children = [row.row for row in self.rows]
         self._try(lambda: program)
 
@@ -89,28 +115,34 @@ class ProgramEditor(Panel):
         """Call ``act(program)`` after every change to a program that is possible."""
         self._followers.append(act)
 
+    def _refused(self, sentence: str) -> None:
+        tell(self._banner, sentence)
+
     def _changed(self) -> None:
         if not self._silent:
             self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
 
     def _try(self, make: Callable[[], MotionProgram]) -> None:
+        last = self.program
         try:
             self.program = make()
-        except ValueError as refusal:
+            table = self._table_html()
+            self.picture.show(ShownProgram(self.program, self.unit))
+        except IMPOSSIBLE as refusal:
+            self.program = last
             tell(self._banner, f"This is no motion program: {refusal}.")
             self.picture.widget.layout.display = self._table.layout.display = "none"
             return
         tell(self._banner, "")
         self.picture.widget.layout.display = self._table.layout.display = ""
-        self.picture.show(ShownProgram(self.program, self.unit))
-        self._table.value = self._table_html()
+        self._table.value = table
         for act in self._followers:
             act(self.program)
 
     def _add(self) -> None:
         rest = max(2 * np.pi - float(self.program.span), 0.0)
         segment = Dwell(rest if rest > LEAST else 30 * deg)
-        self.rows.append(SegmentRow(segment, self.unit, self._changed, self._remove))
+        self.rows.append(SegmentRow(segment, self.unit, self._changed, self._remove, self._refused))
         self._list.children = [row.row for row in self.rows]
         self._changed()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -17,7 +18,7 @@ from ..units import factor
 from .controls import Knob, banner, tell
 from .explore import Explorer
 from .newest import Later
-from .panel import Panel
+from .panel import IMPOSSIBLE, Panel
 from .picture import SETTLE, LivePicture
 
 MakeStudy = Callable[..., Study]
@@ -68,7 +69,7 @@ class Survey(Panel):
         self.optimum: np.ndarray | None = None
         self._key: Any = None
         self._searched = False
-        self._later = Later(self.settle, SETTLE)
+        self._later, self._settling = Later(self.settle, SETTLE), threading.RLock()
         self.verdict, self._banner = w.HTML(), banner()
         self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load(self.optimum))
@@ -81,7 +82,7 @@ class Survey(Panel):
 
     def _knob(self, i: int, name: str, value: float) -> Knob:
         declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
-        return Knob(name, declared, value, self._changed)
+        return Knob(name, declared, value, self._changed, lambda sentence: tell(self._banner, sentence))
 
     def _body(self) -> w.Widget:
         take = w.HBox([self.take])
@@ -118,24 +119,39 @@ class Survey(Panel):
         """Another plane, unless only the free quantities of the design moved."""
         try:
             study = self.study
-        except ValueError as refusal:
+            key = self.menu.value, self.weights, study.start
+            plane = self.plane if key == self._key else Plane(study, n=self.steps)
+            _ = plane.evaluation  # now, and not while it is drawn
+        except IMPOSSIBLE as refusal:
             tell(self._banner, f"This cannot be surveyed: {refusal}.")
             return
-        tell(self._banner, "")
-        key = self.menu.value, self.weights, study.start
+        last = self._key, self.plane, self.optimum, self._searched
         if key != self._key:
-            self._key, self.plane, self.optimum, self._searched = key, Plane(study, n=self.steps), None, False
-        self._show()
+            self._key, self.plane, self.optimum, self._searched = key, plane, None, False
+        try:
+            self._show()
+        except IMPOSSIBLE as refusal:
+            self._key, self.plane, self.optimum, self._searched = last
+            tell(self._banner, f"This cannot be surveyed: {refusal}.")
+        else:
+            tell(self._banner, "")
 
     def settle(self) -> None:
         """Catch up with the design in the sliders, and look for the optimum if that is still to be done."""
-        if not self._later.waiting:
-            return
-        self._later.cancel()
-        self._take_up()
+        with self._settling:
+            if self._later.waiting:
+                self._later.cancel()
+                self._take_up()
+                self._search()
+
+    def _search(self) -> None:
         plane = self.plane
         if not self._searched:
-            best = optimum(plane)
+            try:
+                best = optimum(plane)
+            except IMPOSSIBLE as refusal:
+                tell(self._banner, f"The optimum cannot be found: {refusal}.")
+                return
             if plane is self.plane:  # nobody has moved anything since
                 self.optimum, self._searched = best, True
                 self._show()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -17,7 +18,7 @@ from ..tolerance import SPREADS, Curve, Tolerances, general_tolerance
 from .controls import Knob, banner, tables_html, tell
 from .explore import Explorer
 from .newest import Later
-from .panel import Panel
+from .panel import IMPOSSIBLE, Panel
 from .picture import SETTLE, LivePicture
 
 MOVING, SETTLED = 64, 512
@@ -52,7 +53,7 @@ class Tolerated(Panel):
             options=SPREADS, description="spread", layout=w.Layout(width="210px"), style={"description_width": "52px"}
         )
         self.spread.observe(lambda _: self._moved(), "value")
-        self._later = Later(self.settle, SETTLE)
+        self._later, self._settling = Later(self.settle, SETTLE), threading.RLock()
         self._banner, self._table = banner(), w.HTML()
         views = (self._cloud, sobol_bars, *(deviation(Curve(*curve)) for curve in curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
@@ -67,7 +68,7 @@ class Tolerated(Panel):
         widest = WIDEST * (half or general_tolerance(nominal, getattr(self.explorer.design, name))) / nominal.factor
         meaning = f"half width of the tolerance of the {words(name)}"
         declared = Quantity(nominal.symbol, half / nominal.factor, 0, widest, nominal.unit, meaning, at_least=0)
-        return Knob(name, declared, half, self._moved)
+        return Knob(name, declared, half, self._moved, lambda sentence: tell(self._banner, sentence))
 
     def _body(self) -> w.Widget:
         grid = w.Box([knob.row for knob in self.knobs.values()])
@@ -102,26 +103,35 @@ class Tolerated(Panel):
         study = self.study.replace(start=self.explorer.design)
         try:
             made = Tolerances(study, self.half_widths, self.spread.value, parts)
-        except ValueError as refusal:
-            tell(self._banner, f"This cannot be made: {refusal}.")
-            self.picture.widget.layout.display = self._table.layout.display = "none"
+            _ = made.values, made.indices  # now, and not while it is drawn, when nothing else can be
+        except IMPOSSIBLE as refusal:
+            self._refuse(refusal)
             return None
-        _ = made.values, made.indices  # now, and not while it is drawn, when nothing else can be
         return made
+
+    def _refuse(self, refusal: Exception) -> None:
+        """The sentence in place of the picture and the numbers, which would belong to other tolerances."""
+        tell(self._banner, f"This cannot be made: {refusal}.")
+        self.picture.widget.layout.display = self._table.layout.display = "none"
 
     def settle(self) -> None:
         """Make many parts of what is in the sliders, if that is still to be done."""
-        if self._later.waiting:
-            self._later.cancel()
-            made = self._made(SETTLED)
-            if not self._later.waiting:  # nobody has moved anything since
-                self._show(made)
+        with self._settling:
+            if self._later.waiting:
+                self._later.cancel()
+                made = self._made(SETTLED)
+                if not self._later.waiting:  # nobody has moved anything since
+                    self._show(made)
 
     def _show(self, made: Tolerances | None) -> None:
         if made is None:
             return
+        try:
+            self.picture.show(made)
+        except IMPOSSIBLE as refusal:
+            self._refuse(refusal)
+            return
         self.tolerances = made
-        self.picture.show(made)
         tell(self._banner, "")
         self._table.value = self._table_html()
         self.picture.widget.layout.display = self._table.layout.display = ""

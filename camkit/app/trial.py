@@ -7,8 +7,10 @@ from typing import Any
 
 import ipywidgets as w
 
+from .number import NumberBox
+
 KINDS = (
-    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, w.FloatText, w.BoundedIntText, w.Text,
+    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, NumberBox, w.FloatText, w.BoundedIntText, w.Text,
     w.Dropdown, w.SelectionSlider, w.Checkbox,
 )  # fmt: skip
 """What is moved; a button is not, for what it does may not be undone."""

@@ -5,10 +5,12 @@ Each is known by a key: the first call draws it, every later call with the same 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
@@ -23,6 +25,24 @@ PURPLE = "#CC79A7"
 WARNING = "#D55E00"
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
 """Okabe and Ito's colour-blind-safe palette; vermilion is kept for warnings."""
+
+
+def colours(n: int, first: Sequence[str] = COLOURS) -> list[str]:
+    """``n`` colours that differ: ``first``, then darker and paler shades of them, and so on from the beginning.
+
+    >>> len(set(colours(15)))
+    15
+    """
+    shades = [*first]
+    for towards, share in ((0.0, 0.45), (1.0, 0.5), (0.0, 0.7)):
+        shades += [_mixed(colour, towards, share) for colour in first]
+    return [shades[i % len(shades)] for i in range(n)]
+
+
+def _mixed(colour: str, towards: float, share: float) -> str:
+    red, green, blue = ((1 - share) * c + share * towards for c in to_rgb(colour))
+    return to_hex((red, green, blue))
+
 
 STYLE: Any = {
     "font.size": 11,

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from ..geometry import circle, rotated
 from ..units import deg, factor, mm
-from .artists import BLUE, GREEN, GREY, INK, PALE, PURPLE, area, beside_title, frame, line, new, text
+from .artists import BLUE, GREEN, GREY, INK, PALE, PURPLE, area, beside_title, colours, frame, line, new, text
 
 SHADES = (GREY, BLUE, GREEN, PURPLE)
 """One for each design in turn; what the others are compared with comes first."""
@@ -33,7 +33,7 @@ def cams_beside(shown: Beside, ax: Axes, turn: float = 0.0) -> Axes:
         frame(ax, "To the same scale", "x  [mm]", "y  [mm]")
         ax.set_aspect("equal", adjustable="datalim")
     x = 0.0
-    for (name, analysis), colour in zip(shown.analyses.items(), SHADES, strict=False):
+    for (name, analysis), colour in zip(shown.analyses.items(), colours(len(shown.analyses), SHADES), strict=True):
         left, right = _reach(analysis)
         x -= left if x else 0.0
         _cam(ax, name, analysis, turn, x, colour)
@@ -70,7 +70,7 @@ def curves_beside(shown: Beside, ax: Axes) -> Axes:
     peak, first = shown.peak, new(ax)
     if first:
         frame(ax, peak.name[:1].upper() + peak.name[1:], "cam angle  [deg]", peak.label)
-    for (name, analysis), colour in zip(shown.analyses.items(), SHADES, strict=False):
+    for (name, analysis), colour in zip(shown.analyses.items(), colours(len(shown.analyses), SHADES), strict=True):
         x, y = np.ravel(peak.angle(analysis)) / deg, np.ravel(peak.curve(analysis)) / factor(peak.unit)
         jumps = np.flatnonzero(np.diff(x) > 3 * np.median(np.diff(x))) + 1
         line(ax, f"{name} curve", np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan), color=colour, label=name)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ..geometry import circle, rotated
+from ..quantities import Measure
 from ..units import deg, mm
 from .artists import (
     BLUE,
@@ -22,6 +24,7 @@ from .artists import (
     WARNING,
     area,
     beside_title,
+    colours,
     frame,
     gaps,
     line,
@@ -29,8 +32,6 @@ from .artists import (
 )
 
 CURVE_COLOUR = {"cam": BLUE, "lift": BLUE, "relief": ORANGE}
-LIMIT = 45 * deg
-"""The usual limit of a rocking follower's pressure angle."""
 
 
 def cam_mechanism(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
@@ -55,7 +56,7 @@ def cam_mechanism(analysis: Any, ax: Axes, turn: float = 0.0) -> Axes:
     cut = (*gaps(inner, analysis.undercut), *gaps(outer, analysis.outer_undercut))
     line(ax, "undercut", cut[0], cut[1], color=WARNING, linewidth=4.5, zorder=4, label="undercut")
     line(ax, "outer undercut", cut[2], cut[3], color=WARNING, linewidth=4.5, zorder=4)
-    for (name, (pivot, centre)), colour in zip(analysis.cranks.items(), COLOURS, strict=False):
+    for (name, (pivot, centre)), colour in zip(analysis.cranks.items(), colours(len(analysis.cranks)), strict=True):
         _crank(ax, name, pivot / mm, centre[:, i] / mm, analysis.cam.roller_radius / mm, colour)
     if hasattr(analysis, "face"):
         face = analysis.face[..., i] / mm
@@ -115,14 +116,17 @@ def _legend(ax: Axes, analysis: Any) -> None:
         beside_title(ax)
 
 
-def pressure_angle(analysis: Any, ax: Axes) -> Axes:
-    """The signed pressure angle and the band of 45 deg."""
+def pressure_angle(analysis: Any, ax: Axes, limits: Mapping[Measure, float] | None = None) -> Axes:
+    """The signed pressure angle, and the band that the ``limits`` of its measures leave; without any, no band."""
     first = new(ax)
     if first:
         frame(ax, "Pressure angle", "cam angle  [deg]", "alpha  [deg]")
-        ax.axhspan(-LIMIT / deg, LIMIT / deg, color=GREEN, alpha=0.10, linewidth=0)
-        for limit in (-45, 45):
-            ax.axhline(limit, color=GREEN, linewidth=1)
+        allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
+        for limit in allowed:
+            for edge in (-limit, limit):
+                ax.axhline(edge, color=GREEN, linewidth=1)
+        if allowed:
+            ax.axhspan(-min(allowed), min(allowed), color=GREEN, alpha=0.10, linewidth=0)
     _each(analysis, ax, "pressure_angle", deg)
     if first:
         _legend(ax, analysis)

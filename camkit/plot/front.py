@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..units import factor
-from .artists import BLUE, COLOURS, GREY, INK, WARNING, line, new, plain, text
+from .artists import BLUE, GREY, INK, WARNING, colours, line, new, plain, text
 
 
 @dataclass(frozen=True)
@@ -85,8 +85,9 @@ MARKS: Any = (
 def fronts_overlaid(shown: ShownFronts, ax: Axes) -> Axes:
     """Several fronts of the same two objectives, the start and the design in the sliders."""
     first, objectives = new(ax), next(iter(shown.fronts.values())).study.minimise[:2]
+    told = colours(len(shown.fronts))
     for i, (name, front) in enumerate(shown.fronts.items()):
-        style = {"linestyle": "none", "color": COLOURS[i % len(COLOURS)], **MARKS[i % len(MARKS)]}
+        style = {"linestyle": "none", "color": told[i], **MARKS[i % len(MARKS)]}
         line(ax, f"front {name}", *shown_objectives(front), label=name, **style)
     for key, f, style in (
         ("start", shown.start, {"marker": "s", "markersize": 8, "color": GREY}),

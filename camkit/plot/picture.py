@@ -78,19 +78,27 @@ def positions_of(view: View) -> tuple[str, ...]:
     return tuple(name for name in POSITIONS if name in takes)
 
 
-def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **position: float) -> None:
-    """Every view of ``analysis`` on its axes: drawn the first time, moved the next."""
+def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
+    """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
+
+    ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` that are at most allowed (a
+    mapping from measures to SI), so that a picture shows the limit that its panel or its study has.
+    """
     with rc_context(STYLE):
         for view, ax in zip(views, axes, strict=True):
-            view(analysis, ax, **{name: position[name] for name in positions_of(view) if name in position})
+            takes = inspect.signature(view).parameters
+            view(analysis, ax, **{name: value for name, value in asked.items() if name in takes})
 
 
-def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, **position: float) -> Picture:
-    """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take."""
+def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, **asked: Any) -> Picture:
+    """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
+
+    ``asked`` is what the views ask for: ``turn``, ``azimuth``, ``elevation`` (rad), ``limits`` (see `draw`).
+    """
     if not views:
         raise ValueError("the picture needs one or more views")
     figure, axes = layout(views, width, height)
-    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **position)
+    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **asked)
     return figure
 
 

@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from ..quantities import words
 from ..study import KEPT
 from ..units import factor
-from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, WARNING, area, frame, line, new, text
+from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, WARNING, area, colours, frame, line, new, text
 
 LIMIT_COLOURS = (ORANGE, BLUE, PURPLE, SKY)
 LABEL: Any = {
@@ -117,8 +117,8 @@ def _limits(ax: Axes, x: Any, y: Any, plane: Any, names: Sequence[str]) -> None:
     """A curve for each limit with its name; those that have no curve here are told above the axes."""
     kept: list[str] = []
     taken: list[np.ndarray] = []
-    for i, (name, limit) in enumerate(zip(names, plane.limits, strict=True)):
-        colour = LIMIT_COLOURS[i % len(LIMIT_COLOURS)]
+    shades = colours(len(names), LIMIT_COLOURS)
+    for i, (name, colour, limit) in enumerate(zip(names, shades, plane.limits, strict=True)):
         curve = level_curve(x, y, np.minimum(limit, 1.0), 0.0)
         line(ax, f"limit {i}", *curve, color=colour, linewidth=2.4, zorder=4)
         at = _place(ax, curve, PLACES[i % len(PLACES)], taken)

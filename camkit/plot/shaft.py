@@ -14,7 +14,6 @@ from ..quantities import Measure, Quantity, declarations, words
 from ..units import factor, mm, percent, rpm
 from .artists import (
     BLUE,
-    COLOURS,
     GREEN,
     GREY,
     INK,
@@ -24,6 +23,7 @@ from .artists import (
     WARNING,
     area,
     beside_title,
+    colours,
     frame,
     line,
     new,
@@ -87,7 +87,7 @@ def on_the_plane(tubes: Mapping[str, Any], window: Any) -> Callable[[Any, Axes],
 
     def marked(analysis: Any, ax: Axes) -> Axes:
         design_plane(replace(analysis.sizes.plane, window=window), ax, _limit_names(analysis.shaft))
-        for (name, shaft), colour in zip(tubes.items(), COLOURS, strict=False):
+        for (name, shaft), colour in zip(tubes.items(), colours(len(tubes)), strict=True):
             (x,), (y,) = _millimetres(shaft)
             line(ax, name, [x], [y], markersize=12, color=colour, markeredgecolor="white", **POINT)
             text(ax, f"{name} name", x + 0.25, y, name, color=INK, va="center", zorder=8, bbox=LABEL["bbox"])

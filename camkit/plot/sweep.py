@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from ..quantities import words
 from ..study import Study
 from ..sweep import Sweep
-from .artists import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, area, frame, line, new, text
+from .artists import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, area, colours, frame, line, new, text
 
 LIMIT_COLOURS = (BLUE, ORANGE, PURPLE, SKY)
 LOWEST, HIGHEST = -100.0, 100.0
@@ -32,7 +32,8 @@ def limit_sweep(sweep: Sweep, ax: Axes) -> Axes:
         ax.axhline(0, color=INK, linewidth=1)
         ax.set(xlim=x[[0, -1]], ylim=(LOWEST, HIGHEST))
     area(ax, "feasible", _bands(x, sweep.feasible), facecolor=GREEN, alpha=0.2, edgecolor="none", zorder=0.5)
-    for colour, measure, excess in zip(LIMIT_COLOURS, sweep.measures, sweep.limits, strict=False):
+    told = colours(len(sweep.measures), LIMIT_COLOURS)
+    for colour, measure, excess in zip(told, sweep.measures, sweep.limits, strict=True):
         line(ax, measure.name, x, np.clip(100 * excess, LOWEST, HIGHEST), color=colour, label=measure.name)
     now = sweep.now / sweep.declared.factor
     line(ax, "now", [now, now], [LOWEST, HIGHEST], color=INK, linewidth=1.5, linestyle=(0, (4, 3)))

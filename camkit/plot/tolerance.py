@@ -11,12 +11,9 @@ from matplotlib.axes import Axes
 from ..quantities import Measure, words
 from ..tolerance import Curve, Tolerances
 from ..units import deg, factor
-from .artists import BLUE, COLOURS, GREY, INK, SKY, WARNING, area, frame, line, new, plain, text
+from .artists import BLUE, GREY, INK, SKY, WARNING, area, colours, frame, line, new, plain, text
 from .front import shown_objectives
 from .picture import View
-
-MOST = 5
-"""How many tolerances have a colour of their own."""
 
 
 def band(curve: Curve) -> View:
@@ -112,8 +109,8 @@ def _places(tolerances: Tolerances) -> np.ndarray:
 def sobol_bars(tolerances: Tolerances, ax: Axes) -> Axes:
     """For each measure which share of its variance each tolerance causes, and in grey what they cause together."""
     first, measures, shares = new(ax), tolerances.measures, _shares(tolerances)
-    for j, name in enumerate([*list(tolerances.half_widths)[:MOST], "together"]):
-        colour = GREY if name == "together" else COLOURS[j]
+    bars = {**dict(zip(tolerances.half_widths, colours(len(tolerances.half_widths)), strict=True)), "together": GREY}
+    for j, (name, colour) in enumerate(bars.items()):
         for i in range(len(measures)):
             start, end = 100 * shares[i, :j].sum(), 100 * shares[i, : j + 1].sum()
             style: Any = {"color": colour, "linewidth": 17, "solid_capstyle": "butt"}
@@ -136,16 +133,16 @@ def sobol_bars(tolerances: Tolerances, ax: Axes) -> Axes:
         told = "" if shares[i].any() else "does not vary"
         text(ax, f"still {i}", 2, -i, told, va="center", color=GREY)
     if first:
-        _label_bars(ax, [fill(measure.name, 20) for measure in measures])
+        _label_bars(ax, [fill(measure.name, 20) for measure in measures], 2 if len(bars) < 7 else 3)
     return ax
 
 
-def _label_bars(ax: Axes, names: list[str]) -> None:
+def _label_bars(ax: Axes, names: list[str], columns: int) -> None:
     ax.set_title("Which tolerance matters")
     ax.set_yticks([-i for i in range(len(names))], [plain(name) for name in names])
     ax.set(xlim=(0, 100), ylim=(0.5 - len(names), 0.6), xlabel="share of the variance  [%]")
     ax.grid(axis="y", visible=False)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.2), ncols=2, columnspacing=1.2)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.2), ncols=columns, columnspacing=1.2)
 
 
 def _shares(tolerances: Tolerances) -> np.ndarray:
@@ -153,6 +150,6 @@ def _shares(tolerances: Tolerances) -> np.ndarray:
     given, first = list(tolerances.half_widths), tolerances.indices.first
     shares = np.zeros((len(first), len(given)))
     shares[:, [given.index(name) for name in tolerances.names]] = np.clip(np.nan_to_num(first), 0, 1)
-    shares = shares[:, :MOST] / np.maximum(shares.sum(1, keepdims=True), 1)
+    shares = shares / np.maximum(shares.sum(1, keepdims=True), 1)
     rest = np.where(np.isfinite(first).all(1), 1 - shares.sum(1), 0)
     return np.column_stack([shares, rest])

@@ -1,0 +1,61 @@
+"""Numbers as people type them: read as they are meant, or refused, and never as another number.
+
+>>> typed_number("48,09"), typed_number(" -1e3 ")
+(48.09, -1000.0)
+>>> typed_number("1,234")
+Traceback (most recent call last):
+    ...
+ValueError: '1,234' may be 1.234 or 1234; write 1.234 or 1234
+"""
+
+from __future__ import annotations
+
+import re
+
+LONGEST = 40
+"""So many characters at most are read as a number."""
+_NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
+_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}")
+_MINUS = str.maketrans("−–－", "---")
+
+
+def typed_number(text: str) -> float:
+    """The number that ``text`` says, with a decimal point or a decimal comma.
+
+    Raises ``ValueError`` in a sentence for everything else: units, fractions, separated thousands, nothing at all.
+    """
+    plain = text.strip().translate(_MINUS)
+    if not plain:
+        raise ValueError("an empty box is no number")
+    if len(plain) > LONGEST or not _NUMBER.fullmatch(plain):
+        raise ValueError(f"{_short(text)} is no number; 48.09, 48,09 and 1e3 are")
+    if _THOUSANDS.fullmatch(plain):
+        raise ValueError(
+            f"{_short(text)} may be {plain.replace(',', '.')} or {plain.replace(',', '')}; "
+            f"write {plain.replace(',', '.')} or {plain.replace(',', '')}"
+        )
+    value = float(plain.replace(",", "."))
+    if abs(value) == float("inf") or (not value and re.search("[1-9]", plain.lower().partition("e")[0])):
+        raise ValueError(f"{_short(text)} is too {'large' if value else 'small'} for a computer")
+    return value
+
+
+def typed_whole(text: str, low: float, high: float) -> int:
+    """The whole number from ``low`` to ``high`` that ``text`` says; ``ValueError`` in a sentence for everything else.
+
+    >>> typed_whole("200", 1, 1000)
+    200
+    """
+    plain = text.strip().translate(_MINUS)
+    wanted = f"a whole number from {low:.0f} to {high:.0f} is wanted"
+    if len(plain) > LONGEST or not re.fullmatch("[+-]?[0-9]+", plain):
+        raise ValueError(
+            f"{_short(text)} is no whole number; {wanted}" if plain else f"an empty box is no number; {wanted}"
+        )
+    if not low <= int(plain) <= high:
+        raise ValueError(f"{_short(text)} is out of range; {wanted}")
+    return int(plain)
+
+
+def _short(text: str) -> str:
+    return repr(text if len(text) <= LONGEST else f"{text[:LONGEST]}...")

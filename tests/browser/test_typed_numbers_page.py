@@ -1,0 +1,128 @@
+"""Numbers as people type them: the number that is meant, or a sentence, and never another number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import nbformat
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+
+from lab import LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
+
+CELLS = (
+    """
+from camkit import *
+from camkit import edit_program
+from camkit.plot.cam import cam_mechanism
+app = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=["base_radius", "roller_radius"])
+app""",
+    """
+from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+editor = edit_program(MotionProgram((Rise(100 * deg, 20 * mm, Cycloidal()), Dwell(60 * deg),
+                                     Return(100 * deg, 20 * mm, Cycloidal()), Dwell(100 * deg))))
+editor""",
+    """
+finder = search(explore(DoorHandleCam(), free=["lift_arm"], *[cam_mechanism]), {"door": door_handle_study},
+                space={"lift_arm": (45 * mm, 55 * mm)}, free=["lift_arm"])
+finder""",
+)
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in CELLS])
+    notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    nbformat.write(notebook, server.root / "typed.ipynb")
+    page = context.new_page()
+    open_notebook(page, "typed.ipynb")
+    run_all(page)
+    yield page
+    page.close()
+    server.end_kernels()
+
+
+def type_into(box: Locator, text: str) -> None:
+    """Key by key, as a person does it."""
+    box.click()
+    box.press("Control+a")
+    box.press_sequentially(text)
+    box.press("Enter")
+
+
+TAKEN = [("48,09", 48.09), ("1e1", 10.0), ("  12,5 ", 12.5), ("30.25", 30.25)]
+REFUSED = ["1/2", "2 in", "abc", "1.234,5", "1,234.5", "1,234", "60,5mm", "--5", "12abc", "∞", "nan", "1_0", ""]
+
+
+@pytest.mark.parametrize(("typed", "meant"), TAKEN)
+def test_a_number_is_taken_as_it_is_meant(page: Page, typed: str, meant: float) -> None:
+    box = cell_output(page, 0).get_by_role("spinbutton", name="base radius, mm")
+    type_into(box, typed)
+    eventually(lambda: abs(1000 * kernel_value(page, "app.design.base_radius") - meant) < 1e-9)
+    expect(box).to_have_value(f"{meant:g}")
+
+
+@pytest.mark.parametrize("typed", REFUSED)
+def test_what_is_no_number_is_refused_and_the_last_one_stays(page: Page, typed: str) -> None:
+    panel = cell_output(page, 0)
+    box = panel.get_by_role("spinbutton", name="base radius, mm")
+    type_into(box, "30,25")
+    expect(panel.get_by_role("alert")).to_have_count(0)
+    if typed:
+        type_into(box, typed)
+    else:
+        box.fill("")
+        box.press("Enter")
+    expect(panel.get_by_role("alert")).to_contain_text("The base radius stays as before")
+    expect(box).to_have_value("30.25")
+    assert kernel_value(page, "app.design.base_radius") == pytest.approx(0.03025, abs=1e-12)
+    expect(panel.get_by_role("img")).to_be_visible()
+
+
+def test_a_number_far_too_large_leaves_the_last_design_on_the_page(page: Page) -> None:
+    panel = cell_output(page, 0)
+    box = panel.get_by_role("spinbutton", name="base radius, mm")
+    for typed in ("1e160", "1e300"):
+        type_into(box, typed)
+        expect(panel.get_by_role("alert")).to_have_count(1)
+        eventually(lambda: float(box.input_value()) == 1000 * kernel_value(page, "app.design.base_radius"))
+        expect(panel.get_by_role("img")).to_be_visible()
+    panel.get_by_role("button", name="Reset").click()
+    expect(panel.get_by_role("alert")).to_have_count(0)
+    assert kernel_value(page, "app.design == app.start")
+
+
+def test_the_arrow_keys_go_up_and_down(page: Page) -> None:
+    box = cell_output(page, 0).get_by_role("spinbutton", name="roller radius, mm")
+    before = float(box.input_value())
+    box.press("ArrowUp")
+    eventually(lambda: float(box.input_value()) > before)
+    box.press("ArrowDown")
+    expect(box).to_have_value(f"{before:g}")
+
+
+def test_a_row_of_the_program_takes_a_comma_and_refuses_the_rest(page: Page) -> None:
+    panel = cell_output(page, 1)
+    lift = panel.get_by_role("spinbutton", name="lift, mm").nth(0)
+    back = panel.get_by_role("spinbutton", name="lift, mm").nth(2)
+    for box in (lift, back):
+        type_into(box, "12,5")
+    eventually(lambda: kernel_value(page, "float(editor.program.segments[0].lift)") == pytest.approx(0.0125))
+    type_into(lift, "1/2")
+    expect(panel.get_by_role("alert")).to_contain_text("The lift stays as before")
+    expect(lift).to_have_value("12.5")
+    assert kernel_value(page, "float(editor.program.segments[0].lift)") == pytest.approx(0.0125)
+
+
+def test_counts_and_bounds_of_a_search_are_read_the_same_way(page: Page) -> None:
+    panel = cell_output(page, 2)
+    population = panel.get_by_role("spinbutton", name="population")
+    type_into(population, "60")
+    eventually(lambda: kernel_value(page, "finder.population.value") == 60)
+    for typed in ("1.5", "2000", "12abc", "-4"):
+        type_into(population, typed)
+        expect(panel.get_by_role("alert")).to_contain_text("a whole number from 4 to 1000 is wanted")
+        expect(population).to_have_value("60")
+    low = panel.get_by_role("spinbutton", name="lift arm, mm, least")
+    type_into(low, "46,5")
+    eventually(lambda: kernel_value(page, "finder.bounds['lift_arm'].value[0]") == pytest.approx(0.0465))
