@@ -300,6 +300,7 @@ TUBE_NUMBERS = (tube_area, tube_mass, tube_torque, shear_stress, twist, critical
 
 SHAFT_MEASURES = (*TUBE_NUMBERS, *MARGINS)
 """Every measure of the tube, for tables."""
+UniversalJointShaft.measures = SHAFT_MEASURES
 
 PAPER_SPACE = {"outer_diameter": (108 * mm, 140 * mm), "inner_diameter": (87 * mm, 103 * mm)}
 """The paper's bounds."""

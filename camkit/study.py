@@ -195,6 +195,12 @@ class Study:
             *((m, v, -1) for m, v in self.at_least.items()),
         )
 
+    @property
+    def measures(self) -> tuple[Measure, ...]:
+        """Every measure of the objectives and limits, of a weighted sum its parts."""
+        told = (*self.minimise, *(measure for measure, _, _ in self.limits))
+        return tuple(part for m in told for part in (m.parts if isinstance(m, WeightedSum) else (m,)))
+
     def design(self, x: Any) -> Any:
         """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
         if np.shape(x)[-1:] != (len(self.free),):

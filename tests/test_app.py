@@ -42,6 +42,7 @@ from camkit.app import picture as live
 from camkit.app.controls import Download, Upload, label_html
 from camkit.app.kept import unfinished
 from camkit.app.number import NumberBox
+from camkit.app.running import RUNNING, Place
 from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
 from camkit.checkpoint import read
 from camkit.decision import CHOOSERS
@@ -165,9 +166,10 @@ def downloaded(panel, description):
     return sent[0]
 
 
-def upload(panel, description, text):
+def upload(panel, description, file):
     """As the page does it when a person has chosen a file."""
-    next(u for u in inside(panel, Upload) if u.description == description)._handle_custom_msg({"text": text}, [])
+    data = memoryview(file if isinstance(file, bytes) else file.encode())
+    next(u for u in inside(panel, Upload) if u.description == description)._handle_custom_msg({}, [data])
 
 
 def alert(panel):
@@ -416,7 +418,10 @@ FILE = to_json(DoorHandleCam())
         (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
         (FILE.replace("50.0", "9" * 400, 1), "the "),
         ("[" * 100000, "the file is damaged"),
-        (FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'), "the torque table"),
+        (
+            FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'),
+            "the file says [[0, 'a']] for 'door_torque_table'; a list of pairs of numbers belongs there",
+        ),
         (to_json(OscillatingRollerCam()), "the file holds a"),
     ],
     ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],
@@ -585,7 +590,7 @@ def test_stop_takes_effect_after_the_running_generation_and_keeps_the_front(find
 
     def watched(*args):
         for generation in nsga2_generations(*args):
-            if finder._stop.is_set():
+            if finder._run.asked.is_set():
                 late.append(generation.number)
             yield generation
 
@@ -726,15 +731,23 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     assert own.status.value.startswith("generation 12 of 12: ")
 
 
-def test_a_search_that_runs_is_nobody_elses(finder):
-    """Neither offered to resume nor written by the same search on another page."""
+def underway(finder, generation=1):
+    """Runs an endless search until it has come so far."""
     finder.generations.value = 10000
     press(finder, "Optimise")
     until = time.monotonic() + 30
-    while not list(Path(".camkit").glob("*.npz")) and time.monotonic() < until:
+    while finder.progress.value < generation and time.monotonic() < until:
         time.sleep(0.005)
+
+
+def test_a_search_that_runs_is_nobody_elses(finder, monkeypatch):
+    """Neither offered to resume nor written by the same search on another page."""
+    monkeypatch.setattr(finder, "_place", Place("a cell", "its run"))
+    monkeypatch.setattr(sys.modules["camkit.app.search"], "here", lambda: Place("another cell", "its run"))
+    underway(finder)
     other = a_search(an_explorer(), generations=10000)
     assert other.resume_button.disabled
+    assert not other.run_button.disabled
     assert other._new_files() is None
     assert other._unkept == "the very same search runs already"
     code = "import sys; from camkit.app.kept import unfinished; sys.exit(unfinished(sys.argv[1]) is not None)"
@@ -742,6 +755,113 @@ def test_a_search_that_runs_is_nobody_elses(finder):
     finder.stop()
     finder.wait(10)
     assert subprocess.run([sys.executable, "-c", code, finder._kind()]).returncode == 1
+
+
+# ---------------------------------------------------------------- a cell that is run again while its search runs
+
+
+def searching():
+    """Threads in which something is searched for."""
+    return [job.thread for job in RUNNING if job.thread.is_alive()]
+
+
+CELLS = {
+    "of a notebook": (Place("cell", "first"), Place("cell", "second")),
+    "that nobody names": (Place("", ""), Place("", "")),
+}
+
+
+@pytest.mark.parametrize("places", CELLS.values(), ids=CELLS)
+def test_a_cell_that_is_run_again_takes_over_the_search_that_runs(finder, monkeypatch, places):
+    """One thread, the page as it was at Optimise, progress, Stop, and the front of a search without a break."""
+    module = sys.modules["camkit.app.search"]
+    monkeypatch.setattr(module, "REPORT", 0.0)
+    monkeypatch.setattr(finder, "_place", places[0])
+    monkeypatch.setattr(module, "here", lambda: places[1])
+    design = DoorHandleCam(lift_start_angle=0.371234567890123)
+    finder.explorer.load(design)
+    finder.bounds["relief_arm"].free.value = False
+    finder.criteria.sliders[(0, 2)].value = 3.0
+    finder.population.value, finder.seed.value = 40, 4
+    underway(finder, 3)
+    reached, study = finder.progress.value, finder.study
+    threads = searching()
+
+    other = a_search(an_explorer())
+    assert searching() == threads
+    assert len(threads) == 1
+    assert (other.run_button.disabled, other.stop_button.disabled) == (True, False)
+    assert (finder.run_button.disabled, finder.stop_button.disabled) == (False, True)
+    assert finder.status.value == "the search goes on in a newer panel"
+    assert other.progress.value >= reached
+    assert len(other.front) > 0
+    assert other.explorer.design == design
+    assert other.criteria.upper == finder.criteria.upper
+    assert (other.population.value, other.seed.value) == (40, 4)
+    finder.stop()  # does nothing any more
+    shown, until = other.progress.value, time.monotonic() + 30
+    while other.progress.value < shown + 3 and time.monotonic() < until:
+        time.sleep(0.005)
+    assert finder.status.value == "the search goes on in a newer panel"
+    press(other, "Stop")
+    other.wait(10)
+    assert searching() == []
+    assert "(stopped)" in other.status.value
+    assert (other.run_button.disabled, other.stop_button.disabled) == (False, True)
+    assert not other.resume_button.disabled
+    assert_array_equal(other.front.x, nsga2(study, 40, other.progress.value, 4).x)
+    press(other, "Optimise")  # and another can be run
+    other.stop()
+    other.wait(10)
+    assert searching() == []
+
+
+def test_a_search_that_ends_in_a_newer_panel_leaves_nothing(finder, monkeypatch):
+    finder.explorer.load(DoorHandleCam(lift_start_angle=0.38))
+    finder.generations.value = 300
+    press(finder, "Optimise")
+    others = [a_search(an_explorer()) for _ in range(3)]
+    others[-1].wait(60)
+    assert searching() == []
+    assert others[-1].status.value.startswith("generation 300 of 300: ")
+    assert os.listdir(".camkit") == [".gitignore"]
+    assert [other.resume_button.disabled for other in (finder, *others)] == [True] * 4
+    assert not any(other.run_button.disabled for other in (finder, *others))
+
+
+OTHERS = {
+    "another page": lambda: search(an_explorer(), {"another": door_handle_study}, space=PAPER_SPACE,
+                                   free=list(PAPER_SPACE)),
+    "another study of the same name": lambda: search(
+        an_explorer(), STUDIES | {"lift curve alone": partial(door_handle_study, whole=True)}, space=EXPANDED_SPACE,
+        free=list(PAPER_SPACE), criteria=judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS),
+        importance=judge(["effort", "least radius"], [1])),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("make", OTHERS.values(), ids=OTHERS)
+def test_a_cell_that_was_changed_and_is_run_again_ends_the_search_that_runs(finder, monkeypatch, make):
+    monkeypatch.setattr(finder, "_place", Place("cell", "first"))
+    monkeypatch.setattr(sys.modules["camkit.app.search"], "here", lambda: Place("cell", "second"))
+    underway(finder)
+    other = make()
+    finder.wait(10)
+    assert searching() == []
+    assert "(stopped)" in finder.status.value
+    assert not other.run_button.disabled
+
+
+def test_two_searches_of_one_run_of_a_cell_run_beside_each_other(finder, monkeypatch):
+    monkeypatch.setattr(finder, "_place", Place("cell", "first"))
+    monkeypatch.setattr(sys.modules["camkit.app.search"], "here", lambda: Place("cell", "first"))
+    underway(finder)
+    other = search(an_explorer(), {"another": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE))
+    underway(other)
+    assert len(searching()) == 2
+    for panel in (finder, other):
+        panel.stop()
+        panel.wait(10)
+    assert searching() == []
 
 
 UNKEPT = "This search is not kept in a file to resume it from: {}."
@@ -988,7 +1108,7 @@ def test_the_page_says_how_its_front_was_found_and_saves_it(finder):
     older = json.loads(saved)
     del older["work"]["record"]
     upload(other, "Load study", json.dumps(older))
-    assert alert(other) == ""
+    assert alert(other).startswith("The file is loaded, but its content does not match its digest")
     assert other.found.value == ""
     assert len(other.front) == len(finder.front)
 
@@ -996,9 +1116,9 @@ def test_the_page_says_how_its_front_was_found_and_saves_it(finder):
 def test_a_second_press_does_not_start_a_second_search(finder):
     finder.generations.value = 10000
     press(finder, "Optimise")
-    thread = finder._thread
+    thread = finder._run.thread
     finder.run()
-    assert finder._thread is thread
+    assert finder._run.thread is thread
     finder.stop()
     finder.wait(10)
     assert not thread.is_alive()

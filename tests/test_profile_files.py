@@ -137,6 +137,7 @@ def crossings(pieces):
     return int(divided.sum()) // 2
 
 
+@pytest.mark.slow
 @every_undercut
 def test_the_tool_covers_nothing_of_what_it_leaves_and_leaves_nothing_out(name):
     cam = UNDERCUT[name]
@@ -229,17 +230,36 @@ def test_a_cam_that_its_tool_can_make_is_written_as_it_is(cam):
         assert_array_equal(points, made.theory[flank])
 
 
-def test_a_roller_turns_about_a_corner_of_its_path():
+@pytest.mark.parametrize("first", [40 * deg, 0.0], ids=["in the turn", "where it begins"])
+def test_a_roller_turns_about_a_corner_of_its_path(first):
     """A rise of speed at once: the inner flank has an arc of the roller there, not its chord."""
     rise = Rise(90 * deg, 15 * mm, FreePolynomial(start=(0, 1.5), end=(1, 0, 0)))
-    motion = MotionProgram(
-        (Dwell(40 * deg), rise, Dwell(50 * deg), Return(90 * deg, 15 * mm, Poly345()), Dwell(90 * deg))
-    )
+    moves = (rise, Dwell(50 * deg), Return(90 * deg, 15 * mm, Poly345()), Dwell(130 * deg - first))
+    motion = MotionProgram((Dwell(first), *moves) if first else moves)
     cam = TranslatingRollerCam(motion, base_radius=30 * mm, roller_radius=10 * mm, groove=False)
-    (piece,) = flanks(cam.analyse()).left
+    made = flanks(cam.analyse())
+    (piece,) = made.left
+    assert piece.closed
+    assert not made.cuts
     assert depth_in_tool(cam, piece.points).max() < 1e-6
     ends = np.column_stack([piece.points, piece.points[:, :1]])
-    assert depth_in_tool(cam, (ends[:, :-1] + ends[:, 1:]) / 2).max() < 5e-6  # the chord would lie 50 um deep
+    assert depth_in_tool(cam, (ends[:, :-1] + ends[:, 1:]) / 2).max() < 5e-6  # the chord would lie 0.17 mm deep
+    assert (distance_to([piece], cam.analyse(20_001).profile) < 5e-6).all()
+
+
+@pytest.mark.parametrize("kind", [TranslatingRollerCam, TranslatingFlatCam])
+def test_a_drop_of_speed_where_the_turn_begins_is_cut(kind):
+    moves = (Dwell(90 * deg), Return(90 * deg, 15 * mm, Poly345()), Dwell(90 * deg), Rise(90 * deg, 15 * mm, JOLT))
+    motion = MotionProgram(moves, 15 * mm)
+    cam = kind(motion=motion, base_radius=45 * mm)
+    made = flanks(cam.analyse())
+    (cut,) = [cut for cut in made.cuts if cut.flank == "profile"]
+    assert cut.start > 340 * deg
+    assert cut.end < 20 * deg
+    for piece in made.left:
+        assert piece.closed
+        assert depth_in_tool(cam, piece.points).max() <= 1e-6
+    assert crossings(made.left) == 0
 
 
 def test_the_walls_of_a_groove_that_meets_itself_merge():

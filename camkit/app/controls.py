@@ -11,6 +11,7 @@ import anywidget
 import ipywidgets as w
 import traitlets
 
+from ..json_file import MOST_BYTES
 from ..markup import Html, attribute, escaped, html, joined
 from ..quantities import Choice, Quantity, words
 from ..units import in_unit
@@ -191,8 +192,9 @@ class Menu:
 
     def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
         self._changed, self._silent = changed, False
+        self.declared = declared
         self.menu = w.Dropdown(
-            options=[(option.name, option) for option in declared.options], value=value,
+            options=self._options(value), value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
         )  # fmt: skip
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
@@ -209,9 +211,16 @@ class Menu:
         """Show ``value`` without telling anyone."""
         self._silent = True
         try:
+            if (options := self._options(value)) != list(self.menu.options):
+                self.menu.options = options
             self.menu.value = value
         finally:
             self._silent = False
+
+    def _options(self, value: Any) -> list[tuple[str, Any]]:
+        """What the declaration offers, and ``value`` if it is something of one's own."""
+        own = () if value in self.declared.options else (value,)
+        return [(option.name, option) for option in (*self.declared.options, *own)]
 
     def _chosen(self, _: Any) -> None:
         if not self._silent:
@@ -232,27 +241,48 @@ def control(
 
 
 class Download(anywidget.AnyWidget):
-    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``."""
+    """A button; pressing it downloads what ``content()`` returns at that moment as ``filename``.
+
+    ``refused(sentence)`` is called where there is nothing to be had, with the reason.
+    """
 
     _esm = Path(__file__).with_name("download.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
 
-    def __init__(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        description: str,
+        filename: str,
+        mime: str,
+        content: Callable[[], str],
+        refused: Callable[[str], None] | None = None,
+    ) -> None:
         super().__init__(description=description)
-        self.content = content
-        self.on_msg(lambda *_: self.send({"name": filename, "mime": mime, "text": self.content()}))
+        self.filename, self.mime, self.content, self.refused = filename, mime, content, refused
+        self.on_msg(lambda *_: self._pressed())
+
+    def _pressed(self) -> None:
+        try:
+            text = self.content()
+        except ValueError as refusal:
+            if self.refused is None:
+                raise
+            self.refused(f"Nothing is saved: {refusal}.")
+        else:
+            self.send({"name": self.filename, "mime": self.mime, "text": text})
 
 
 class Upload(anywidget.AnyWidget):
-    """A button; ``use(text)`` is called with the text of the file that a person chooses."""
+    """A button; ``use(data)`` is called with the bytes of the file that a person chooses."""
 
     _esm = Path(__file__).with_name("upload.js").read_text(encoding="utf-8")
     description = traitlets.Unicode("").tag(sync=True)
     accept = traitlets.Unicode(".json").tag(sync=True)
+    most = traitlets.Int(MOST_BYTES + 1).tag(sync=True)
 
-    def __init__(self, description: str, use: Callable[[str], None]) -> None:
+    def __init__(self, description: str, use: Callable[[bytes], None]) -> None:
         super().__init__(description=description)
-        self.on_msg(lambda _, message, __: use(message["text"]))
+        self.on_msg(lambda _, __, buffers: use(bytes(buffers[0])))
 
 
 def banner() -> w.HTML:

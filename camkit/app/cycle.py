@@ -47,7 +47,7 @@ class CycleTime(JobPanel):
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
         self.steps: list[IntervalStep] = []
-        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report)
+        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report, explorer.start, make)
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
         self.take = w.Button(description="Load the design", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load())

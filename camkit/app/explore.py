@@ -47,6 +47,11 @@ def changed(design: Any, values: Mapping[str, Any]) -> Any:
         return design.replace(**changes)
 
 
+def remarked(found: export.Read) -> str:
+    """What a panel says of a file that it has loaded; nothing if there is nothing to remark."""
+    return f"The file is loaded, but {'; and '.join(found.remarks)}." if found.remarks else ""
+
+
 class Explorer(Panel):
     """Sliders for a design's quantities; pictures and measures follow at once.
 
@@ -128,7 +133,9 @@ class Explorer(Panel):
         reset.layout.width = "auto"
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
-        save = Download("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
+        save = Download(
+            "Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design), self._say
+        )
         table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis))
         drawing = Download(
             "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profile_files.profile_dxf(self.analysis)
@@ -137,14 +144,19 @@ class Explorer(Panel):
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
 
-    def load_json(self, text: str) -> None:
+    def _say(self, sentence: str) -> None:
+        tell(self._banner, sentence)
+
+    def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            design = export.from_json(text, type(self.design))
+            found = export.read(file, type(self.design))
+            found.thing.analyse()
         except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
-            self.load(design)
+            self.load(found.thing)
+            tell(self._banner, remarked(found))
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value."""

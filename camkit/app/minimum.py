@@ -45,7 +45,7 @@ class Improvement(JobPanel):
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report)
+        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report, explorer.start, make)
         self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
         self.back.on_click(lambda _: self.explorer.load(self.before))
         self.verdict = w.HTML()

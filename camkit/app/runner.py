@@ -18,6 +18,7 @@ from ..study import Study
 from ..watch import Watch
 from .controls import banner, tell
 from .panel import IMPOSSIBLE, Panel
+from .running import Job, here, left_behind
 from .search import REPORT
 
 MakeStudy = Callable[..., Study]
@@ -27,6 +28,11 @@ MakeStudy = Callable[..., Study]
 def told(result: str, why: str) -> Html:
     """A result and what there is to say about it, for a page."""
     return html("<div style='line-height: 1.45'><b>{}</b><br>{}</div>", result, why)
+
+
+def named(thing: Any) -> str:
+    """A function by its name, since it is another one whenever its cell runs; anything else by what it is."""
+    return str(getattr(getattr(thing, "func", thing), "__qualname__", None) or repr(thing))
 
 
 class Choices:
@@ -56,7 +62,8 @@ class Runner:
 
     ``prepare()`` says what is to be done, ``ValueError`` if it cannot be.  ``job(task, watch)`` does it in a thread of
     its own, on studies under ``watch``: the page stays alive, and Stop takes effect before the next design.
-    ``report(watch)`` is called now and then meanwhile.
+    ``report(watch)`` is called now and then meanwhile.  ``page`` is what the panel was made of: a job that was begun
+    by the same panel, before its cell was run again, is stopped.
     """
 
     def __init__(
@@ -65,10 +72,14 @@ class Runner:
         prepare: Callable[[], Any],
         job: Callable[[Any, Watch], None],
         report: Callable[[Watch], None],
+        *page: Any,
     ) -> None:
+        self._kind, self._place = f"{description} {[named(thing) for thing in page]}", here()
+        for left in left_behind(self._kind, self._place):
+            left.stop()
         self._prepare, self._job, self._report, self._reported = prepare, job, report, 0.0
         self.watch = Watch()
-        self._thread: threading.Thread | None = None
+        self._running: Job | None = None
         fits = w.Layout(width="auto")
         self.run_button = w.Button(description=description, icon="play", button_style="primary", layout=fits)
         self.stop_button = w.Button(description="Stop", icon="stop", disabled=True, layout=fits)
@@ -79,7 +90,7 @@ class Runner:
 
     def run(self) -> None:
         """Start the job; returns at once."""
-        if self._thread and self._thread.is_alive():
+        if self._running and self._running.thread.is_alive():
             return
         try:
             task = self._prepare()
@@ -88,9 +99,9 @@ class Runner:
             return
         tell(self.banner, "")
         self.run_button.disabled, self.stop_button.disabled = True, False
-        self.watch = Watch(self._look)
-        self._thread = threading.Thread(target=self._work, args=(task, self.watch))
-        self._thread.start()
+        self.watch = watch = Watch(self._look)
+        self._running = Job(self._kind, self._place, lambda: self._work(task, watch), watch.stop)
+        self._running.start()
 
     def _refuse(self, refusal: Exception) -> None:
         tell(self.banner, f"This cannot be searched: {refusal}.")
@@ -118,8 +129,8 @@ class Runner:
 
     def wait(self, seconds: float | None = None) -> None:
         """Until the job has ended."""
-        if self._thread:
-            self._thread.join(seconds)
+        if self._running:
+            self._running.thread.join(seconds)
 
 
 class JobPanel(Panel):

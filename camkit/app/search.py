@@ -6,7 +6,8 @@ import hashlib
 import json
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any
@@ -15,24 +16,26 @@ import ipywidgets as w
 import numpy as np
 
 from .. import export
-from ..checkpoint import taken_up, why
+from ..checkpoint import fingerprint, taken_up, why
 from ..decision import CHOOSERS, ahp, judgement_matrix
 from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
-from ..quantities import Quantity, declarations, words
+from ..quantities import Measure, Quantity, declarations, words
 from ..study import Study
 from ..units import in_unit
 from .controls import Download, Upload, banner, label_html, small_html, tell
-from .explore import Explorer, changed, declared_in
+from .explore import Explorer, changed, declared_in, remarked
 from .judge import Judgements
 from .kept import Kept, keep, unfinished
 from .number import NumberBox, WholeBox, staying
 from .panel import IMPOSSIBLE, Panel
 from .picture import LivePicture
+from .running import Job, here, left_behind
 
 REPORT = 0.25
 """Seconds between two reports of a running search."""
+SIZE = ("population", "generations", "seed")
 
 MakeStudy = Callable[..., Study]
 
@@ -87,6 +90,9 @@ class Search(Panel):
     other.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
     generation and keeps the front so far.  Judgements weigh the objectives anew without a new search.
 
+    A panel that is made while a search of its kind runs, because its cell is run again, takes that search over; a
+    search of another kind that the cell began is stopped.
+
     Each generation is kept in a file until the search has ended.  After Stop or a killed kernel, Resume puts the page
     back as it was at Optimise and goes on from the last generation, to the same front as without the break.
     """
@@ -110,9 +116,8 @@ class Search(Panel):
         self._x = np.zeros((0, len(self.study.free)))
         self.front = Front(self.study, self._x, np.zeros((0, len(self.study.minimise))))
         self.winner: int | None = None
-        self._thread: threading.Thread | None = None
-        self._stop = threading.Event()
-        self._unkept = ""
+        self._place, self._unkept = here(), ""
+        self._run: _Run | None = None
         self._followers: list[Callable[[], None]] = []
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(self._clicked)
@@ -121,6 +126,9 @@ class Search(Panel):
             panel.on_change(self._judged)
         self._show_front()
         self._offer_resume()
+        for job in left_behind(self._kind(), self._place):
+            if not (isinstance(job, _Run) and job.kind == self._kind() and self._take_over(job)):
+                job.stop()
         explorer.on_change(lambda _: self._show_front() if self._selected() != self._marked else None)
 
     def _make_widgets(self, population: int, generations: int) -> None:
@@ -169,7 +177,7 @@ class Search(Panel):
         tell(self._banner, sentence)
 
     def _body(self) -> w.Widget:
-        save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()))
+        save = Download("Save study", "study.json", "application/json", lambda: export.to_json(self.work()), self._say)
         settings = w.HBox([self.population, self.generations, self.seed], layout=w.Layout(flex_flow="row wrap"))
         buttons = w.HBox(
             [self.run_button, self.stop_button, self.resume_button, self.progress],
@@ -244,16 +252,45 @@ class Search(Panel):
             kept.let_go()
 
     def _running(self) -> bool:
-        return self._thread is not None and self._thread.is_alive()
+        return self._run is not None and self._run.thread.is_alive()
 
     def _begin(self, kept: Kept | None) -> None:
-        self._tell("")
-        self._stop.clear()
-        self.run_button.disabled = self.resume_button.disabled = True
-        self.stop_button.disabled = False
-        self.progress.max, self.progress.value = self.generations.value, 0
-        self._thread = threading.Thread(target=self._search, args=(kept,))
-        self._thread.start()
+        run = _Run(self, kept)
+        self._show_run(run)
+        run.start()
+
+    def _show_run(self, run: _Run | None) -> None:
+        """The buttons and the bar while a search runs, or after it."""
+        self._run = run
+        running = run is not None and not run.over
+        self.run_button.disabled, self.stop_button.disabled = running, not running
+        if running:
+            self._tell("")
+            self.resume_button.disabled = True
+            self.progress.max, self.progress.value = self.generations.value, 0
+        else:
+            self._offer_resume()
+
+    def _take_over(self, run: _Run) -> bool:
+        """Show a search that another panel began, on its page; ``False`` if it is of another study."""
+        if type(run.design) is not type(self.explorer.start):
+            return False
+        try:
+            same = fingerprint(self._study_of(run.page, run.design)) == fingerprint(run.study)
+        except Exception:  # what is of the same name has become something else
+            return False
+        with run.lock:
+            if not same or run.over:
+                return False
+            old, run.panel, run.place = run.panel, self, self._place
+            self._put_back(run.page, run.design)
+            self.study, self._unkept = run.study, old._unkept
+            self._show_run(run)
+            if run.reported:
+                self._report(*run.reported, last=False)
+            old._show_run(None)
+            old.status.value = "the search goes on in a newer panel"
+        return True
 
     def _kind(self) -> str:
         """How the names of this page's searches begin: another page, or this one with another start, has another."""
@@ -274,10 +311,13 @@ class Search(Panel):
 
     def _page(self) -> dict[str, Any]:
         """All that the study depends on, to the last bit: numbers in SI, where a saved study has them in units."""
+        return {"design": export.to_json(self.explorer.design), **self._asked()}
+
+    def _asked(self) -> dict[str, Any]:
+        """The page without what only a file needs to know of the design."""
         design = self.explorer.design
         numbers = {n: attrgetter(n)(design) for n, d in declared_in(design).items() if isinstance(d, Quantity)}
         return {
-            "design": export.to_json(design),
             "numbers": numbers,
             "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
             "judgements": {name: [panel.upper, panel.method.value] for name, panel in self._judges().items()},
@@ -287,7 +327,7 @@ class Search(Panel):
     def _check_settings(self, settings: Mapping[str, Any]) -> None:
         for name, value in settings.items():
             known = isinstance(value, export.SETTINGS.get(name, ()))
-            if not known or value not in getattr(getattr(self, name), "options", (value,)):
+            if not known or not _offered(value, getattr(self, name)):
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
 
     def _check_judgements(self, judgements: Mapping[str, Any]) -> None:
@@ -303,24 +343,28 @@ class Search(Panel):
         except (ValueError, RecursionError):
             raise damaged from None
         try:
-            settings, judgements = page["search"], page["judgements"]
+            settings = page["search"]
             self._check_settings(settings)
             design = changed(export.from_json(page["design"], type(self.explorer.start)), page["numbers"])
-            space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
-            said = {name: (panel, *judgements[name]) for name, panel in self._judges().items()}
+            said = {name: (panel, *page["judgements"][name]) for name, panel in self._judges().items()}
             self._check_judgements({name: upper for name, (_, upper, _) in said.items()})
-            weighed = {name: ahp(upper or [[1]], method).weights for name, (_, upper, method) in said.items()}
             if not all(method in dict(panel.method.options).values() for panel, _, method in said.values()):
                 raise damaged
-            weights = {"weights": weighed["criteria"]} if self.criteria else {}
-            size = [settings[name] for name in ("population", "generations", "seed")]
-            study = self.studies[settings["mode"]](design, reference=self.explorer.start, space=space, **weights)
-            taken_up(kept.checkpoint, study, *size)
+            study = self._study_of(page, design)
+            taken_up(kept.checkpoint, study, *(settings[name] for name in SIZE))
         except ValueError:
             raise
         except Exception:  # whatever else a file that somebody made can lead to
             raise damaged from None
         return page, design, study
+
+    def _study_of(self, page: Mapping[str, Any], design: Any) -> Study:
+        """The study that a page asks for."""
+        space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
+        judged = {name: page["judgements"][name] for name in self._judges()}
+        weighed = {name: ahp(upper or [[1]], method).weights for name, (upper, method) in judged.items()}
+        weights = {"weights": weighed["criteria"]} if self.criteria else {}
+        return self.studies[page["search"]["mode"]](design, reference=self.explorer.start, space=space, **weights)
 
     def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
         for name, panel in self._judges().items():
@@ -334,9 +378,9 @@ class Search(Panel):
 
     def stop(self) -> None:
         """Stop after the running generation; the front so far stays."""
-        if self._thread and self._thread.is_alive():
+        if self._run and self._running():
             self.status.value = "stopping"
-        self._stop.set()
+            self._run.stop()
 
     def on_front(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after each new front is shown, from whichever thread shows it."""
@@ -344,37 +388,14 @@ class Search(Panel):
 
     def wait(self, seconds: float | None = None) -> None:
         """Until the search has ended."""
-        if self._thread:
-            self._thread.join(seconds)
-
-    def _search(self, kept: Kept | None) -> None:
-        ended = False
-        try:
-            reference = reference_point(self.study)
-            reported = 0.0
-            settings = self.population.value, self.generations.value, self.seed.value
-            for generation in nsga2_generations(self.study, *settings, kept.checkpoint if kept else None):
-                gone = not threading.main_thread().is_alive()
-                ended = generation.number == generation.of
-                last = ended or self._stop.is_set() or gone
-                if last or time.monotonic() - reported > REPORT:
-                    self._report(generation, reference, last)
-                    reported = time.monotonic()
-                if last:
-                    break
-        except Exception as error:  # shown to the user: a thread has no other way to speak
-            tell(self._banner, f"The search ended early: {error}.")
-        finally:
-            if kept:
-                kept.remove() if ended else kept.let_go()
-            self.run_button.disabled, self.stop_button.disabled = False, True
-            self._offer_resume()
+        if self._run:
+            self._run.thread.join(seconds)
 
     def _report(self, generation: Generation, reference: Any, last: bool) -> None:
         self._x = generation.front.x
         self.front = generation.front if self.study is generation.study else generation.front.judged_by(self.study)
         self.progress.value = generation.number
-        if last or not self._stop.is_set():  # else it says "stopping"
+        if last or not (self._run and self._run.asked.is_set()):  # else it says "stopping"
             stopped = last and generation.number < generation.of
             self.status.value = escaped(
                 f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
@@ -448,7 +469,9 @@ class Search(Panel):
         """Everything on the page, to be saved."""
         judgements = {name: panel.upper for name, panel in self._judges().items()}
         front = self.front
-        return export.Work(self.study, self.explorer.design, judgements, self._settings(), front.x, front.record)
+        methods = {name: panel.method.value for name, panel in self._judges().items()}
+        settings = self._settings()
+        return export.Work(self.study, self.explorer.design, judgements, settings, front.x, front.record, methods)
 
     def _settings(self) -> dict[str, Any]:
         return {
@@ -470,37 +493,102 @@ class Search(Panel):
             )
         self._check_settings(work.search)
         self._check_judgements(work.judgements)
-        self.study, self._x = work.study, np.asarray(work.x)
-        empty = Front(work.study, self._x, np.zeros((0, len(work.study.minimise))))
-        self.front = front_of(work.study.evaluate(self._x), work.study) if len(self._x) else empty
-        self.front = replace(self.front, record=work.record)
+        work.design.analyse()
+        x = np.asarray(work.x)
+        empty = Front(work.study, x, np.zeros((0, len(work.study.minimise))))
+        front = front_of(work.study.evaluate(x), work.study) if len(x) else empty
+        self.study, self._x, self.front = work.study, x, replace(front, record=work.record)
         for name, bounds in self.bounds.items():
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():
             getattr(self, name).value = value
         for name, panel in self._judges().items():
             if name in work.judgements:
+                panel.method.value = work.methods.get(name, "eigenvector")
                 panel.load(work.judgements[name])
         self.explorer.load(work.design)
         self.status.value = f"loaded: {len(self.front)} designs on the front"
         self._show_front()
 
-    def load_json(self, text: str) -> None:
+    def _say(self, sentence: str) -> None:
+        tell(self._banner, sentence)
+
+    def load_json(self, file: str | bytes) -> None:
         """Show the study that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            self.load(export.from_json(text, export.Work))
-        except (ValueError, KeyError) as refusal:
+            found = export.read(file, export.Work, self._measures())
+            self.load(found.thing)
+        except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
-            tell(self._banner, "")
+            tell(self._banner, remarked(found))
+
+    def _measures(self) -> tuple[Measure, ...]:
+        """Every measure that a study of this page may have beside those of its mechanism."""
+        weights = {"weights": self.criteria.weights} if self.criteria else {}
+        start, measures = self.explorer.start, [*self.explorer.measures, *self.study.measures]
+        for make in self.studies.values():
+            with suppress(ValueError):  # of free quantities that this problem does not have
+                measures += make(start, reference=start, space=dict(self.study.free), **weights).measures
+        return tuple(measures)
 
     def summary(self) -> str:
         """The front's ends and the winner."""
-        if self.winner is None:
+        front, winner = self.front, self.winner
+        if winner is None or winner >= len(front):  # a running search may just have found a smaller front
             return f"no front yet; free: {', '.join(map(words, self.study.free))}"
-        f = self.front.f[self.winner]
+        f = front.f[winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def _offered(value: Any, control: Any) -> bool:
+    """Whether a menu or a box of whole numbers takes a value."""
+    return value in control.options if hasattr(control, "options") else control.min <= value <= control.max
+
+
+class _Run(Job):
+    """A search in its thread, the page that asked for it, and the ``panel`` that shows it, which may change."""
+
+    def __init__(self, panel: Search, kept: Kept | None) -> None:
+        self.asked, self.lock, self.over = threading.Event(), threading.RLock(), False
+        super().__init__(panel._kind(), panel._place, self._search, self.asked.set)
+        self.panel, self._kept, self.study = panel, kept, panel.study
+        self.page, self.design = panel._asked(), panel.explorer.design
+        self.reported: tuple[Generation, Any] | None = None
+        self._last = 0.0
+
+    def _search(self) -> None:
+        ended = False
+        try:
+            for generation, reference in self._generations():
+                ended = generation.number == generation.of
+                last = ended or self.asked.is_set() or not threading.main_thread().is_alive()  # the kernel is going
+                self._report(generation, reference, last)
+                if last:
+                    break
+        except Exception as error:  # shown to the user: a thread has no other way to speak
+            tell(self.panel._banner, f"The search ended early: {error}.")
+        finally:
+            with self.lock:
+                self.over = True
+                if self._kept:
+                    self._kept.remove() if ended else self._kept.let_go()
+                self.panel._show_run(self)
+
+    def _generations(self) -> Iterator[tuple[Generation, Any]]:
+        reference, checkpoint = reference_point(self.study), self._kept.checkpoint if self._kept else None
+        population, generations, seed = (self.page["search"][name] for name in SIZE)
+        for generation in nsga2_generations(self.study, population, generations, seed, checkpoint):
+            yield generation, reference
+
+    def _report(self, generation: Generation, reference: Any, last: bool) -> None:
+        """To whichever panel shows the search, now and then."""
+        if last or time.monotonic() - self._last > REPORT:
+            with self.lock:
+                self.reported = generation, reference
+                self.panel._report(generation, reference, last)
+            self._last = time.monotonic()
 
 
 def _left(generation: Generation) -> str:

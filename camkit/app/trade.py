@@ -72,7 +72,10 @@ class Trade(JobPanel):
 
     def _make_widgets(self) -> None:
         style = {"description_width": "62px"}
-        self.runner = Runner("Compute the fronts", lambda: self.explorer.design, self._search, lambda _: self._show())
+        page = self.explorer.start, list(self.ways)
+        self.runner = Runner(
+            "Compute the fronts", lambda: self.explorer.design, self._search, lambda _: self._show(), *page
+        )
         self.runner.run_button.disabled = not self.ways
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
         self.menu = w.Dropdown(

@@ -1,4 +1,4 @@
-// A button that lets a person choose a file and hands its text to the kernel.
+// A button that lets a person choose a file and hands its bytes to the kernel, no more than it would take.
 function render({ model, el }) {
   const button = document.createElement("button");
   const input = document.createElement("input");
@@ -9,7 +9,10 @@ function render({ model, el }) {
   input.hidden = true;
   button.addEventListener("click", () => input.click());
   input.addEventListener("change", async () => {
-    if (input.files.length) model.send({ text: await input.files[0].text() });
+    if (input.files.length) {
+      const start = input.files[0].slice(0, model.get("most"));
+      model.send({ name: input.files[0].name }, undefined, [await start.arrayBuffer()]);
+    }
     input.value = "";
   });
   el.append(button, input);

@@ -17,7 +17,7 @@ import numpy as np
 from ..geometry import offset_curvature, rotated
 from ..motion import Kinematics
 from ..quantities import fails
-from . import peaks, statics
+from . import groove, peaks, statics
 from .peaks import Extreme
 
 JUMP = 1e-6
@@ -321,6 +321,18 @@ class RollerAnalysis(CamAnalysis):
         most, angle = self.sharpest(flank)
         radius = _radius(most) - np.atleast_1d(self.cam.roller_radius)[..., 0]
         return Extreme(radius[()], angle)
+
+    @cached_property
+    def groove_gap(self) -> Any:
+        """Least width of the wall between two parts of an open groove, m; below 0 they merge (see `groove.gap`).
+
+        ``inf`` for a closed cam, of which the local test of both flanks is enough, and for a plate.
+        """
+        motion = self.cam.motion
+        if not self.groove or np.all(motion.periodic):
+            return np.where(self.buildable[..., 0], np.inf, np.nan)[()]
+        found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius)
+        return np.where(np.atleast_1d(motion.periodic)[..., 0] & np.isfinite(found), np.inf, found)[()]
 
     def contact_point(self, flank: Any = 1) -> np.ndarray:
         """Where the roller touches the inner flank (+1) or the outer one (-1), machine's frame, m."""

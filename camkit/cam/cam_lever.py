@@ -177,7 +177,7 @@ CAM_LEVER_MEASURES = (
     overrun,
 )
 """What a table of a cam and lever shows, in the paper's units."""
-CamLever.measures = CAM_LEVER_MEASURES
+CamLever.measures = (*CAM_LEVER_MEASURES, least_lead)
 
 LEVER_SIZES = {
     "arm_length": (200 * mm, 390 * mm),

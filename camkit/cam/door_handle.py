@@ -19,11 +19,13 @@ from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, choice, counted, fails, quantity
 from ..study import Study, weighted
 from ..units import deg, mm
+from . import groove
 from .load import ArmLoad, Friction, refuse_table
 from .measures import (
     CURVE,
     MOTION,
     base_radius,
+    groove_gap,
     least_convex_radius,
     part,
     peak_force,
@@ -292,6 +294,20 @@ class DoorHandleAnalysis:
         return self._along("curvature")
 
     @cached_property
+    def groove_gap(self) -> Any:
+        """Least width of the wall between two parts of the whole groove, m; below 0 they merge (see `groove.gap`)."""
+        cam, after = self.cam, self.cam.lift_cam_angle
+
+        def path(place: Any) -> np.ndarray:
+            """The relief roller's way over the handle angle, then the lift roller's over its own."""
+            lift = place - after
+            relief = self.from_relief(self.relief.at(np.minimum(place, cam.handle_angle)).pitch)
+            both = zip(self.lift.at(np.maximum(lift, 0.0)).pitch, relief, strict=True)
+            return np.stack([np.where(lift > cam.relief_cam_angle, x, y) for x, y in both])
+
+        return groove.gap(path, cam.handle_angle + after, cam.roller_radius)
+
+    @cached_property
     def undercut(self) -> np.ndarray:
         """Where the inner flank of the groove is undercut."""
         return self._along("undercut")
@@ -339,7 +355,7 @@ WORSE_CURVE = {
     m: worst(m, BOTH, np.minimum if m in _LEAST else np.maximum) for m in (steepest, peak_force, peak_torque, *_LEAST)
 }
 LIFT_CURVE = {m: part(m, "lift") for m in CURVE}
-DoorHandleCam.measures = (*CURVE_TABLE, *WORSE_CURVE.values())
+DoorHandleCam.measures = (*CURVE_TABLE, *WORSE_CURVE.values(), groove_gap)
 
 
 def door_handle_study(
@@ -371,12 +387,12 @@ def door_handle_study(
         )
     analysis = (reference or start).analyse(STUDY_ANGLES)
     effort = weighted("effort", dict(zip(efforts, weights, strict=True)), [float(m(analysis)) for m in efforts])
-    groove = {of[undercut_margin]: 0.1} if whole else {}
+    joined = {of[undercut_margin]: 0.1, groove_gap: 0.0} if whole else {}
     return Study(
         start=start,
         free=space or PAPER_SPACE,
         minimise=(effort, -of[least_convex_radius]),
         at_most={of[steepest]: 45 * deg},
         angles=STUDY_ANGLES,
-        at_least={of[base_radius]: 30 * mm, of[least_convex_radius]: 7 * mm, **groove},
+        at_least={of[base_radius]: 30 * mm, of[least_convex_radius]: 7 * mm, **joined},
     )

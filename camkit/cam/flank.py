@@ -243,7 +243,8 @@ def flanks(analysis: Any) -> Flanks:
     rows = np.arange(inner.shape[-1])
     if normals is not None:
         curve = _Curve("profile", inner, rows)
-        return Flanks({"profile": inner}, analysis.profile_angle, Face(normals, inner), (curve,))
+        turns = np.allclose(normals[:, 0], normals[:, -1], rtol=0, atol=CLEAR)
+        return Flanks({"profile": inner}, analysis.profile_angle, Face(normals, inner), (_ended(curve, turns),))
     theory = {"profile": inner} | ({"outer profile": outer} if np.isfinite(outer).all() else {})
     curves = [_with_corners(name, points, pitch, radius) for name, points in theory.items()]
     if len(theory) > 1 and not np.allclose(pitch[:, 0], pitch[:, -1], rtol=0, atol=CLEAR):
@@ -270,14 +271,23 @@ def _with_corners(flank: str, points: np.ndarray, pitch: np.ndarray, radius: flo
         parts += [points[:, done : i + 1], corner[:, None] + radius * np.array([np.cos(between), np.sin(between)])]
         numbers += [rows[done : i + 1], np.full(len(between), -1)]
         done = int(i) + 1
-    return _Curve(flank, np.hstack([*parts, points[:, done:]]), np.concatenate([*numbers, rows[done:]]))
+    curve = _Curve(flank, np.hstack([*parts, points[:, done:]]), np.concatenate([*numbers, rows[done:]]))
+    last = direction[-1] + np.linspace(0, (direction[0] - direction[-1] + np.pi) % (2 * np.pi) - np.pi, 91)[1:-1]
+    arc = pitch[:, :1] + radius * np.array([np.cos(last), np.sin(last)])
+    return _ended(curve, np.allclose(pitch[:, 0], pitch[:, -1], rtol=0, atol=CLEAR), arc)
+
+
+def _ended(curve: _Curve, turns: bool, between: np.ndarray = np.empty((2, 0))) -> _Curve:  # noqa: B008
+    """The flank of a follower that ``turns`` round and round, closed if it is not: its speed jumps at the start."""
+    if curve.closed or not turns:
+        return curve
+    points = np.hstack([curve.points, between, curve.points[:, :1]])
+    return _Curve(curve.flank, points, np.append(curve.rows, np.full(between.shape[1] + 1, -1)))
 
 
 def _meeting(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """The corner between three points of a path before it and three after it, all at even steps."""
-    one, other = (
-        np.polynomial.polynomial.polyfit(steps, p.T, 2) for steps, p in (((-2, -1, 0), before), ((1, 2, 3), after))
-    )
+    one, other = polyfit((-2, -1, 0), before.T, 2), polyfit((1, 2, 3), after.T, 2)
     apart = one - other
     turn = apart[1] / np.hypot(*apart[1])
     steps = np.roots((apart @ turn)[::-1]).real

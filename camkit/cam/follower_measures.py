@@ -8,7 +8,7 @@ import numpy as np
 
 from ..quantities import Measure
 from .closing import ContactPair, contact_along, jump_speed, torque_balance
-from .measures import CURVE, base_radius, mean_efficiency, peak, peak_force, peak_torque, steepest
+from .measures import CURVE, base_radius, groove_gap, mean_efficiency, peak, peak_force, peak_torque, steepest
 
 least_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
 undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
@@ -34,7 +34,7 @@ def peak_pressure(pair: ContactPair) -> Measure:
 
 
 _CLOSING = (least_force, mean_torque, jump_margin)
-ROLLER_CURVE = (*CURVE, least_profile_radius, undercut_place, *_CLOSING)
+ROLLER_CURVE = (*CURVE, groove_gap, least_profile_radius, undercut_place, *_CLOSING)
 """What a table of a cam under a sliding roller shows."""
 FLAT_CURVE = (
     steepest,

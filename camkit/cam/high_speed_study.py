@@ -54,7 +54,7 @@ HIGH_SPEED_MEASURES = (
     lift_off,
 )
 """What a table of a high-speed cam shows; peaks are those of rise and fall together."""
-HighSpeedCam.measures = HIGH_SPEED_MEASURES
+HighSpeedCam.measures = (*HIGH_SPEED_MEASURES, least_lead)
 
 GEOMETRY = {
     "arm_length": (40 * mm, 290 * mm),

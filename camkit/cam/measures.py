@@ -69,6 +69,7 @@ base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at:
 least_convex_radius = Measure("least convex radius (pitch)", "mm", _least_radius(1))
 least_concave_radius = Measure("least concave radius (pitch)", "mm", _least_radius(-1))
 undercut_margin = Measure("undercut margin of the groove", "", _groove_margin)
+groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap)
 peak_force = Measure("peak contact force", "N", peak(lambda a: abs(a.contact_force)))
 peak_torque = Measure("peak cam torque", "N mm", peak(lambda a: abs(a.cam_torque)))
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "efficiency"))
@@ -96,7 +97,7 @@ CURVE = (
     work_efficiency,
 )
 """What a table of one cam curve shows."""
-ARM_CURVE = (*CURVE, published_mean_efficiency)
+ARM_CURVE = (*CURVE, published_mean_efficiency, groove_gap)
 """As `CURVE`, for a roller on a rocking arm, of whose efficiency a formula is published."""
 
 

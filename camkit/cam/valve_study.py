@@ -50,6 +50,7 @@ STUDY_ANGLES = 91
 
 listed_deceleration = Measure("nose deceleration as listed", "", lambda a: abs(a.nose_acceleration) / mm * deg**2)
 """In the units of the paper's listing: mm and seconds, but the half angle in degrees."""
+ValveCam.measures = (*VALVE_MEASURES, nose_deceleration, listed_deceleration)
 
 
 def in_paper_units(cam: ValveCam) -> ValveCam:

@@ -41,8 +41,8 @@ class FreePolynomial(Law):
     array([0.028, 0.104, 0.216])
     """
 
-    start: tuple[Any, ...] = (0.0, 0.0, 0.0)
-    end: tuple[Any, ...] = (1.0, 0.0, 0.0)
+    start: tuple[Any | None, ...] = (0.0, 0.0, 0.0)
+    end: tuple[Any | None, ...] = (1.0, 0.0, 0.0)
 
     name = "free polynomial"
 

