@@ -1,4 +1,4 @@
-"""A notebook that is run again while a search runs: the search is seen and can be stopped, or has ended."""
+"""A notebook that is run or a page that is loaded again while a search runs: it is seen and can be stopped, or ended."""
 
 from pathlib import Path
 
@@ -78,3 +78,15 @@ def test_a_cell_that_was_changed_ends_the_search(running: Page) -> None:
     run_all(running)
     eventually(lambda: kernel_value(running, THREADS) == [])
     expect(cell(running, 1).get_by_role("button", name="Optimise")).to_be_enabled()
+
+
+def test_a_page_that_is_loaded_again_still_shows_the_search(running: Page) -> None:
+    threads = kernel_value(running, THREADS)
+    running.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+    running.goto(f"/lab/tree/{NAME}")
+    running.wait_for_function("() => window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel")
+    assert kernel_value(running, THREADS) == threads
+    expect(cell(running, 1).locator(".camkit-status")).to_contain_text(" left", timeout=60_000)
+    run_all(running)
+    assert kernel_value(running, THREADS) == threads
+    stop(running)
