@@ -1,4 +1,4 @@
-"""A notebook that is run or a page that is loaded again while a search runs: it is seen and can be stopped, or ended."""
+"""A notebook run again, or a page loaded again, while a search runs: it is seen and can be stopped, or has ended."""
 
 from pathlib import Path
 
