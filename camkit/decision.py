@@ -19,6 +19,7 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components
 
 from .quantities import counted
+from .typed import typed_number
 
 RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
 """Saaty (1980): mean consistency index of random reciprocal matrices of order 1..10; `random_index` goes on."""
@@ -199,12 +200,12 @@ def typed_judgement(words: str) -> float:
 
     Raises ``ValueError`` for anything else.
     """
-    text = "".join(words.split()).replace(",", ".")
-    if text in ("", "?"):
+    if words.strip() in ("", "?"):
         return math.nan
+    above, fraction, below = words.partition("/")
     try:
-        value = float(Fraction(text)) if len(text) <= 40 else math.nan
-    except (ValueError, ZeroDivisionError, OverflowError):
+        value = typed_number(above) / (typed_number(below) if fraction else 1.0)
+    except (ValueError, ZeroDivisionError):
         value = math.nan
     if not 0 < value < math.inf:
         raise ValueError(f"{words[:40]!r} is no number above 0; 3, 1/5 or 0.4 are")

@@ -431,7 +431,9 @@ def test_an_empty_box_leaves_a_pair_open():
     assert "camkit-unjudged" not in panel.sliders[(0, 2)]._dom_classes
 
 
-@pytest.mark.parametrize("words", ["many", "-3", "0", "1/0", "inf", "3;4"])
+@pytest.mark.parametrize(
+    "words", ["many", "-3", "0", "1/0", "inf", "3;4", "1 2", "1_0", "1/2/3", "1,234", "nan", "--5", "2 in", "∞"]
+)
 def test_what_is_no_judgement_is_refused_in_a_sentence(words):
     panel = judge(["a", "b"], [3])
     panel.boxes[(0, 1)].value = words
