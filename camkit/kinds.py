@@ -48,24 +48,86 @@ def finite(value: Any) -> Any:
     return False if known is None else np.isfinite(known)
 
 
+def a_number(value: Any, what: str, must: str = "be a finite number", holds: Callable[[Any], Any] | None = None) -> Any:
+    """``value`` as a float or a column; ``ValueError`` if it is none, or one number for which ``holds`` does not hold.
+
+    Members of a column that are not finite, or for which it does not, become ``nan``.
+
+    >>> a_number(-1, "the speed", "be at least 0", lambda speed: speed >= 0)
+    Traceback (most recent call last):
+        ...
+    ValueError: the speed is -1; it must be at least 0
+    """
+    known = number(value)
+    if known is not None:
+        ok = np.isfinite(known) & (True if holds is None else holds(known))
+        if np.all(ok):
+            return known
+        if np.ndim(known):
+            return np.where(ok, known, np.nan)
+    raise ValueError(f"{what} is {shown(value)}; it must {must}")
+
+
+def numbers(value: Any, what: str) -> np.ndarray:
+    """``value`` as an array of floats of any shape; ``ValueError`` for what holds anything but real numbers."""
+    if isinstance(value, float):
+        return np.asarray(value)
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "iuf" and array.size:
+            raise TypeError
+        return array.astype(float, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{what} must be numbers; given is {shown(value)}") from None
+
+
+def listed(value: Any, what: str, each: str = "number") -> tuple[Any, ...]:
+    """``value`` as a tuple; ``ValueError`` for what is no tuple, list or array."""
+    if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim):
+        return tuple(value)
+    raise ValueError(f"{what} is {shown(value)}; it must be a tuple, with a place for each {each}")
+
+
+ARRAYS = {
+    "c": " of complex numbers",
+    "b": " of truths",
+    "U": " of text",
+    "S": " of text",
+    "M": " of dates",
+    "O": " of mixed things",
+}
+"""What an array holds, by the letter of its type; numbers need no word."""
+
+
 def shown(value: Any) -> str:
     """``value`` as a sentence can hold it.
 
-    >>> shown("22"), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
-    ("'22'", 'an array of shape (3,)', 'a dict')
+    >>> shown("22"), shown([]), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
+    ("'22'", 'an empty list', 'an array of shape (3,)', 'a dict')
     """
+    if isinstance(value, np.generic):
+        value = value.item()
+    if type(value) is float:
+        return f"{value:.6g}"
     if isinstance(value, np.ndarray):
-        kind = "" if value.dtype.kind in "iuf" else f" of {value.dtype.name}"
-        return (
-            f"an array{kind} of shape {value.shape}" if value.size != 1 or kind else f"an array of {value.item():.6g}"
-        )
+        return f"an array{ARRAYS.get(value.dtype.kind, '')} of shape {value.shape}"
+    if isinstance(value, (tuple, list, set, dict)) and not value:
+        return f"an empty {type(value).__name__}"
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
     try:
         text = repr(value)
-    except ValueError:  # an integer of thousands of digits
+    except ValueError:  # an integer of thousands of digits, or a list that holds one
+        text = " at 0x"
+    if len(text) <= LONGEST and "\n" not in text and " at 0x" not in text and "array(" not in text:
+        return text
+    if isinstance(value, int):
         return "a very large number"
-    if len(text) > LONGEST or "\n" in text or " at 0x" in text:
-        return "a very large number" if isinstance(value, int) else f"a {type(value).__name__}"
-    return text
+    return f"{_article(type(value).__name__)} {type(value).__name__}" if type(value) is not object else "something else"
+
+
+def _article(name: str) -> str:
+    return "an" if name[0] in "AEIOUaeiou" else "a"
 
 
 class Kind(NamedTuple):
@@ -120,7 +182,8 @@ def _kinds(cls: type) -> tuple[tuple[str, Kind], ...]:
 
 
 def _one(value: Any) -> bool:
-    return np.ndim(value) == 0 and bool(finite(value))
+    known = number(value)
+    return known is not None and np.ndim(known) == 0 and bool(np.isfinite(known))
 
 
 SIMPLE: dict[Any, Kind] = {
@@ -134,6 +197,8 @@ SIMPLE: dict[Any, Kind] = {
 
 def _kind(hint: Any) -> Kind | None:
     """What an annotation asks for; ``None`` where anything will do."""
+    if hint in (Any, object):
+        return None
     if hint in SIMPLE:
         return SIMPLE[hint]
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
@@ -149,9 +214,8 @@ def _kind(hint: Any) -> Kind | None:
         return _sequence(_kind(parts[0]) if isinstance(parts[0], type) and parts[0] is not float else None)
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return Kind(lambda v: isinstance(v, Mapping), "a mapping such as {name: value}")
-    if isinstance(hint, type) and hint is not object:
-        article = "an" if hint.__name__[0] in "AEIOU" else "a"
-        return Kind(lambda v: isinstance(v, hint), f"{article} {hint.__name__}")
+    if isinstance(hint, type):
+        return Kind(lambda v: isinstance(v, hint), f"{_article(hint.__name__)} {hint.__name__}")
     return None
 
 

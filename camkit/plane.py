@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize
 
-from .quantities import Measure, declarations
+from .kinds import numbers, refuse_kinds, shown
+from .quantities import Measure, counted, declarations
 from .study import Evaluation, Study
 
 STEP = 1e-6
@@ -36,6 +37,8 @@ class Plane:
     n: int = 81
 
     def __post_init__(self) -> None:
+        refuse_kinds(self)
+        counted(self.n, "grid lines of a plane", most=2_000)
         free, objectives = len(self.study.free), len(self.study.minimise)
         if free != 2:
             raise ValueError(f"a plane shows two free quantities; this study has {free}")
@@ -43,6 +46,13 @@ class Plane:
             raise ValueError(f"a plane shows one objective; this study has {objectives}")
         if self.window is None:
             object.__setattr__(self, "window", self.study.bounds)
+        window = numbers(self.window, "the window of a plane")
+        if window.shape != (2, 2) or not np.isfinite(window).all() or not (window[0] < window[1]).all():
+            raise ValueError(
+                f"the window of a plane is {shown(self.window)}; it must be the two lower ends of both quantities, "
+                "then the two upper ones"
+            )
+        object.__setattr__(self, "window", window)
 
     @cached_property
     def axes(self) -> np.ndarray:

@@ -87,6 +87,10 @@ class Quantity:
     at_least: float | None = None
     at_most: float | None = None
 
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        self.factor  # noqa: B018  refuses what is no unit
+
     @cached_property
     def factor(self) -> float:
         """SI value of one unit."""
@@ -170,6 +174,11 @@ class Choice:
     options: tuple[Any, ...]
     meaning: str
 
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        if not np.size(self.options):
+            raise ValueError("the choice has no options; it must have one or more")
+
     @cached_property
     def _common(self) -> frozenset[str]:
         """What every option can be asked for."""
@@ -231,7 +240,7 @@ def fails(ok: Any) -> bool:
     return np.ndim(ok) == 0 and not ok
 
 
-def counted(n: Any, what: str, least: int = 2, most: int = 10_000_000) -> int:
+def counted(n: Any, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < least:
         raise ValueError(f"the number of {what} is {shown(n)}; it must be a whole number of at least {least}")
@@ -354,6 +363,12 @@ class Measure:
     unit: str
     function: Callable[[Any], Any] = field(repr=False, compare=False)
     sign: int = 1
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        factor(self.unit)
+        if self.sign not in (1, -1):
+            raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
 
     def __call__(self, analysis: Any) -> Any:
         return self.sign * self.function(analysis)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .kinds import finite, number, refuse_kinds, shown
 from .quantities import Measure, Quantity, counted, declarations, unremarked, words
 
 
@@ -66,7 +67,8 @@ def keeps(value: Any, limit: float, sense: int) -> Any:
 
 
 def _number(value: Any) -> bool:
-    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    known = number(value)
+    return known is not None and np.ndim(known) == 0
 
 
 def _numbers(measure: Measure, analysis: Any, p: int, kind: str) -> Any:
@@ -129,15 +131,17 @@ class Study:
 
     def __post_init__(self) -> None:
         if isinstance(self.start, type) or not is_dataclass(self.start) or not hasattr(self.start, "analyse"):
-            given = f"the class {self.start.__name__}" if isinstance(self.start, type) else type(self.start).__name__
-            raise ValueError(f"a study needs a design that can be analysed, such as a cam; it was given {given}")
+            raise ValueError(
+                f"a study needs a design that can be analysed, such as a cam; it was given {shown(self.start)}"
+            )
         declared = {k: q for k, q in declarations(self.start).items() if isinstance(q, Quantity)}
-        if isinstance(self.free, str) or not self.free:
+        given: Any = self.free
+        if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
         for name in self.free:
-            if name not in declared:
+            if not isinstance(name, str) or name not in declared:
                 raise ValueError(
-                    f"{name!r} is not a quantity of {type(self.start).__name__}; there are {', '.join(declared)}"
+                    f"{shown(name)} is not a quantity of {type(self.start).__name__}; there are {', '.join(declared)}"
                 )
         if not isinstance(self.free, Mapping):
             ranges = {
@@ -148,19 +152,20 @@ class Study:
             raise ValueError("a study needs a tuple of one or more measures to minimise")
         object.__setattr__(self, "minimise", tuple(self.minimise))
         counted(self.angles, "cam angles of a study")
+        refuse_kinds(self, but=("minimise", "angles"))
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
         for name, bounds in self.free.items():
-            if np.shape(bounds) != (2,) or not all(_number(bound) for bound in bounds):
-                raise ValueError(f"the bounds of the {words(name)} are {bounds!r}; they must be two numbers")
+            if not hasattr(bounds, "__len__") or len(bounds) != 2 or not all(map(_number, bounds)):
+                raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
             self._check_bounds(name, declared[name], *bounds)
         limits = (*self.at_most.items(), *self.at_least.items())  # type: ignore[union-attr]
         for measure in (*self.minimise, *(measure for measure, _ in limits)):
             if not isinstance(measure, Measure):
-                raise ValueError(f"the study has {measure!r} where a Measure belongs")
+                raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
         for measure, limit in limits:
-            if not _number(limit) or not np.isfinite(limit):
-                raise ValueError(f"the limit of the {measure.name} is {limit!r}; it must be a finite number")
+            if not _number(limit) or not finite(limit):
+                raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
 
     def _check_bounds(self, name: str, declared: Quantity, low: float, high: float) -> None:
         if not (np.isfinite([low, high]).all() and low < high):

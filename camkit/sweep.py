@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import Measure, declarations
+from .kinds import refuse_kinds
+from .quantities import Measure, counted, declarations
 from .study import Evaluation, Study
 
 
@@ -28,6 +29,8 @@ class Sweep:
     n: int = 121
 
     def __post_init__(self) -> None:
+        refuse_kinds(self)
+        counted(self.n, "values of a sweep", most=100_000)
         if len(self.study.free) != 1:
             raise ValueError(f"a sweep shows one free quantity; this study has {len(self.study.free)}")
 

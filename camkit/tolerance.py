@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
+from .kinds import number, refuse_kinds, shown
 from .quantities import Measure, Quantity, counted, declarations, words
 from .study import Evaluation, Study
 from .units import deg, mm
@@ -109,19 +110,22 @@ class Tolerances:
     seed: int = 1
 
     def __post_init__(self) -> None:
+        refuse_kinds(self)
+        if not 0 <= self.seed < 2**63:
+            raise ValueError(f"the seed is {shown(self.seed)}; it must be a whole number of at least 0")
         start = self.study.start
         declared = {name: q for name, q in declarations(start).items() if isinstance(q, Quantity)}
         for name, half in self.half_widths.items():
             if name not in declared:
                 raise ValueError(
-                    f"{name!r} is not a quantity of {type(start).__name__}; there are {', '.join(declared)}"
+                    f"{shown(name)} is not a quantity of {type(start).__name__}; there are {', '.join(declared)}"
                 )
             _check(name, declared[name], getattr(start, name), half)
         if not any(self.half_widths.values()):
             raise ValueError("there is no tolerance above 0; one must be")
         if self.spread not in SPREADS:
-            raise ValueError(f"the spread is {self.spread!r}; there are {', '.join(SPREADS)}")
-        if counted(self.parts, "parts", 4) & (self.parts - 1):
+            raise ValueError(f"the spread is {shown(self.spread)}; there are {', '.join(SPREADS)}")
+        if counted(self.parts, "parts", 4, 2**20) & (self.parts - 1):
             raise ValueError(f"the number of parts is {self.parts}; it must be a power of 2")
 
     @property
@@ -251,8 +255,9 @@ def _named(measure: Measure) -> Measure:
 
 def _check(name: str, declared: Quantity, value: Any, half: Any) -> None:
     """Refuse a half width that makes no sense."""
-    if isinstance(half, bool) or not isinstance(half, (int, float)):  # numpy's numbers are float
-        raise ValueError(f"the tolerance of the {words(name)} is {half!r}; it must be a number of at least 0")
+    if number(half) is None or np.ndim(number(half)):
+        raise ValueError(f"the tolerance of the {words(name)} is {shown(half)}; it must be a number of at least 0")
+    half = number(half)
     if not (np.isfinite(half) and half >= 0):
         raise ValueError(
             f"the tolerance of the {words(name)} is {declared.text(half)}; it must be a finite number of at least 0"

@@ -60,6 +60,7 @@ FACTORS = {
     "kg m^2": kg * m**2,
     "N": N,
     "kN": kN,
+    "N/m": N / m,
     "N/mm": N / mm,
     "N^0.5 mm^-0.5": (N / mm) ** 0.5,
     "N^1.5 mm^-0.5": N**1.5 / mm**0.5,

@@ -201,7 +201,7 @@ class Toolbox(Design):
 
 KINDS = {
     "a design": ({"bar": "long"}, "the bar is 'long'; it must be a Crowbar"),
-    "a class": ({"bar": Crowbar}, "the bar is <class 'tests.test_quantities.Crowbar'>; it must be a Crowbar"),
+    "a class": ({"bar": Crowbar}, "the bar is the class Crowbar; it must be a Crowbar"),
     "a whole number": ({"locks": 1.5}, "the locks is 1.5; it must be a whole number"),
     "no truth": ({"locks": True}, "the locks is True; it must be a whole number"),
     "a truth": ({"open": 1}, "the open is 1; it must be True or False"),
@@ -209,7 +209,7 @@ KINDS = {
     "a tuple": ({"shelves": 0.3}, "the shelves is 0.3; it must be a tuple"),
     "a function": ({"test": "x > 1"}, "the test is 'x > 1'; it must be a function or None"),
     "a complex number": ({"width": 1 + 2j}, "the width b is (1+2j); it must be a finite number above 0 mm"),
-    "a truth for a number": ({"width": np.True_}, "the width b is np.True_; it must be a finite number above 0 mm"),
+    "a truth for a number": ({"width": np.True_}, "the width b is True; it must be a finite number above 0 mm"),
     "None": ({"width": None}, "the width b is None; it must be a finite number above 0 mm"),
     "a list": ({"width": [0.3]}, "the width b is [0.3]; it must be a finite number above 0 mm"),
     "an array of the shape (3,)": (
@@ -224,7 +224,7 @@ KINDS = {
     ),
     "an array of truths": (
         {"width": np.array([[True]])},
-        "the width b is an array of bool of shape (1, 1); it must be a finite number above 0 mm, "
+        "the width b is an array of truths of shape (1, 1); it must be a finite number above 0 mm, "
         "or a column of them of the shape (p, 1)",
     ),
     "columns of different lengths": (
@@ -238,7 +238,7 @@ KINDS = {
 def test_a_field_of_another_kind_than_annotated_is_refused(values, sentence):
     with pytest.raises(ValueError) as refused:  # noqa: PT011  the whole sentence is compared
         Toolbox(**values)
-    assert str(refused.value).replace("<class 'test_quantities", "<class 'tests.test_quantities") == sentence
+    assert str(refused.value) == sentence
 
 
 def test_numbers_of_any_type_are_kept_as_floats():

@@ -162,10 +162,10 @@ def test_the_sign_of_a_weighted_sum_survives_new_weights():
     ("start", "given"),
     [
         (TinCan, "the class TinCan"),
-        (RockerLoad(), "RockerLoad"),
+        (RockerLoad(), "a RockerLoad"),
         (Friction(), "Friction"),
-        (None, "NoneType"),
-        ("a cam", "str"),
+        (None, "None"),
+        ("a cam", "'a cam'"),
     ],
 )
 def test_what_cannot_be_analysed_is_refused(start, given) -> None:

@@ -20,6 +20,7 @@ import numpy as np
 
 from ..contact import contact_modulus, hertz_line
 from ..geometry import angle_opposite
+from ..kinds import shown
 from ..motion import LAWS, Dwell, Kinematics, Law, MotionProgram, Poly345, Return, Rise
 from ..motion.shaped import DEGREE9, FAMILIES, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
@@ -89,7 +90,7 @@ class FreeLawCam(Design):
     def _law(self, way: str) -> Law:
         base = getattr(self, f"{way}_law")
         if not isinstance(base, Law):
-            raise ValueError(f"the {way} law is {base!r}; it must be a motion law such as Degree9((0, 0, 0, 0))")
+            raise ValueError(f"the {way} law is {shown(base)}; it must be a motion law such as Degree9((0, 0, 0, 0))")
         c = tuple(getattr(self, f"{way}_c{i}") for i in range(4))
         return base if all(np.ndim(ci) == 0 and ci == 0 for ci in c) else ShapedLaw(base, c, self.family)
 
@@ -140,7 +141,7 @@ class HighSpeedCam(FreeLawCam):
 
     def _refuse_intervals(self) -> None:
         if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
         moving = self.rise_angle + self.return_angle
         fits = moving < 2 * np.pi
         if fails(fits):

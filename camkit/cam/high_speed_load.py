@@ -8,8 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..kinds import a_number, refuse_kinds
 from ..motion import Kinematics
-from ..quantities import Design, quantity
+from ..quantities import Design, quantity, words
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,11 @@ class SliderLoad:
     inertia_speed2: Any
 
     name: ClassVar[str] = "slider on a lever"
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for name in ("lever", "weight", "inertia_speed2"):
+            object.__setattr__(self, name, a_number(getattr(self, name), f"the {words(name)} of the slider's load"))
 
     def way(self, motion: Kinematics, swing: Any) -> Any:
         """``s``: of the slider from its lowest position, m."""

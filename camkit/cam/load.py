@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import numbers, shown
 from ..quantities import Design, quantity
 
 
@@ -77,11 +78,11 @@ Table = tuple[tuple[float, float], ...]
 def refuse_table(name: str, first: str, second: str, table: Table) -> None:
     """``ValueError`` if a table is not one of pairs, has an entry that is no finite number or is out of order."""
     try:
-        entries = np.asarray(table, dtype=float)
-    except (TypeError, ValueError):
+        entries = numbers(table, name)
+    except ValueError:
         entries = np.zeros(1)
     if entries.size and (entries.ndim != 2 or entries.shape[1] != 2):
-        raise ValueError(f"the {name} is {table!r}; it must hold pairs of numbers ({first}, {second})")
+        raise ValueError(f"the {name} is {shown(table)}; it must hold pairs of numbers ({first}, {second})")
     if not np.isfinite(entries).all():
         raise ValueError(f"the {name} has an entry that is not a finite number; it holds ({first}, {second})")
     if entries.size and (np.diff(entries[:, 0]) <= 0).any():
@@ -90,7 +91,7 @@ def refuse_table(name: str, first: str, second: str, table: Table) -> None:
 
 def tabulated(table: Table, at: Any) -> Any:
     """The load that ``table`` gives, straight between its entries and constant outside; 0 from an empty one."""
-    return np.interp(at, *np.transpose(table)) if table else 0.0
+    return np.interp(at, *np.transpose(table)) if len(table) else 0.0
 
 
 def opposite_table(table: Table, side: int) -> Table:

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import shown
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, counted, quantity
 from ..units import deg, mm
@@ -64,7 +65,7 @@ class OscillatingRollerCam(Design):
     def __post_init__(self) -> None:
         super().__post_init__()
         if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
 
     def analyse(self, n: int = 721) -> OscillatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import shown
 from ..motion import MotionProgram
 from ..quantities import Design, counted, fails, quantity
 from ..units import mm
@@ -52,7 +53,7 @@ class TranslatingFlatCam(Design):
     def __post_init__(self) -> None:
         super().__post_init__()
         if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
 
     @property
     def roller_radius(self) -> float:

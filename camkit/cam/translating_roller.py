@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import shown
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, counted, fails, quantity
 from ..units import deg, mm
@@ -72,7 +73,7 @@ class TranslatingRollerCam(Design):
     def __post_init__(self) -> None:
         super().__post_init__()
         if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {self.rotation!r}; it must be +1 or -1")
+            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
         if fails(abs(self.offset) < self.prime_radius):
             raise ValueError(
                 f"the offset of the follower is {self.offset / mm:.4g} mm; base circle and roller make "

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import shown
 from ..quantities import Measure, choice, counted, fails, quantity
 from ..study import Study
 from ..units import deg, mm
@@ -78,8 +79,8 @@ class CabinDoorLinkage(Links):
     load: RockerLoad = field(default_factory=RockerLoad)
 
     def __post_init__(self) -> None:
-        if self.branch not in tuple(Branch):
-            raise ValueError(f"the branch is {self.branch!r}; it must be +1 or -1")
+        if not isinstance(self.branch, int) or self.branch not in tuple(Branch):
+            raise ValueError(f"the branch is {shown(self.branch)}; it must be +1 or -1")
         object.__setattr__(self, "branch", Branch(self.branch))
         super().__post_init__()
         if fails(self.start_angle != self.end_angle):

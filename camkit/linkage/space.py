@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import numbers, refuse_kinds, shown
 from ..units import mm
 
 
@@ -28,6 +29,12 @@ class Box:
     """What it is, for the names of its measures: "the wall"."""
 
     def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for name in ("low", "high"):
+            corner = numbers(getattr(self, name), f"the {name} corner of the box")
+            if corner.shape != (3,):
+                raise ValueError(f"the {name} corner of the box is {shown(getattr(self, name))}; it must be x, y, z")
+            object.__setattr__(self, name, tuple(corner.tolist()))
         for axis, low, high in zip("xyz", self.low, self.high, strict=True):
             if not (np.isfinite([low, high]).all() and low < high):
                 raise ValueError(

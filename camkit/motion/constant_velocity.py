@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy import cos, inf, pi, sin
 
-from ..kinds import finite
-from ..quantities import fails, quantity
+from ..kinds import a_number, shown
+from ..quantities import quantity
 from .law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")
@@ -45,19 +45,10 @@ class ConstantVelocity(Law):
     name = "constant velocity"
 
     def __post_init__(self) -> None:
-        if fails(self._possible):
-            shown = f"the blend of the constant velocity law is {self.blend}"
-            raise ValueError(f"{shown}; it must be above 0 and at most 0.5")
-        if self.shape not in SHAPES:
-            raise ValueError(f"the blend has the shape {self.shape!r}; it can be {' or '.join(SHAPES)}")
-
-    @property
-    def _possible(self) -> Any:
-        return finite(self.blend) is not False and (self.blend > 0) & (self.blend <= 0.5)
-
-    @property
-    def _b(self) -> Any:
-        return np.where(self._possible, self.blend, np.nan)[()]
+        what, must = "the blend of the constant velocity law", "be above 0 and at most 0.5"
+        object.__setattr__(self, "blend", a_number(self.blend, what, must, lambda b: (b > 0) & (b <= 0.5)))
+        if not isinstance(self.shape, str) or self.shape not in SHAPES:
+            raise ValueError(f"the blend has the shape {shown(self.shape)}; it can be {' or '.join(SHAPES)}")
 
     @property
     def continuity(self) -> int:
@@ -65,20 +56,20 @@ class ConstantVelocity(Law):
 
     @property
     def kinks(self) -> tuple[Any, ...]:
-        return (self._b, 1 - self._b)
+        return (self.blend, 1 - self.blend)
 
     def at(self, u: Any) -> Kinematics:
         return mirrored(u, self._first_half)
 
     def _first_half(self, u: Any) -> Kinematics:
-        b = self._b
+        b = self.blend
         V = 1 / (1 - b)
         straight = (V * (u - b / 2), V + 0 * u, 0 * u * b, 0 * u * b)
         blended = _cycloidal(u, b, V) if self.shape == "cycloidal" else _parabolic(u, b, V)
         return Kinematics(*(np.where(u <= b, x, y) for x, y in zip(blended, straight, strict=True)))
 
     def peaks(self) -> Peaks:
-        b = self._b
+        b = self.blend
         V = 1 / (1 - b)
         if self.shape == "parabolic":
             return Peaks(V, V / b, inf + 0 * b)

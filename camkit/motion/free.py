@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
-from ..kinds import finite
-from ..quantities import fails
+from ..kinds import a_number, listed, refuse_lengths
 from .extremes import law_peaks
 from .law import Kinematics, Law, Peaks
 from .polynomial import Poly345
@@ -47,10 +46,9 @@ class FreePolynomial(Law):
     name = "free polynomial"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "start", tuple(self.start))
-        object.__setattr__(self, "end", tuple(self.end))
-        for word, values in (("start", self.start), ("end", self.end)):
-            _refuse_values(word, values)
+        object.__setattr__(self, "start", _values("start", self.start))
+        object.__setattr__(self, "end", _values("end", self.end))
+        refuse_lengths(self)
         _inverse(self._conditions)
 
     @property
@@ -94,12 +92,15 @@ def _inverse(conditions: tuple[Condition, ...]) -> Any:
     return np.linalg.inv(np.array(rows))
 
 
-def _refuse_values(word: str, values: tuple[Any, ...]) -> None:
+def _values(word: str, given: Any) -> tuple[Any, ...]:
+    """What is given at one end, each a number, a column or ``None``."""
+    values = listed(given, f"the {word} of the free polynomial", "value")
     if len(values) > 4:
         raise ValueError(f"the {word} of the free polynomial has {len(values)} values; it can have s, v, a, j at most")
-    for letter, value in zip(LETTERS, values, strict=False):
-        if value is not None and fails(finite(value)):
-            raise ValueError(f"{letter} at the {word} of the free polynomial is {value}; it must be a finite number")
+    return tuple(
+        value if value is None else a_number(value, f"{letter} at the {word} of the free polynomial")
+        for letter, value in zip(LETTERS, values, strict=False)
+    )
 
 
 @dataclass(frozen=True)
@@ -121,12 +122,12 @@ class Degree9(Law):
     continuity = 2
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "c", tuple(self.c))
-        if len(self.c) != 4:
-            raise ValueError(f"the degree 9 law has {len(self.c)} coefficients c; it must have four")
-        for i, value in enumerate(self.c):
-            if fails(finite(value)):
-                raise ValueError(f"the coefficient c{i} of the degree 9 law is {value}; it must be a finite number")
+        c = listed(self.c, "the c of the degree 9 law", "coefficient")
+        if len(c) != 4:
+            raise ValueError(f"the degree 9 law has {len(c)} coefficients c; it must have four")
+        c = tuple(a_number(value, f"the coefficient c{i} of the degree 9 law") for i, value in enumerate(c))
+        object.__setattr__(self, "c", c)
+        refuse_lengths(self)
 
     def at(self, u: Any) -> Kinematics:
         c0, c1, c2, c3 = self.c

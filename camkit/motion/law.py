@@ -9,6 +9,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kinds import numbers
+
 ROUNDING = 1e-9
 """How far outside [0, 1] a ``u`` may lie and still be taken for the end that was meant."""
 
@@ -69,7 +71,7 @@ class Law(ABC):
 
 def _inside(u: ArrayLike) -> Any:
     """``u`` as an array of floats, ``nan`` where it lies outside [0, 1]."""
-    u = np.asarray(u, dtype=float)
+    u = numbers(u, "the shares of the time")
     nearest = np.minimum(np.maximum(u, 0.0), 1.0)
     return np.where(np.abs(u - nearest) <= ROUNDING, nearest, np.nan)
 

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import finite
+from ..kinds import a_number, finite, listed, number, numbers, refuse_lengths, shown
 from ..quantities import fails
 from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
@@ -107,12 +107,13 @@ class _Move(Segment):
 
     def __post_init__(self) -> None:
         _refuse_angle(self)
-        if fails(finite(self.lift)):
-            raise ValueError(f"the lift of the {_word(self)} is {self.lift}; it must be a finite number")
-        if not callable(self.law) or isinstance(self.law, type):
-            raise ValueError(
-                f"the law of the {_word(self)} is {self.law!r}; it must be a motion law such as Cycloidal()"
-            )
+        what, other = _word(self), "return" if isinstance(self, Rise) else "rise"
+        must = f"be a finite number of at least 0 (less is a {other})"
+        lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: lift >= 0)
+        object.__setattr__(self, "lift", lift)
+        if not _is_law(self.law):
+            raise ValueError(f"the law of the {what} is {shown(self.law)}; it must be a motion law such as Cycloidal()")
+        refuse_lengths(self)
 
     @property
     def kinks(self) -> tuple[Any, ...]:
@@ -128,8 +129,9 @@ class _Move(Segment):
 class Rise(_Move):
     """The level grows by ``lift`` (m or rad) over ``angle`` (rad, above 0) after the motion law ``law``.
 
-    ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a motion law, or
-    any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by ``ValueError``.
+    ``lift`` is 0 or more.  ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a
+    motion law, or any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by
+    ``ValueError``.
     """
 
     @property
@@ -170,7 +172,8 @@ class MotionProgram:
     start: Any = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "segments", tuple(self.segments))
+        object.__setattr__(self, "segments", listed(self.segments, "what the program is made of", "segment"))
+        object.__setattr__(self, "start", a_number(self.start, "the start of the program"))
         _refuse_program(self)
 
     @cached_property
@@ -229,7 +232,7 @@ class MotionProgram:
 
     def __call__(self, cam_angle: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``cam_angle`` (rad); at a joint the segment that begins there speaks."""
-        phi = np.asarray(cam_angle, dtype=float)
+        phi = numbers(cam_angle, "the cam angles")
         with np.errstate(all="ignore"):
             out = self._at(self._within(np.atleast_1d(phi)))
         return Kinematics(*(out if phi.ndim else out[..., 0]))
@@ -237,7 +240,8 @@ class MotionProgram:
     def in_time(self, cam_angle: ArrayLike, speed: Any) -> Kinematics:
         """``s, v, a, j`` with respect to time (m or rad, per s^k) at a constant shaft ``speed`` (rad/s).
 
-        ``speed`` may be an array of shape ``(p, 1)``.  ``ValueError`` for one that is not finite.
+        ``speed`` may be an array of shape ``(p, 1)``.  ``ValueError`` for one that is not finite
+        or below 0 (a cam that turns back runs another program).
 
         >>> from camkit.motion import SimpleHarmonic
         >>> from camkit.units import deg, mm, rpm
@@ -245,8 +249,8 @@ class MotionProgram:
         >>> rise.in_time(60 * deg, 100 * rpm).v.round(2)
         np.float64(0.39)
         """
-        if fails(finite(speed)):
-            raise ValueError(f"the speed of the shaft is {speed}; it must be a finite number")
+        must = "be a finite number of at least 0"
+        speed = a_number(speed, "the speed of the shaft", must, lambda speed: speed >= 0)
         s, v, a, j = self(cam_angle)
         return Kinematics(s + 0 * speed, v * speed, a * speed**2, j * speed**3)
 
@@ -325,6 +329,19 @@ def program_between(
     return MotionProgram(tuple(segments), start)
 
 
+def _is_law(law: Any) -> bool:
+    """Whether ``law`` is a motion law, or a function that gives four arrays as one does."""
+    if isinstance(law, Law):
+        return True
+    if isinstance(law, type) or not callable(law):
+        return False
+    try:
+        given = [np.asarray(part, dtype=float) for part in law(np.linspace(0, 1, 5))]
+    except Exception:  # whatever goes wrong in a user's function, it is no law
+        return False
+    return len(given) == 4 and all(part.shape[-1:] in ((), (5,)) for part in given)
+
+
 def _positive(angle: Any) -> Any:
     return finite(angle) is not False and finite(angle) & (angle > 0)
 
@@ -338,19 +355,21 @@ def _degrees(angle: Any) -> str:
 
 
 def _refuse_angle(segment: Segment) -> None:
-    if fails(_positive(segment.angle)):
-        shown = _degrees(segment.angle)
-        raise ValueError(f"the angle of the {_word(segment)} is {shown}; it must be a finite angle above 0 deg")
+    angle = number(segment.angle)
+    if angle is None or fails(_positive(angle)):
+        said = shown(segment.angle) if angle is None else _degrees(angle)
+        raise ValueError(f"the angle of the {_word(segment)} is {said}; it must be a finite angle above 0 deg")
+    object.__setattr__(segment, "angle", np.where(_positive(angle), angle, np.nan) if np.ndim(angle) else angle)
 
 
 def _refuse_program(program: MotionProgram) -> None:
     if not program.segments:
         raise ValueError("the program is empty; it needs at least one rise, return or dwell")
-    for number, segment in enumerate(program.segments, start=1):
+    for i, segment in enumerate(program.segments, start=1):
         if not isinstance(segment, Segment):
-            raise ValueError(f"segment {number} of the program is {segment!r}; it must be a rise, a return or a dwell")
-    if fails(finite(program.start)):
-        raise ValueError(f"the start of the program is {program.start}; it must be a finite number")
+            given = shown(segment)
+            raise ValueError(f"segment {i} of the program is {given}; it must be a rise, a return or a dwell")
+    refuse_lengths(program)
     if fails(program._beyond <= ROUNDED):
         much = program._beyond >= NEARLY
         spans = _degrees(program.span) if much else f"{_degrees(program._beyond)} more than a full turn"

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..kinds import refuse_kinds, refuse_lengths
 from ..quantities import choice
 from .extremes import law_peaks
 from .free import Degree9
@@ -59,6 +60,11 @@ class ShapedLaw(Law):
     family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
 
     name = "shaped"
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        Degree9(self.c)  # refuses what are not four numbers
+        refuse_lengths(self)
 
     @property
     def continuity(self) -> int:

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import finite
-from ..quantities import fails, quantity
+from ..kinds import a_number, shown
+from ..quantities import quantity
 from .law import Kinematics, Law, Peaks
 
 
@@ -42,21 +42,14 @@ class Skewed(Law):
     name = "skewed"
 
     def __post_init__(self) -> None:
-        if fails(self._possible):
-            raise ValueError(f"the inflection of the skewed law is {self.inflection}; it must lie between 0 and 1")
+        what = "the inflection of the skewed law"
+        inflection = a_number(self.inflection, what, "lie between 0 and 1", lambda x: (x > 0) & (x < 1))
+        object.__setattr__(self, "inflection", inflection)
         if not isinstance(self.law, Law):
-            raise ValueError(f"the law to be skewed is {self.law!r}; it must be a motion law such as Cycloidal()")
+            raise ValueError(f"the law to be skewed is {shown(self.law)}; it must be a motion law such as Cycloidal()")
         u = np.linspace(0.0, 0.5, 9)
         if not np.allclose(self.law(u).s + self.law(1 - u).s, 1.0, rtol=0, atol=1e-9, equal_nan=True):
             raise ValueError(f"the {self.law.name} law is not symmetric; only a symmetric law can be skewed")
-
-    @property
-    def _possible(self) -> Any:
-        return finite(self.inflection) is not False and (self.inflection > 0) & (self.inflection < 1)
-
-    @property
-    def _x(self) -> Any:
-        return np.where(self._possible, self.inflection, np.nan)[()]
 
     @property
     def continuity(self) -> int:
@@ -64,13 +57,13 @@ class Skewed(Law):
 
     @property
     def kinks(self) -> tuple[Any, ...]:
-        x = self._x
+        x = self.inflection
         early = [2 * x * k for k in self.law.kinks if k < 0.5]
         late = [1 - 2 * (1 - x) * (1 - k) for k in self.law.kinks if k > 0.5]
         return (*early, x, *late)
 
     def at(self, u: Any) -> Kinematics:
-        x = self._x
+        x = self.inflection
         early = u < x
         scale = np.where(early, 2 * x, 2 * (1 - x))
         s, v, a, j = self.law(np.where(early, u, 1 - u) / scale)
@@ -78,6 +71,6 @@ class Skewed(Law):
         return Kinematics(np.where(early, s, 1 - s), v, np.where(early, a, -a), j / scale**2)
 
     def peaks(self) -> Peaks:
-        least = 2 * np.minimum(self._x, 1 - self._x)
+        least = 2 * np.minimum(self.inflection, 1 - self.inflection)
         Cv, Ca, Cj = self.law.peaks()
         return Peaks(Cv + 0 * least, Ca / least, Cj / least**2)

@@ -15,8 +15,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from ..kinds import finite
-from ..quantities import fails
+from ..kinds import a_number, listed, numbers, refuse_lengths, shown
 from .extremes import law_peaks
 from .law import Kinematics, Law, Peaks
 
@@ -51,9 +50,11 @@ class SplineLaw(Law):
     name = "B-spline"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "u", tuple(float(u) for u in self.u))
+        object.__setattr__(self, "u", _row(self.u, "the knots u of the spline"))
         for name in ("s", "start", "end"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+            values = listed(getattr(self, name), f"the {name} of the spline", "value")
+            object.__setattr__(self, name, tuple(a_number(value, "a value of the spline") for value in values))
+        refuse_lengths(self)
         if not np.all(np.diff((0.0, *self.u, 1.0)) > 0):
             shown = ", ".join(f"{u:g}" for u in self.u)
             raise ValueError(f"the knots of the spline are {shown}; they must increase strictly between 0 and 1")
@@ -63,9 +64,6 @@ class SplineLaw(Law):
         if len(self.start) != len(self.end) or len(self.start) not in (1, 2, 3):
             shown = f"{len(self.start)} values at its start and {len(self.end)} at its end"
             raise ValueError(f"the spline has {shown}; it can have v, or v, a, or v, a, j at both")
-        for value in (*self.s, *self.start, *self.end):
-            if fails(finite(value)):
-                raise ValueError(f"a value of the spline is {value}; it must be a finite number")
 
     @property
     def kinks(self) -> tuple[Any, ...]:
@@ -85,6 +83,14 @@ class SplineLaw(Law):
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
+
+
+def _row(values: Any, what: str) -> tuple[float, ...]:
+    """One number for each place."""
+    row = numbers(listed(values, what), what)
+    if row.ndim != 1:
+        raise ValueError(f"{what} must be numbers in a row; given is {shown(values)}")
+    return tuple(row.tolist())
 
 
 @lru_cache(maxsize=64)
@@ -123,8 +129,12 @@ class TableLaw(Law):
     continuity = 2
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "u", tuple(float(u) for u in self.u))
-        object.__setattr__(self, "s", tuple(float(s) for s in self.s))
+        object.__setattr__(self, "u", _row(self.u, "the u of the table"))
+        object.__setattr__(self, "s", _row(self.s, "the s of the table"))
+        tolerance = a_number(self.tolerance, "the tolerance of the table", "be 0 or more", lambda x: x >= 0)
+        if np.ndim(tolerance):
+            raise ValueError("the tolerance of the table is a column; it must be one number, 0 or more")
+        object.__setattr__(self, "tolerance", tolerance)
         _refuse_table(self)
 
     @property
@@ -160,8 +170,6 @@ def _refuse_table(table: TableLaw) -> None:
     if (u[0], s[0], u[-1], s[-1]) != (0, 0, 1, 1):
         shown = f"({u[0]:g}, {s[0]:g}) to ({u[-1]:g}, {s[-1]:g})"
         raise ValueError(f"the table runs from {shown}; it must run from (0, 0) to (1, 1)")
-    if not table.tolerance >= 0:
-        raise ValueError(f"the tolerance of the table is {table.tolerance}; it must be 0 or more")
 
 
 def _smoothed(u: Any, s: Any, tolerance: float) -> BSpline:

@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..kinds import a_number, numbers, shown
 from .law import Kinematics, Law
 from .program import MotionProgram
 
@@ -98,13 +99,12 @@ def residual_vibration(law: Law | MotionProgram, tau: Any, damping: float = 0.0)
     of its range.
     """
     if not isinstance(law, Law | MotionProgram):
-        raise ValueError(f"residual vibration is that of a motion law or of a motion program, not of {law!r}")
+        raise ValueError(f"residual vibration is that of a motion law or of a motion program, not of {shown(law)}")
     motion = law if isinstance(law, Law) else _Whole(law)
-    ratio = np.atleast_1d(np.asarray(tau, dtype=float))
+    ratio = np.atleast_1d(numbers(tau, "the period ratios tau"))
     if not (np.isfinite(ratio).all() and (ratio > 0).all()):
         raise ValueError("the period ratio tau holds a value that is not a finite number above 0; it must be that")
-    if not 0 <= damping < 1:
-        raise ValueError(f"the damping ratio is {damping:g}; it must be at least 0 and below 1")
+    damping = a_number(damping, "the damping ratio", "be at least 0 and below 1", lambda z: (z >= 0) & (z < 1))
     W = 2 * np.pi * ratio[:, None]
     m, c = _root(W, damping), 1 + 1j * damping / np.sqrt(1 - damping**2)
     panels = _panels(motion, float(ratio.max()))

@@ -278,11 +278,11 @@ def test_a_population_has_nan_where_a_member_cannot_be():
     [
         (
             lambda: ConstantVelocity(0.0),
-            "the blend of the constant velocity law is 0.0; it must be above 0 and at most 0.5",
+            "the blend of the constant velocity law is 0; it must be above 0 and at most 0.5",
         ),
         (
             lambda: ConstantVelocity("long"),
-            "the blend of the constant velocity law is long; it must be above 0 and at most 0.5",
+            "the blend of the constant velocity law is 'long'; it must be above 0 and at most 0.5",
         ),
         (
             lambda: ConstantVelocity(0.2, "cubic"),
@@ -290,7 +290,7 @@ def test_a_population_has_nan_where_a_member_cannot_be():
         ),
         (
             lambda: Skewed(Cycloidal(), 1.0),
-            "the inflection of the skewed law is 1.0; it must lie between 0 and 1",
+            "the inflection of the skewed law is 1; it must lie between 0 and 1",
         ),
         (
             lambda: Skewed(HalfCycloidalStart(), 0.4),

@@ -125,7 +125,7 @@ def test_in_time():
 # ---------------------------------------------------------------- populations
 
 angles = st.floats(0.3, 1.2)
-lifts = st.floats(-2, 2)
+lifts = st.floats(0, 2)
 laws = st.sampled_from([*LAWS, ConstantVelocity(), Skewed(Poly345(), 0.4)])
 members = st.lists(st.tuples(angles, lifts, angles, angles, lifts), min_size=1, max_size=4)
 
@@ -338,11 +338,11 @@ law = Cycloidal()
         ),
         (
             lambda: Dwell("wide"),
-            "the angle of the dwell is wide; it must be a finite angle above 0 deg",
+            "the angle of the dwell is 'wide'; it must be a finite angle above 0 deg",
         ),
         (
             lambda: Rise(1.0, np.inf, law),
-            "the lift of the rise is inf; it must be a finite number",
+            "the lift of the rise is inf; it must be a finite number of at least 0 (less is a return)",
         ),
         (
             lambda: Return(1.0, 1.0, "cycloidal"),
@@ -350,7 +350,7 @@ law = Cycloidal()
         ),
         (
             lambda: Rise(1.0, 1.0, Cycloidal),
-            f"the law of the rise is {Cycloidal!r}; it must be a motion law such as Cycloidal()",
+            "the law of the rise is the class Cycloidal; it must be a motion law such as Cycloidal()",
         ),
         (
             lambda: MotionProgram(()),
@@ -374,7 +374,27 @@ law = Cycloidal()
         ),
         (
             lambda: full_turn(law).in_time(0.0, np.nan),
-            "the speed of the shaft is nan; it must be a finite number",
+            "the speed of the shaft is nan; it must be a finite number of at least 0",
+        ),
+        (
+            lambda: full_turn(law).in_time(0.0, -1),
+            "the speed of the shaft is -1; it must be a finite number of at least 0",
+        ),
+        (
+            lambda: Return(1.0, -0.02, law),
+            "the lift of the return is -0.02; it must be a finite number of at least 0 (less is a rise)",
+        ),
+        (
+            lambda: Rise(1.0, 0.02, lambda u: u),
+            "the law of the rise is a function; it must be a motion law such as Cycloidal()",
+        ),
+        (
+            lambda: MotionProgram(5),
+            "what the program is made of is 5; it must be a tuple, with a place for each segment",
+        ),
+        (
+            lambda: MotionProgram((Dwell(np.ones((2, 1))), Dwell(np.ones((3, 1))))),
+            "the MotionProgram has columns of 2 in its segments and 3 in its segments; they must be equally long",
         ),
     ],
 )

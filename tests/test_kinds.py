@@ -1,0 +1,177 @@
+"""Every public constructor and function, every argument, all kinds of bad values: it works or says in words why not.
+
+Nothing else may come of it: no other exception, no warning of numpy.
+"""
+
+import dataclasses
+import inspect
+import re
+import warnings
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import camkit
+from camkit import (
+    RSSR,
+    Box,
+    Curve,
+    Cycloidal,
+    Dwell,
+    FreePolynomial,
+    Measure,
+    MotionProgram,
+    PeakMeasure,
+    Plane,
+    Return,
+    Rise,
+    Skewed,
+    SliderLoad,
+    SplineLaw,
+    Study,
+    SumOfResiduals,
+    Sweep,
+    TableLaw,
+    Tolerances,
+    TranslatingRollerCam,
+    UnitRemark,
+)
+from camkit.quantities import Choice, Quantity
+from camkit.shaft import shaft_study
+
+BAD = {
+    "nan": np.nan,
+    "inf": np.inf,
+    "-inf": -np.inf,
+    "-1": -1,
+    "0": 0,
+    "2.5": 2.5,
+    "1e12": 1e12,
+    "1e160": 1e160,
+    "-1e300": -1e300,
+    "10**400": 10**400,
+    "10**5000": 10**5000,
+    "True": True,
+    "None": None,
+    "text": "abc",
+    "no text": "",
+    "bytes": b"abc",
+    "complex": 1 + 2j,
+    "no list": [],
+    "list": [1, 2],
+    "ragged": [[1, 2], [1]],
+    "no tuple": (),
+    "tuple of text": ("a", "b"),
+    "tuple of None": (None, None),
+    "mapping": {"a": 1},
+    "set": {1, 2},
+    "object": object(),
+    "class": int,
+    "function": lambda *anything: None,
+    "decimal": Decimal("0.1"),
+    "fraction": Fraction(1, 3),
+    "date": np.datetime64("2020-01-01"),
+    "shape ()": np.array(0.5),
+    "shape (3,)": np.ones(3),
+    "shape (2, 3)": np.ones((2, 3)),
+    "shape (0,)": np.ones(0),
+    "shape (2, 1, 1)": np.ones((2, 1, 1)),
+    "array of complex": np.ones((2, 1), complex),
+    "array of truths": np.ones((2, 1), bool),
+    "array of text": np.array([["a"], ["b"]]),
+    "array of objects": np.array([[None], [1]], dtype=object),
+    "array of nan": np.full((2, 1), np.nan),
+    "array of inf": np.full((2, 1), np.inf),
+}
+
+LAW = Cycloidal()
+PROGRAM = MotionProgram((Rise(2.0, 0.02, LAW), Dwell(1.0), Return(2.0, 0.02, LAW)))
+HEIGHT = Measure("height", "mm", lambda analysis: analysis.pitch_radius.max(-1))
+STUDY = Study(TranslatingRollerCam(), ["base_radius"], [HEIGHT], at_most={HEIGHT: 0.06}, angles=31)
+
+GIVEN = {
+    Rise: (2.0, 0.02, LAW),
+    Return: (2.0, 0.02, LAW),
+    Dwell: (1.0,),
+    MotionProgram: (PROGRAM.segments,),
+    Skewed: (LAW,),
+    FreePolynomial: (),
+    SplineLaw: ((0.5,), (0.5,)),
+    TableLaw: ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)),
+    Box: ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
+    Measure: ("height", "mm", len),
+    PeakMeasure: ("height", "mm", len),
+    SumOfResiduals: ("height", "mm", len),
+    Study: (TranslatingRollerCam(), ["base_radius"], [HEIGHT]),
+    Sweep: (STUDY,),
+    Plane: (shaft_study(),),
+    Tolerances: (STUDY, {"base_radius": 0.001}),
+    SliderLoad: (0.2, 100.0, abs, 1.0),
+    Curve: ("pressure_angle", "deg", "pressure angle"),
+    Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
+    Choice: ("law", LAW, (LAW,), "the law"),
+}
+"""What the constructors that have no defaults are given."""
+
+NOT_MADE_BY_HAND = {"Front", "Joint", "ProgramPeaks", "Kinematics", "Peaks", "Peak", "Law", "Segment"}
+PUBLIC = [getattr(camkit, name) for name in camkit.__all__ if name not in NOT_MADE_BY_HAND]
+CLASSES = [c for c in PUBLIC if inspect.isclass(c) and dataclasses.is_dataclass(c)]
+CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in dataclasses.fields(kind) if f.init]
+
+PYTHON = re.compile(
+    r"object|NoneType|zip\(|\(\)|float:|inhomogeneous|unpack|ufunc|ambiguous|reshape|sequence|zero-size|iterable|dtype|"
+    r"convert|operand|Traceback|not supported|0x[0-9a-f]{6}|\n"
+)
+"""What a person who never programmed should not read."""
+
+
+def outcome(act):
+    """ "" if ``act`` works or is refused in a sentence; what came of it otherwise."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", UnitRemark)
+        try:
+            act()
+        except ValueError as refused:
+            said = str(refused)
+            plain = not PYTHON.search(said.replace("Cycloidal()", "").replace("shape ()", ""))
+            return "" if plain and 10 < len(said) < 500 and type(refused) is ValueError else f"ValueError: {said!r}"
+        except Exception as error:
+            return f"{type(error).__name__}: {error}"
+    return ""
+
+
+def used(kind, name, value):
+    """Make it and use it."""
+    names = [f.name for f in dataclasses.fields(kind) if f.init]
+    given = dict(zip(names, GIVEN.get(kind, ()), strict=False)) | {name: value}
+    made = kind(**given)
+    if kind is not Choice:
+        repr(made)
+    if isinstance(made, Study):
+        made.evaluate(made.x0)
+    elif isinstance(made, Sweep):
+        made.evaluation  # noqa: B018
+    elif isinstance(made, Plane):
+        made.objective  # noqa: B018
+    elif isinstance(made, Tolerances):
+        made.share  # noqa: B018
+    elif isinstance(made, RSSR):
+        made.analyse([0.1, 0.2])
+    elif hasattr(made, "analyse"):
+        made.analyse(31)
+    elif isinstance(made, camkit.Law):
+        made(0.3)
+        made.peaks()
+    elif isinstance(made, MotionProgram):
+        made(0.3)
+    elif isinstance(made, Rise | Return | Dwell):
+        MotionProgram((made,))(0.3)
+
+
+@pytest.mark.parametrize(("kind", "name"), CASES, ids=[f"{kind.__name__}.{name}" for kind, name in CASES])
+def test_a_constructor_works_or_refuses_in_a_sentence(kind, name):
+    failed = {bad: outcome(lambda v=value: used(kind, name, v)) for bad, value in BAD.items()}
+    assert {bad: said for bad, said in failed.items() if said} == {}
