@@ -163,7 +163,7 @@ def test_the_sign_of_a_weighted_sum_survives_new_weights():
     [
         (TinCan, "the class TinCan"),
         (RockerLoad(), "a RockerLoad"),
-        (Friction(), "Friction"),
+        (Friction(), "a Friction"),
         (None, "None"),
         ("a cam", "'a cam'"),
     ],
