@@ -177,10 +177,12 @@ def _lacking(missing: Sequence[str]) -> list[str]:
 
 # ---------------------------------------------------------------- studies
 
+STUDY = ("at_most", "at_least", "sums", "made", "angles")
 DEFAULTS: dict[str, Any] = {
     "at_most": {},
     "at_least": {},
     "sums": [],
+    "made": {},
     "angles": Study.angles,
     "front": [],
     "record": {},
@@ -189,11 +191,11 @@ DEFAULTS: dict[str, Any] = {
     "search": {},
 }
 """What a study is read with where its file says nothing."""
-QUIETLY = {"sums", "record"}
+QUIETLY = {"sums", "made", "record"}
 """Which of them are no matter for a remark: a file has them only where there is something to say."""
 HELD = {
     "work": {"start", "free", "minimise", "design", *DEFAULTS},
-    "front": {"start", "free", "minimise", "at_most", "at_least", "sums", "angles", "front", "record", "message"},
+    "front": {"start", "free", "minimise", "front", "record", "message", *STUDY},
 }
 
 
@@ -229,6 +231,7 @@ def _study_entry(study: Study) -> dict[str, Any]:
     _refuse_namesakes(study)
     declared: Any = declarations(study.start)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
+    made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}
     sums = [m for of in limits.values() for m in of or {} if isinstance(m, WeightedSum)]
     return {
         "start": entry_of(study.start),
@@ -242,6 +245,7 @@ def _study_entry(study: Study) -> dict[str, Any]:
             for name, of in limits.items()
         },
         **({"sums": [_objective_entry(m, known) for m in sums]} if sums else {}),
+        **({"made": {k: entry_of(how) for k, how in made.items()}} if made else {}),
         "angles": int(study.angles),
     }
 
@@ -298,7 +302,8 @@ def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measur
     declared: Any = {key(n, q): (n, q) for n, q in declarations(start).items()}
     named = _declared_measures(start)
     signs = {k: m.sign for k, m in named.items()}
-    named |= {_key(m): m if m.sign == signs.get(_key(m), 1) else -m for m in measures}
+    made = [_made(k, how, start) for k, how in _mapping(entry["made"], "made").items()]
+    named |= {_key(m): m if m.sign == signs.get(_key(m), 1) else -m for m in (*made, *measures)}
     named |= {m.name: m for m in (_sum(each, named) for each in _listed(entry["sums"], "sums"))}
     free = {}
     for k, bounds in _mapping(entry["free"], "free").items():
@@ -352,10 +357,30 @@ def _declared_measures(start: Any) -> dict[str, Measure]:
     return {_key(m): m for m in type(start).measures}
 
 
+def _made(k: str, entry: Any, start: Any) -> Measure:
+    """A measure that one of the mechanism's makers makes of numbers and words."""
+    name, *given = _listed(entry, k) or [None]
+    how = type(start).makers.get(name) if isinstance(name, str) else None
+    try:
+        measure = how(*(_given(value) for value in given)) if how else None
+    except (TypeError, ValueError):
+        measure = None
+    if measure is None or _key(measure) != k:
+        raise ValueError(f"the file is damaged: what it says of {shown(k)} does not make this measure")
+    return measure
+
+
+def _given(value: Any) -> Any:
+    if isinstance(value, list):
+        return tuple(_numbers(value, "made", len(value)))
+    return value if is_number(value) else _plain(value)
+
+
 def _refuse_namesakes(study: Study) -> None:
     """A measure of one's own under a name of the mechanism's would be read as another."""
     known = _declared_measures(study.start)
-    own = [m for m in study.measures if _key(m) in known and m.function is not known[_key(m)].function]
+    plain = [m for m in study.measures if _key(m) in known and not m.made]
+    own = [m for m in plain if m.function is not known[_key(m)].function]
     try:
         analysis = study.start.analyse(study.angles) if own else None
     except ValueError:  # a start that cannot be built; nothing can be compared

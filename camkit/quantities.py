@@ -25,7 +25,7 @@ from __future__ import annotations
 import dataclasses
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -263,6 +263,8 @@ class Design:
 
     measures: ClassVar[tuple[Measure, ...]] = ()
     """Every measure of such a design, for tables and files."""
+    makers: ClassVar[Mapping[str, Callable[..., Measure]]] = {}
+    """Functions that make further measures of numbers and words, by the names that `Measure.made` gives them."""
 
     def __post_init__(self) -> None:
         declared = _declared(type(self))  # type: ignore[arg-type]
@@ -363,6 +365,8 @@ class Measure:
     unit: str
     function: Callable[[Any], Any] = field(repr=False, compare=False)
     sign: int = 1
+    made: tuple[Any, ...] = field(default=(), repr=False, compare=False, kw_only=True)
+    """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)

@@ -20,6 +20,7 @@ from ..study import Study
 from ..units import deg, mm
 from .load import RockerLoad
 from .measures import (
+    MAKERS,
     SWEEP,
     assembly_margin,
     clearance_from,
@@ -72,6 +73,7 @@ class CabinDoorLinkage(Links):
     """
 
     measures = (*SWEEP, excess(), largest_departure(), steepest, room_in(HOUSING))
+    makers = MAKERS
 
     start_angle: float = quantity("phi_a", 15, -180, 180, "deg", "crank angle with the door shut", above=None)
     end_angle: float = quantity("phi_b", 105, -180, 360, "deg", "crank angle with the door open", above=None)

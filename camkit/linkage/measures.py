@@ -35,19 +35,26 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
 
 def departure(target: float = TARGET, weights: Any = None) -> Measure:
     """The paper's objective ``sum_j w_j (|alpha_1j - target| + |alpha_2j - target|)``."""
-    return SumOfResiduals(_name("pressure angles off", target, weights), "deg", departures(target, weights))
+    name = _name("pressure angles off", target, weights)
+    return SumOfResiduals(name, "deg", departures(target, weights), made=_made("departure", target, weights))
 
 
 def excess(target: float = TARGET, weights: Any = None) -> Measure:
     """The same sum over the pressure angles above ``target`` only: a smaller one is no fault."""
     name = _name("pressure angles above", target, weights)
-    return SumOfResiduals(name, "deg", departures(target, weights), above_only=True)
+    made = _made("excess", target, weights)
+    return SumOfResiduals(name, "deg", departures(target, weights), above_only=True, made=made)
 
 
 def largest_departure(target: float = TARGET, weights: Any = None) -> Measure:
     """The largest ``w_j |alpha - target|``: minimax."""
     of, name = departures(target, weights), _name("pressure angle farthest off", target, weights)
-    return PeakMeasure(name, "deg", lambda a: np.concatenate([of(a), -of(a)], axis=-1))
+    made = _made("largest departure", target, weights)
+    return PeakMeasure(name, "deg", lambda a: np.concatenate([of(a), -of(a)], axis=-1), made=made)
+
+
+def _made(name: str, target: float, weights: Any) -> tuple[Any, ...]:
+    return (name, float(target)) if weights is None else ()
 
 
 def _name(what: str, target: float, weights: Any) -> str:
@@ -56,14 +63,28 @@ def _name(what: str, target: float, weights: Any) -> str:
 
 def room_in(box: Box) -> Measure:
     """How far the centre lines of all links stay within a box, from the nearest wall; < 0 where one leaves it."""
-    return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)))
+    made = ("room in", tuple(box.low), tuple(box.high), box.name)
+    return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)), made=made)
 
 
 def clearance_from(box: Box) -> Measure:
     """How far the centre lines of all links stay clear of a box; < 0 where one enters it."""
-    return Measure(
-        f"clearance from {box.name}", "mm", lambda a: box.clearance(a.chain[:, :-1], a.chain[:, 1:]).min((0, -1))
-    )
+    made = ("clearance from", tuple(box.low), tuple(box.high), box.name)
+
+    def clearance(analysis: Any) -> Any:
+        return box.clearance(analysis.chain[:, :-1], analysis.chain[:, 1:]).min((0, -1))
+
+    return Measure(f"clearance from {box.name}", "mm", clearance, made=made)
+
+
+MAKERS: dict[str, Callable[..., Measure]] = {
+    "departure": departure,
+    "excess": excess,
+    "largest departure": largest_departure,
+    "room in": lambda low, high, name: room_in(Box(low, high, name)),
+    "clearance from": lambda low, high, name: clearance_from(Box(low, high, name)),
+}
+"""How files have such measures made again."""
 
 
 steepest_crank = PeakMeasure(
