@@ -67,6 +67,8 @@ def test_the_door_handle_papers_judgements():
 
 def test_the_random_index_is_saatys():
     assert RANDOM_INDEX == (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
+    assert [random_index(n) for n in range(1, 11)] == list(RANDOM_INDEX)
+    assert [random_index(n) for n in (11, 15)] == pytest.approx([1.5118, 1.5855], abs=1e-4)  # Alonso, Lamata (2006)
     assert sorted({*range(1, 10), *(1 / k for k in range(1, 10))}) == list(SAATY_SCALE)
 
 
