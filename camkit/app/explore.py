@@ -19,7 +19,7 @@ from ..study import keeps
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
 from .orbit import Orbit
-from .panel import IMPOSSIBLE, Panel
+from .panel import IMPOSSIBLE, Panel, reason
 from .picture import DRAWING, LivePicture
 
 VIEWPOINT = {
@@ -156,30 +156,27 @@ class Explorer(Panel):
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:
             self.load(found.thing)
-            tell(self._banner, remarked(found))
+            if self.design is found.thing:  # else it cannot be built, which the banner says
+                tell(self._banner, remarked(found))
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value."""
         for name, knob in self.controls.items():
             knob.set(attrgetter(name)(design))
-        self._try(design)
+        self._try(lambda: design)
 
     def on_change(self, act: Callable[[Any], None]) -> None:
         """Call ``act(design)`` after every change to a design that can be built."""
         self._followers.append(act)
 
     def _changed(self) -> None:
-        try:
-            design = changed(self.design, {name: knob.value for name, knob in self.controls.items()})
-        except ValueError as refusal:
-            self._refuse(str(refusal))
-        else:
-            self._try(design)
+        self._try(lambda: changed(self.design, {name: knob.value for name, knob in self.controls.items()}))
 
-    def _try(self, design: Any) -> None:
-        """Show ``design`` if it can be built, computed and drawn."""
+    def _try(self, make: Callable[[], Any]) -> None:
+        """Show the design that ``make()`` gives if it can be built, computed and drawn."""
         last = self.design, self.analysis
         try:
+            design = make()
             analysis = design.analyse()
         except (ArithmeticError, np.linalg.LinAlgError) as error:
             self._go_back(*last, error)
@@ -201,7 +198,7 @@ class Explorer(Panel):
             try:
                 act(self.design)
             except IMPOSSIBLE as error:
-                tell(self._banner, f"What belongs to this design cannot be shown everywhere: {error}.")
+                tell(self._banner, f"What belongs to this design cannot be shown everywhere: {reason(error)}.")
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture and the numbers, which would belong to another design."""
@@ -221,7 +218,7 @@ class Explorer(Panel):
             knob.set(attrgetter(name)(design))
         self._fit_turn()
         self._reveal()
-        tell(self._banner, f"This design cannot be computed and drawn, so the last one stays: {error}.")
+        tell(self._banner, f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
 
     def _turned(self) -> None:
         if not self._impossible:

@@ -16,6 +16,16 @@ IMPOSSIBLE = (ValueError, ArithmeticError)
 """What a design can raise that cannot be built, computed or drawn: a panel says it in a sentence."""
 
 
+def reason(error: Exception) -> str:
+    """Why something is impossible, in words.
+
+    >>> reason(ValueError("the arm is too short")), reason(OverflowError(34, "Numerical result out of range"))
+    ('the arm is too short', 'a number in it becomes too large')
+    """
+    worded = isinstance(error, ValueError) or (len(error.args) == 1 and " " in str(error))
+    return str(error) if worded else "a number in it becomes too large"
+
+
 class Dress(anywidget.AnyWidget):
     """Nothing to see: the style sheet of the panel that it is put into, and a name for each of its controls."""
 
