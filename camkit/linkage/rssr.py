@@ -79,7 +79,7 @@ class RSSR(Links):
     [237.596379 195.880281]
     >>> print(np.degrees(linkage.limit_angles()).round(6))
     [265.623052 274.376948]
-    >>> np.degrees(np.ptp(linkage.replace(crank=20*mm).analyse().rocker_angle)).round(3)
+    >>> print(np.degrees(np.ptp(linkage.replace(crank=20*mm).analyse().rocker_angle)).round(3))
     23.462
 
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a crank angle that cannot be reached.
