@@ -1,4 +1,4 @@
-"""The quick front on the door handle's lift cam: how long it takes, cold and after a slider, and what it reaches.
+"""The quick front on the door handle's cam: how long it takes, cold and after a slider, and what it reaches.
 
 `benchmarks/live_front_searches.py` measures the chart of notebook 15, hypervolume against time, for three libraries.
 Times are those of the processor, which neighbours on the machine change less than those of the clock.

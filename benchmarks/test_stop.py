@@ -12,12 +12,12 @@ STOPS = 9
 
 CELLS = [
     """
-from camkit import DoorHandleCam, door_handle_study, explore, search
-from camkit.cam.door_handle import PAPER_SPACE
+from camkit import DoorHandleCam, lift_curve_study, explore, search
+from camkit.cam.door_handle import LIFT_SPACE
 from camkit.plot.cam import cam_mechanism
 
 app = explore(DoorHandleCam(), cam_mechanism)
-search(app, {"lift curve": door_handle_study}, space=PAPER_SPACE, free=PAPER_SPACE, generations=10000)"""
+search(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""
 ]
 
 WATCH = """([button, status]) => {

@@ -11,7 +11,7 @@ from typing import Any
 
 from .cam.cam_lever import CamLever, cam_lever_study
 from .cam.closing import ContactPair
-from .cam.door_handle import DoorHandleCam, door_handle_study
+from .cam.door_handle import DoorHandleCam, door_handle_paper_study, door_handle_study, lift_curve_study
 from .cam.high_speed import HighSpeedCam
 from .cam.high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
 from .cam.high_speed_study import high_speed_study
@@ -128,6 +128,7 @@ __all__ = [
     "corrected_valve_study",
     "crowding",
     "deg",
+    "door_handle_paper_study",
     "door_handle_study",
     "hertz_line",
     "high_speed_study",
@@ -136,6 +137,7 @@ __all__ = [
     "kW",
     "kg",
     "knee",
+    "lift_curve_study",
     "lightest_shaft",
     "load",
     "m",

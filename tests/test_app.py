@@ -34,6 +34,7 @@ from camkit import (
     door_handle_study,
     explore,
     judge,
+    lift_curve_study,
     nsga2,
     search,
     try_everything,
@@ -43,7 +44,14 @@ from camkit.app.controls import Download, Upload, label_html
 from camkit.app.kept import unfinished
 from camkit.app.number import NumberBox
 from camkit.app.running import RUNNING, Place
-from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
+from camkit.cam.door_handle import (
+    CURVE_TABLE,
+    DOOR_HANDLE_SPACE,
+    EXPANDED_SPACE,
+    PAPER_JUDGEMENTS,
+    PAPER_SPACE,
+    stroke_radius,
+)
 from camkit.checkpoint import read
 from camkit.decision import CHOOSERS
 from camkit.export import from_json, to_json
@@ -58,7 +66,7 @@ from camkit.units import deg, mm
 
 SMALL = {"width": 4.0, "height": 2.6}
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction")
-STUDIES = {"lift curve alone": door_handle_study, "whole cam": partial(door_handle_study, whole=True)}
+STUDIES = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
 
 
 def inside(panel, kind):
@@ -90,16 +98,16 @@ def _searches_are_kept_elsewhere(tmp_path_factory):
 
 
 def an_explorer():
-    study = door_handle_study()
-    return explore(DoorHandleCam(), pressure_angle, free=SLIDERS, measures=CURVE_TABLE[:5], at_most=study.at_most,
-                   at_least=study.at_least, **SMALL)  # fmt: skip
+    study = lift_curve_study()
+    return explore(DoorHandleCam(), pressure_angle, free=SLIDERS, measures=(*CURVE_TABLE[:5], stroke_radius),
+                   at_most=study.at_most, at_least=study.at_least, **SMALL)  # fmt: skip
 
 
 def a_search(app, population=24, generations=12):
     criteria = judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
     importance = judge(["effort", "least radius"], [1])
-    return search(app, STUDIES, space=EXPANDED_SPACE, free=list(PAPER_SPACE), criteria=criteria, importance=importance,
-                  population=population, generations=generations)  # fmt: skip
+    return search(app, STUDIES, space=EXPANDED_SPACE, free=list(DOOR_HANDLE_SPACE), criteria=criteria,
+                  importance=importance, population=population, generations=generations)  # fmt: skip
 
 
 def run(finder, **settings):
@@ -132,11 +140,11 @@ def finder(workshop):
     workshop.explorer.load(DoorHandleCam())
     for name, bounds in workshop.bounds.items():
         bounds.set(EXPANDED_SPACE[name])
-        bounds.free.value = name in PAPER_SPACE
+        bounds.free.value = name in DOOR_HANDLE_SPACE
     workshop.mode.value, workshop.rule.value = next(iter(STUDIES)), next(iter(CHOOSERS))
     workshop.population.value, workshop.generations.value, workshop.seed.value = 24, 12, 1
     workshop.study = workshop._study()
-    workshop._x = np.zeros((0, len(PAPER_SPACE)))
+    workshop._x = np.zeros((0, len(DOOR_HANDLE_SPACE)))
     workshop.front = Front(workshop.study, workshop._x, np.zeros((0, 2)))
     workshop.importance.load([1])
     workshop.criteria.load(PAPER_JUDGEMENTS)
@@ -512,7 +520,7 @@ def test_judgements_for_another_number_of_criteria_are_refused():
 def test_a_search_finds_what_the_package_finds(finder, mode):
     finder.mode.value = mode
     run(finder, seed=3)
-    space = {name: EXPANDED_SPACE[name] for name in PAPER_SPACE}
+    space = {name: EXPANDED_SPACE[name] for name in DOOR_HANDLE_SPACE}
     front = nsga2(STUDIES[mode](DoorHandleCam(), space=space), 24, 12, 3)
     assert_array_equal(finder.front.x, front.x)
     assert_allclose(finder.front.f, front.f, rtol=1e-12)
@@ -535,19 +543,24 @@ def test_a_search_starts_from_the_design_in_the_sliders(finder):
 
 
 def test_what_is_ticked_is_free_between_the_bounds_that_are_typed(finder):
-    assert not finder.bounds["roller_radius"].free.value
-    finder.bounds["roller_radius"].free.value = True
-    finder.bounds["roller_radius"].low.value = 3.5
+    assert not finder.bounds["lift_centre_distance"].free.value
+    finder.bounds["lift_centre_distance"].free.value = True
+    finder.bounds["lift_centre_distance"].low.value = 63.5
     finder.bounds["lift_arm"].free.value = False
     run(finder)
-    assert list(finder.study.free) == ["lift_start_angle", "relief_arm", "roller_radius"]
-    assert finder.study.free["roller_radius"] == pytest.approx((3.5 * mm, 6 * mm))
+    assert list(finder.study.free) == ["lift_start_angle", "lift_centre_distance", "relief_cam_angle"]
+    assert finder.study.free["lift_centre_distance"] == pytest.approx((63.5 * mm, 100 * mm))
     assert finder.study.free["lift_start_angle"] == EXPANDED_SPACE["lift_start_angle"]  # exact while nobody edits it
-    assert (finder.front.x[:, 2] >= 3.5 * mm).all()
+    assert (finder.front.x[:, 1] >= 63.5 * mm).all()
 
 
 def test_a_search_that_cannot_be_is_refused_in_a_sentence(finder):
     before = finder.front
+    finder.bounds["relief_arm"].free.value = True
+    run(finder)
+    expected = "the relief arm has no effect on the lift curve; it must not be free"
+    assert alert(finder) == f"This cannot be searched: {expected}."
+    finder.bounds["relief_arm"].free.value = False
     finder.bounds["lift_arm"].low.value = 60.0
     run(finder)
     expected = "the bounds of the lift arm are 60 mm and 55 mm; they must be finite, the first below the second"
@@ -573,6 +586,7 @@ def test_any_one_quantity_can_be_searched_for_the_whole_cam(finder):
 
 def test_an_empty_front_says_why(finder):
     finder.mode.value = "whole cam"
+    finder.bounds["relief_cam_angle"].free.value = False
     run(finder, population=8, generations=2)
     assert len(finder.front) == 0
     assert alert(finder) == finder.front.message != ""
@@ -657,7 +671,7 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     """Also from a page that was opened anew, and after everything on it was changed: all is put back."""
     typed = explore(DoorHandleCam(lift_start_angle=0.371234567890123), pressure_angle, free=SLIDERS, **SMALL).design
     finder.explorer.load(typed)
-    finder.bounds["relief_arm"].free.value = False
+    finder.bounds["relief_cam_angle"].free.value = False
     finder.bounds["lift_arm"].set((45.123456789 * mm, 54.987654321 * mm))
     finder.criteria.sliders[(0, 2)].value = 3.0
     finder.population.value, finder.generations.value, finder.seed.value = 40, 60, 4
@@ -709,7 +723,7 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     stopped()
     weighed = judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
     importance = judge(["effort", "least radius"], [1])
-    same = {"space": EXPANDED_SPACE, "free": list(PAPER_SPACE), "criteria": weighed, "importance": importance}
+    same = {"space": EXPANDED_SPACE, "free": list(DOOR_HANDLE_SPACE), "criteria": weighed, "importance": importance}
     other_start = explore(DoorHandleCam(friction=0.2), pressure_angle, free=SLIDERS, **SMALL)
     pages = {
         "problems": search(an_explorer(), {"another": door_handle_study}, **same),
@@ -833,7 +847,7 @@ OTHERS = {
     "another page": lambda: search(an_explorer(), {"another": door_handle_study}, space=PAPER_SPACE,
                                    free=list(PAPER_SPACE)),
     "another study of the same name": lambda: search(
-        an_explorer(), STUDIES | {"lift curve alone": partial(door_handle_study, whole=True)}, space=EXPANDED_SPACE,
+        an_explorer(), STUDIES | {"lift curve alone": door_handle_study}, space=EXPANDED_SPACE,
         free=list(PAPER_SPACE), criteria=judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS),
         importance=judge(["effort", "least radius"], [1])),
 }  # fmt: skip
@@ -1325,7 +1339,7 @@ def test_a_study_that_cannot_be_used_is_refused_and_changes_nothing(found, chang
     upload(found, "Load study", FILE if change is None else text)
     after, said = state(), alert(found)
     for bounds in found.bounds.values():  # for the tests that follow, should it have been used after all
-        bounds.set(PAPER_SPACE.get(bounds.name))
+        bounds.set(EXPANDED_SPACE[bounds.name] if bounds.name in DOOR_HANDLE_SPACE else None)
     found.study, found.front, found._x = before[2], before[1], before[1].x
     found.criteria.load(PAPER_JUDGEMENTS)
     found.population.value = 40
@@ -1433,7 +1447,7 @@ def test_everything_can_be_tried(finder):
             w.IntSlider,
         )
         assert moved == len(inside(panel, controls))
-    assert app.design.replace(**{k: getattr(design, k) for k in PAPER_SPACE}) == design
+    assert app.design.replace(**{k: getattr(design, k) for k in DOOR_HANDLE_SPACE}) == design
 
 
 def test_try_everything_bites_when_a_callback_raises():

@@ -17,6 +17,7 @@ from camkit import (
     Friction,
     OscillatingRollerCam,
     door_handle_study,
+    lift_curve_study,
     load,
     nsga2,
     save,
@@ -139,7 +140,7 @@ def test_files_say_their_schema_and_units(tmp_path):
 @pytest.fixture(scope="module", params=["lift", "whole"])
 def work(request):
     whole = request.param == "whole"
-    study = door_handle_study(whole=whole, space=EXPANDED_SPACE if whole else None)
+    study = door_handle_study(space=EXPANDED_SPACE) if whole else lift_curve_study()
     front = nsga2(study, 40, 30, 5)
     judgements = {"criteria": [5.0, 5.0, 1.0], "importance": [1 / 3]}
     return Work(study, front[0], judgements, {"population": 40, "generations": 30, "seed": 5}, front.x)

@@ -31,6 +31,7 @@ from camkit import (
     explore,
     high_speed_study,
     judge,
+    lift_curve_study,
     load,
     nsga2,
     quantity,
@@ -40,7 +41,7 @@ from camkit import (
     valve_study,
 )
 from camkit.cam.cam_lever import CamLever
-from camkit.cam.door_handle import CURVE_TABLE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
+from camkit.cam.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
 from camkit.cam.high_speed_paper import with_printed_sizes
 from camkit.cam.valve_study import corrected_valve_study
 from camkit.entries import MOST_ROWS, exact_in_unit, fits
@@ -96,7 +97,7 @@ def studies():
 
 
 STUDIES = studies() | {
-    "whole cam": partial(door_handle_study, whole=True, space=EXPANDED_SPACE),
+    "whole cam, expanded": partial(door_handle_study, space=EXPANDED_SPACE),
     "valve, printed sign": partial(valve_study, printed_sign=True),
     "valve, paper's units": partial(valve_study, paper_units=True),
     "valve, widened": partial(corrected_valve_study, ValveCam(base_radius=24.5 * mm)),
@@ -269,7 +270,7 @@ def test_a_measure_that_a_file_cannot_make_is_refused(how):
 
 @pytest.fixture(scope="module")
 def front():
-    return nsga2(door_handle_study(space=PAPER_SPACE), 24, 12, 1)
+    return nsga2(lift_curve_study(), 24, 12, 1)
 
 
 def test_a_front_alone_is_saved(front, tmp_path):
@@ -669,8 +670,10 @@ def page():
     app = explore(DoorHandleCam(), pressure_angle, measures=CURVE_TABLE[:5], width=4, height=3, **limits)
     criteria = judge(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
     importance = judge(["effort", "least radius"], [1])
-    problems = {"lift curve alone": door_handle_study, "whole cam": partial(door_handle_study, whole=True)}
-    return search(app, problems, space=EXPANDED_SPACE, free=list(PAPER_SPACE), criteria=criteria, importance=importance)
+    problems = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
+    return search(
+        app, problems, space=EXPANDED_SPACE, free=list(DOOR_HANDLE_SPACE), criteria=criteria, importance=importance
+    )
 
 
 def said(panel):

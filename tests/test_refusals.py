@@ -24,6 +24,7 @@ from camkit import (
     ahp,
     crowding,
     door_handle_study,
+    lift_curve_study,
     load,
     nsga2,
     picture,
@@ -134,7 +135,9 @@ REFUSALS = [
      "the bounds of the lift arm are -5 mm and 50 mm; each must be a finite number above 0 mm"),
     (lambda: a_study(at_most={height: NAN}), "the limit of the height is nan; it must be a finite number"),
     (lambda: door_handle_study().evaluate([[1.0, 2.0]]), "x has 2 columns; this study has 3 free quantities"),
-    (lambda: door_handle_study(DoorHandleCam(lift_arm_mass=0)),
+    (lambda: lift_curve_study(space={"relief_arm": (70 * mm, 80 * mm)}),
+     "the relief arm has no effect on the lift curve; it must not be free"),
+    (lambda: lift_curve_study(DoorHandleCam(lift_arm_mass=0)),
      "the peak contact force, lift at the reference design is 0; it must be finite and not 0"),
     (lambda: weighted("sum", {height: -2}, (1,)), "the weight of the height is -2; it must be 0 or more"),
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from camkit import DoorHandleCam, deg, door_handle_study, mm
+from camkit import DoorHandleCam, deg, lift_curve_study, mm
 from camkit.plot.sweep import limit_sweep
 from camkit.sweep import Sweep
 
-STUDY = door_handle_study(space={"lift_arm": (40 * mm, 60 * mm)})
+STUDY = lift_curve_study(space={"lift_arm": (40 * mm, 60 * mm)})
 
 
 def test_every_value_is_evaluated_as_it_would_be_alone():
@@ -40,6 +40,6 @@ def test_a_view_moves_what_it_drew():
 
 
 def test_two_free_quantities_are_refused():
-    study = door_handle_study(space={"lift_arm": (40 * mm, 60 * mm), "lift_start_angle": (17 * deg, 26 * deg)})
+    study = lift_curve_study(space={"lift_arm": (40 * mm, 60 * mm), "lift_start_angle": (17 * deg, 26 * deg)})
     with pytest.raises(ValueError, match=r"^a sweep shows one free quantity; this study has 2$"):
         Sweep(study)

@@ -70,11 +70,15 @@ def table_1() -> Comparison:
     cam = before()
     rounded = cam.replace(lift_start_angle=float(lift["start_angle_rad"]))
     relief_radius = float(cam.analyse().relief.pitch_radius.max()) / mm
+    a, l = cam.relief_centre_distance, cam.relief_arm
+    whole_degree = float(np.sqrt(a**2 + l**2 - 2 * a * l * np.cos(25 * deg))) / mm
     why = "0.38 rad is 21.77 deg: 22 deg, rounded"
+    start = f"psi_0' = {float(cam.relief.start_angle) / deg:.2f} deg from r_0 = 33.59 mm"
     rows = [
         Row("lift base radius from psi_0 = 22 deg", "mm", lift["base_radius"], float(cam.base_radius) / mm),
         Row("lift base radius from psi_0 = 0.38 rad", "mm", lift["base_radius"], float(rounded.base_radius) / mm, why),
-        Row("relief base radius", "mm", relief["base_radius"], relief_radius, "does not follow from the dimensions"),
+        Row("relief base radius from the dimensions", "mm", relief["base_radius"], relief_radius, start),
+        Row("relief base radius from psi_0' = 25 deg", "mm", relief["base_radius"], whole_degree, "24.88 deg, rounded"),
     ]
     return Comparison("Table 1: base radii", SOURCE, rows)
 
@@ -104,6 +108,10 @@ def table_4(curve: str) -> Comparison:
     rows = [
         Row(f"steepest pressure angle, {when}", "rad", angles[when], alpha[when], _REMARK[curve, when]) for when in WHEN
     ]
+    if curve == "relief":
+        kept = before().replace(relief_arm=after().relief_arm).analyse(7201)
+        why = "at the base radius 33.59 mm of the start: only l_2 changed"
+        rows.append(Row("the same, base radius kept", "rad", angles["after"], float(steepest(kept.relief)), why))
     return Comparison(f"Table 4: {curve} curve", SOURCE, [*rows, *_ratios(curve, printed), *_radii(curve, printed)])
 
 

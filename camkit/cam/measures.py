@@ -21,13 +21,13 @@ def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 def _least_radius(side: int) -> Callable[[Any], Any]:
     """The least radius of the pitch curve where it is convex (``side`` = 1) or hollow (-1); ``inf`` if nowhere."""
+    return lambda analysis: radius_of(analysis.sharpest(side).value)
 
-    def radius(analysis: Any) -> Any:
-        most = analysis.sharpest(side).value
-        with np.errstate(divide="ignore"):
-            return np.where(most > 0, 1 / most, np.where(np.isnan(most), np.nan, np.inf))[()]
 
-    return radius
+def radius_of(curvature: Any) -> Any:
+    """The radius of a curvature; ``inf`` where it is not above 0, ``nan`` stays."""
+    with np.errstate(divide="ignore"):
+        return np.where(curvature > 0, 1 / curvature, np.where(np.isnan(curvature), np.nan, np.inf))[()]
 
 
 def _groove_margin(analysis: Any) -> Any:

@@ -104,7 +104,8 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
     """What the paper was after: ``W1 (-xi / K1) + W2 (a+ / K2)`` small, radius at least 4.5 mm anywhere.
 
     ``a+`` is the peak positive acceleration, which grows with the fullness; ``K1`` and ``K2`` are both at the
-    upper corner of the box.  With the paper's base radius of 21 mm no (n, m) keeps the limit.
+    upper corner of the box.  With the paper's base radius of 21 mm no (n, m) keeps the limit, so
+    no random design is feasible before the base circle is larger.
 
     >>> study = corrected_valve_study(ValveCam(base_radius=24.5 * mm))
     >>> study.evaluate([[20, 20], [20, 1]]).feasible.tolist()

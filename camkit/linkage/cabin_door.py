@@ -145,6 +145,7 @@ def ninety_degree_study() -> Study:
 
     The paper's bounds, sweep and positions, but the paper's optimum opens 53.7 deg only.  A closer pulls the door
     of 30 kg shut with 10 N m, and as the ship heels by 10 deg it opens uphill; the rocker angle falls as it opens.
+    Some 3 of 1000 random designs keep the limits: the housing leaves 1 in 30 its room, and few of these open so far.
 
     >>> study = ninety_degree_study()
     >>> whole_mm = study.evaluate(np.array([120, 120, 120, 99, 99]) * mm)

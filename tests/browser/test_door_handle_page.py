@@ -15,7 +15,7 @@ from PIL import Image
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
-from camkit.cam.door_handle import CURVE_TABLE, PAPER_SPACE
+from camkit.cam.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.decision import CHOOSERS
 from camkit.export import from_json
 from camkit.geometry import rotated
@@ -26,7 +26,8 @@ from camkit.quantities import declarations
 from camkit.units import in_unit
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 
-START = DoorHandleCam()
+START = DoorHandleCam(door_torque=10)
+MEASURES = (*WORSE_CURVE.values(), *CURVE_TABLE)
 TURN = 75 * deg
 
 
@@ -102,12 +103,12 @@ def drag(page: Page, handle: Locator, dx: float) -> None:
 
 def shows(book: Workbook, design: DoorHandleCam) -> None:
     """The boxes and the table of measures show ``design``, computed here."""
-    study, first, now = door_handle_study(), START.analyse(), design.analyse()
-    for name in ("lift_arm", "lift_start_angle", "relief_arm"):
+    study, first, now = door_handle_study(START), START.analyse(), design.analyse()
+    for name in ("lift_arm", "lift_start_angle", "relief_arm", "relief_cam_angle"):
         shown = f"{in_unit(getattr(design, name), declarations(design)[name].unit):.6g}"
         expect(book.box(name.replace("_", " "))).to_have_value(shown)
     cells = book.explorer.locator(".camkit-tables tr:has(td)")
-    expected = table_of_measures(CURVE_TABLE, now, first, study.at_most, study.at_least)
+    expected = table_of_measures(MEASURES, now, first, study.at_most, study.at_least)
     expect(cells).to_have_text(expected)
 
 
@@ -158,7 +159,7 @@ def test_dragging_a_slider_moves_box_table_and_picture(book: Workbook) -> None:
 
     arm = float(slider.get_attribute("aria-valuetext"))
     assert 40 < arm < 49
-    design = DoorHandleCam(lift_arm=arm * mm)
+    design = START.replace(lift_arm=arm * mm)
     shows(book, design)
     assert book.value("app.design.lift_arm") == pytest.approx(arm * mm, rel=1e-9)
     mechanism, angle = DOOR_HANDLE_VIEWS.index(cam_mechanism), DOOR_HANDLE_VIEWS.index(pressure_angle)
@@ -171,7 +172,7 @@ def test_dragging_a_slider_moves_box_table_and_picture(book: Workbook) -> None:
 
 def test_a_typed_number_counts_to_its_last_digit(book: Workbook) -> None:
     book.type("lift arm", "48.0912")
-    shows(book, DoorHandleCam(lift_arm=48.0912 * mm))
+    shows(book, START.replace(lift_arm=48.0912 * mm))
     assert book.value("app.design.lift_arm") == 48.0912 * mm
     assert float(book.slider("lift arm").get_attribute("aria-valuetext")) == pytest.approx(48.09, abs=0.011)
 
@@ -188,7 +189,7 @@ def test_what_cannot_be_built_is_a_sentence_in_place_of_the_picture(
     book: Workbook, name: str, typed: str, field: str, value: float
 ) -> None:
     with pytest.raises(ValueError) as refused:  # noqa: PT011 - the sentence is what is compared
-        DoorHandleCam(**{field: value}).analyse()
+        START.replace(**{field: value}).analyse()
     picture, table = book.explorer.locator("img.camkit-image"), book.explorer.locator(".camkit-tables")
     before = book.box(name).input_value()
 
@@ -209,7 +210,7 @@ def test_what_cannot_be_built_is_a_sentence_in_place_of_the_picture(
 def test_another_motion_law_from_the_menu(book: Workbook) -> None:
     law = next(law for law in LAWS if law.name == "modified sine")
     book.row("motion law").get_by_role("combobox").select_option(law.name)
-    shows(book, DoorHandleCam(motion_law=law))
+    shows(book, START.replace(motion_law=law))
     assert book.value("app.design.motion_law.name") == law.name
 
 
@@ -232,7 +233,7 @@ def test_turning_the_handle_turns_cam_and_cranks(book: Workbook) -> None:
 def front_here(book: Workbook, weights: Any) -> tuple[np.ndarray, np.ndarray]:
     """The designs of the kernel's front and their objectives under ``weights``, computed here, beaten ones out."""
     x = np.array(book.value("finder._x"))
-    f = door_handle_study(space=PAPER_SPACE, weights=weights).evaluate(x).f
+    f = door_handle_study(START, weights=weights).evaluate(x).f
     beaten = [any((g <= row).all() and (g < row).any() for g in f) for row in f]
     order = np.argsort(f[~np.array(beaten), 0], kind="stable")
     return x[~np.array(beaten)][order], f[~np.array(beaten)][order]
@@ -242,8 +243,9 @@ def wins(book: Workbook, weights: Any, importance: Any, rule: str) -> None:
     """The panel names the winner that is chosen here."""
     x, f = front_here(book, weights)
     i = CHOOSERS[rule](f, importance)
-    goals = f"effort {f[i, 0]:.4g}, least convex radius (pitch), lift {-f[i, 1] / mm:.4g} mm"
-    arms = f"lift arm {x[i, 0] / mm:.6g} mm, lift start angle {x[i, 1] / deg:.6g} deg, relief arm {x[i, 2] / mm:.6g} mm"
+    goals = f"effort {f[i, 0]:.4g}, least convex radius (pitch), worse curve {-f[i, 1] / mm:.4g} mm"
+    arm, start, share = x[i] / (mm, deg, deg)
+    arms = f"lift arm {arm:.6g} mm, lift start angle {start:.6g} deg, relief cam angle {share:.6g} deg"
     expect(book.finder).to_contain_text(f"winner: design {i} of 0..{len(f) - 1}: {goals}")
     expect(book.finder).to_contain_text(arms)
 
@@ -313,7 +315,7 @@ def test_a_search_shows_its_progress_and_stops(book: Workbook) -> None:
     expect(status).not_to_have_text(seen)
     eventually(lambda: bar.evaluate("bar => bar.getBoundingClientRect().width") > width)
     book.type("lift arm", "47")  # the page is alive, and the search leaves the design in the sliders alone
-    shows(book, DoorHandleCam(lift_arm=47 * mm))
+    shows(book, START.replace(lift_arm=47 * mm))
 
     stop.click()
     expect(status).to_contain_text("(stopped)")
@@ -328,7 +330,7 @@ def test_a_search_shows_its_progress_and_stops(book: Workbook) -> None:
 
 def front_design(book: Workbook, i: int) -> DoorHandleCam:
     x = book.value(f"finder.front.x[{i}]")
-    return DoorHandleCam(**dict(zip(PAPER_SPACE, x, strict=True)))
+    return START.replace(**dict(zip(DOOR_HANDLE_SPACE, x, strict=True)))
 
 
 def test_the_slider_under_the_front_loads_a_design(book: Workbook) -> None:
@@ -374,7 +376,7 @@ def upload(book: Workbook, panel: Locator, button: str, text: str) -> None:
 
 def test_a_saved_design_comes_back(book: Workbook) -> None:
     book.type("relief arm", "71.25")
-    changed = DoorHandleCam(relief_arm=71.25 * mm)
+    changed = START.replace(relief_arm=71.25 * mm)
     shows(book, changed)
     name, text = download(book, book.explorer, "Save design")
     assert name == "DoorHandleCam.json"
@@ -397,7 +399,7 @@ def test_a_damaged_file_is_refused_in_a_sentence(book: Workbook) -> None:
 
 def test_the_profile_downloads_as_a_table(book: Workbook) -> None:
     book.type("lift arm", "48")
-    changed = DoorHandleCam(lift_arm=48 * mm)
+    changed = START.replace(lift_arm=48 * mm)
     shows(book, changed)
     name, text = download(book, book.explorer, "Profile as CSV")
     assert name == "DoorHandleCam.csv"

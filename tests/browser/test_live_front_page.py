@@ -15,7 +15,7 @@ from camkit import DoorHandleCam, ahp, door_handle_study, mm
 from camkit.archive import quick_front
 from lab import LabServer, kernel_value, open_notebook, run_all
 
-PAPER = DoorHandleCam()
+PAPER = DoorHandleCam(door_torque=10)
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
 
 def test_sliders_and_judgements_move_the_front(book: Workbook) -> None:
     image = book.live.locator("img.camkit-image")
-    book.shows(quick_front(door_handle_study()))
+    book.shows(quick_front(door_handle_study(PAPER)))
     before = image.get_attribute("src")
 
     book.type("lift centre distance", "78")
@@ -87,4 +87,4 @@ def test_what_is_impossible_is_told_in_place_of_the_picture(book: Workbook) -> N
     expect(book.live.locator("img.camkit-image")).to_be_hidden()
     book.sliders.get_by_role("button", name="Reset").click()
     expect(alert).to_be_hidden()
-    book.shows(quick_front(door_handle_study()))
+    book.shows(quick_front(door_handle_study(PAPER)))

@@ -157,7 +157,7 @@ def test_a_law_that_stops_with_a_jolt_is_seen_before_the_joint():
 
 
 def test_the_design_of_a_front_keeps_its_limits_at_any_number_of_angles():
-    study = door_handle_study(whole=True)
+    study = door_handle_study()
     front = nsga2(study, 40, 40, seed=1)
     for angles in (61, 361, 7201):
         assert study.replace(angles=angles).evaluate(front.x).feasible.all()
