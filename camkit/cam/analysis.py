@@ -16,6 +16,7 @@ import numpy as np
 
 from ..geometry import offset_curvature, rotated
 from ..motion import Kinematics
+from ..motion.resolution import Resolution
 from ..quantities import fails
 from . import groove, peaks, statics
 from .peaks import Extreme
@@ -51,9 +52,14 @@ class CamAnalysis(ABC):
         return other
 
     @cached_property
+    def resolution(self) -> Resolution:
+        """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides."""
+        return self.cam.motion.resolution
+
+    @cached_property
     def resolved(self) -> Any:
-        """The same cam at the cam angles that show every stretch of its motion, however narrow."""
-        other = replace(self, cam_angle=self.cam.motion.resolution.angle)
+        """The same cam at the cam angles of its `resolution`."""
+        other = replace(self, cam_angle=self.resolution.angle)
         other.__dict__["resolved"] = other
         return other
 
@@ -217,7 +223,7 @@ class CamAnalysis(ABC):
         ``(..., k)``; the last one leads back to the first.  A leap of the follower itself counts as both ways.
         """
         shown, program = self.resolved, self.cam.motion
-        first, last = program.resolution.first, program.resolution.last
+        first, last = self.resolution.first, self.resolution.last
         s, v = (x - 0.0 * shown.cam_angle for x in shown.motion[:2])
         leaps, jumps = (np.roll(x[..., first], -1, axis=-1) - x[..., last] for x in (s, v))
         leaps = np.where(abs(leaps) > JUMP * abs(s).max(-1, keepdims=True), np.inf, 0.0)
@@ -249,7 +255,7 @@ class CamAnalysis(ABC):
 
 def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
     """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
-    shown, resolution = analysis.resolved, analysis.cam.motion.resolution
+    shown, resolution = analysis.resolved, analysis.resolution
 
     def value(angle: Any) -> Any:
         return f(shown if angle is resolution.angle else analysis.at(angle))

@@ -19,7 +19,7 @@ import numpy as np
 from ..quantities import Measure, declarations, fails, quantity
 from ..study import Study
 from ..units import mm
-from .high_speed import FreeLawCam, HighSpeedAnalysis, HighSpeedCam, joined, lifted, number
+from .high_speed import FreeLawCam, HighSpeedAnalysis, HighSpeedCam, number
 from .high_speed_load import SliderLoad
 from .high_speed_study import (
     CLEAR,
@@ -154,7 +154,7 @@ class CamLeverAnalysis(HighSpeedAnalysis):
 
         Peaks are raised to what they are between the angles.
         """
-        press, slowing = self.press, joined(*(lifted(-part.acceleration) for part in self.intervals))
+        press, slowing = self.press, self.tops(lambda part: -part.acceleration)
         return press.inertia_speed2 * slowing / (press.weight * press.lever)
 
 

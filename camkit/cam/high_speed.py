@@ -12,6 +12,7 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.  The geometry is that
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -22,32 +23,19 @@ from ..contact import contact_modulus, hertz_line
 from ..geometry import angle_opposite
 from ..kinds import shown
 from ..motion import LAWS, Dwell, Kinematics, Law, MotionProgram, Poly345, Return, Rise
+from ..motion.resolution import STEPS, Resolution, resolve
 from ..motion.shaped import DEGREE9, FAMILIES, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
 from .high_speed_load import ConstantTorque, InertialSpringLoad
 from .load import Friction
 from .oscillating_roller import OscillatingRollerAnalysis
+from .peaks import raised
 
 HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
 AT_REST = 1e-9
 """Share of the swing below which the arm counts as not having moved."""
-
-
-def lifted(values: Any) -> Any:
-    """``values`` at even steps, each local maximum raised to the top of the parabola through its neighbours.
-
-    >>> x = np.linspace(0, 3, 31)
-    >>> print(f"{1 - np.sin(x).max():.0e}, {1 - lifted(np.sin(x)).max():.0e}")
-    4e-04, 1e-06
-    """
-    left, mid, right = values[..., :-2], values[..., 1:-1], values[..., 2:]
-    with np.errstate(invalid="ignore"):
-        bend = 2 * mid - left - right
-        top = (mid >= left) & (mid >= right) & (bend > 0) & np.isfinite(bend)
-        tops = mid + np.where(top, (right - left) ** 2, 0.0) / np.where(top, 8 * bend, 1.0)
-    return np.concatenate([values[..., :1], tops, values[..., -1:]], axis=-1)
 
 
 def joined(*stretches: Any) -> Any:
@@ -225,6 +213,11 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     cam: Any
 
     @property
+    def inner(self) -> Any:
+        """Which angles have a neighbour at an even step on both sides (the ends of all have not)."""
+        return True
+
+    @property
     @abstractmethod
     def spring_rate(self) -> Any:
         """``K``, shaped to multiply arrays of angles."""
@@ -299,18 +292,18 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     @cached_property
     def stress_between(self) -> np.ndarray:
         """``F_sigma`` in SI, each peak raised to what it is between the angles."""
-        return inverse_root(-lifted(-self.ease))
+        return inverse_root(-raised(-self.ease, self.inner))
 
     @cached_property
     def wear_between(self) -> np.ndarray:
         """``F_wear`` in SI, each peak raised to what it is between the angles."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            return inverse_root(-lifted(-self.ease / self.normal_force**2))
+            return inverse_root(-raised(-self.ease / self.normal_force**2, self.inner))
 
     @cached_property
     def margin_between(self) -> np.ndarray:
         """``q``, each valley lowered to what it is between the angles."""
-        return -lifted(-self.margin)
+        return -raised(-self.margin, self.inner)
 
     @cached_property
     def spring_needed(self) -> np.ndarray:
@@ -320,7 +313,7 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         """
         psi = self.motion.s
         at_rest = psi <= AT_REST * self.cam.swing
-        return lifted(np.where(at_rest, -1e12, -self.motion.a / np.where(at_rest, 1, psi)))
+        return raised(np.where(at_rest, -1e12, -self.motion.a / np.where(at_rest, 1, psi)), self.inner)
 
     @cached_property
     def hertz_pressure(self) -> np.ndarray:
@@ -347,6 +340,12 @@ class Interval(HighSpeedContact):
     """The part of a turn in which the arm swings one way."""
 
     whole: HighSpeedAnalysis
+    even: Any = True
+
+    @property
+    def inner(self) -> Any:
+        """As given."""
+        return self.even
 
     @property
     def resolved(self) -> HighSpeedAnalysis:
@@ -379,9 +378,30 @@ class HighSpeedAnalysis(HighSpeedContact):
         """The interval in which the arm swings back."""
         return Interval(self.cam, self.fall_at, self)
 
+    @cached_property
+    def resolution(self) -> Resolution:
+        """As many steps in each interval as the analysis has, or more."""
+        return resolve(self.cam.motion, max(STEPS, self.rise_at.shape[-1] - 1))
+
+    @cached_property
+    def seen(self) -> tuple[Interval, Interval]:
+        """Rise and fall at the cam angles that show them and the kinks of their laws, whatever those asked for."""
+        resolution, moves = self.resolution, self.resolution.moves
+        away, back, end = np.flatnonzero(np.diff(moves)) + 1
+        parts = []
+        for columns in (slice(0, away), slice(back, end)):
+            part = Interval(self.cam, resolution.angle[..., columns], self, resolution.inner[columns])
+            part.__dict__["motion"] = Kinematics(*(x[..., columns] for x in self.resolved.motion))
+            parts.append(part)
+        return parts[0], parts[1]
+
     def along(self, name: str) -> np.ndarray:
-        """An array of rise and fall, one behind the other."""
-        return joined(getattr(self.rise, name), getattr(self.fall, name))
+        """An array of rise and fall as `seen`, one behind the other."""
+        return joined(*(getattr(part, name) for part in self.seen))
+
+    def tops(self, curve: Callable[[Interval], Any]) -> np.ndarray:
+        """``curve`` of rise and fall as `seen`, each peak raised to what it is between the angles."""
+        return joined(*(raised(curve(part) + 0.0 * part.cam_angle, part.inner) for part in self.seen))
 
     @property
     def moving_angle(self) -> np.ndarray:
@@ -406,7 +426,7 @@ class HighSpeedAnalysis(HighSpeedContact):
     @cached_property
     def travel(self) -> np.ndarray:
         """The arm's travel over rise and fall as a share of the swing."""
-        return joined(self.rise.motion.s, self.fall.motion.s) / self.cam.swing
+        return joined(*(part.motion.s for part in self.seen)) / self.cam.swing
 
     @cached_property
     def lead(self) -> np.ndarray:
@@ -414,9 +434,13 @@ class HighSpeedAnalysis(HighSpeedContact):
 
         Below 0 the arm is beyond that end.  It stays of a size near the ends, where the travel itself vanishes.
         """
-        plain = Poly345()(np.linspace(0, 1 - HAIR, self.rise_at.shape[-1])[1:-1]).s
-        away, back = (stretch.motion.s[..., 1:-1] / self.cam.swing for stretch in self.intervals)
-        return joined(*(np.where(plain < 0.5, s / plain, (1 - s) / (1 - plain)) for s in (away, 1 - back)))
+        (away, back), cam = self.seen, self.cam
+        begun = cam.rise_angle + cam.dwell_angle
+        ways = (
+            (away.cam_angle / cam.rise_angle, away.motion.s / cam.swing, away.inner),
+            ((back.cam_angle - begun) / cam.return_angle, 1 - back.motion.s / cam.swing, back.inner),
+        )
+        return joined(*(_lead(share[..., inner], s[..., inner]) for share, s, inner in ways))
 
     @cached_property
     def least_spring_factor(self) -> Any:
@@ -453,12 +477,13 @@ class HighSpeedAnalysis(HighSpeedContact):
     @property
     def loses_contact(self) -> Any:
         """Whether the roller would lift off somewhere, ``N < 0``."""
-        return np.any([(s.normal_force < -s._nothing).any(-1) for s in self.intervals], axis=0)
+        return np.any([(s.normal_force < -s._nothing).any(-1) for s in self.seen], axis=0)
 
     @property
     def beyond(self) -> np.ndarray:
         """How far the arm is beyond the nearer end over rise and fall, as a share of the swing; 0 between the ends."""
-        over = np.maximum(-self.travel, self.travel - 1)
+        before, after = self.tops(lambda part: -part.motion.s), self.tops(lambda part: part.motion.s)
+        over = np.maximum(before, after - self.cam.swing) / self.cam.swing
         return np.where(over <= AT_REST, 0.0, over)
 
     @property
@@ -480,3 +505,9 @@ class HighSpeedAnalysis(HighSpeedContact):
             "the arm passes its start": self.passes_start,
             "the arm passes its end": self.passes_end,
         }
+
+
+def _lead(share: Any, travel: Any) -> Any:
+    """Travel from the nearer end at a share of the interval, over that of a 3-4-5 polynomial."""
+    plain = Poly345()(share).s
+    return np.where(plain < 0.5, travel / plain, (1 - travel) / (1 - plain))

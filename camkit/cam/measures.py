@@ -44,7 +44,7 @@ def mean_over(analysis: Any, name: str) -> Any:
 
     ``nan`` if the follower does not move at all.
     """
-    shown, resolution = analysis.resolved, analysis.cam.motion.resolution
+    shown, resolution = analysis.resolved, analysis.resolution
     angle, values = shown.cam_angle, getattr(shown, name)
     step = np.diff(angle, axis=-1) * resolution.moves[:-1] * resolution.moves[1:]
     total = ((values[..., 1:] + values[..., :-1]) / 2 * step).sum(-1)

@@ -36,8 +36,8 @@ class Resolution(NamedTuple):
         return inside
 
 
-def resolve(program: MotionProgram) -> Resolution:
-    """The same number of cam angles for every segment that moves, whatever its angle.
+def resolve(program: MotionProgram, steps: int = STEPS) -> Resolution:
+    """The same number of ``steps`` for every segment that moves, whatever its angle.
 
     >>> from camkit.motion import Cycloidal, Dwell, MotionProgram, Rise
     >>> narrow = resolve(MotionProgram((Dwell(3.0), Rise(0.01, 1.0, Cycloidal()))))
@@ -45,26 +45,26 @@ def resolve(program: MotionProgram) -> Resolution:
     (132, 129)
     """
     pieces = [
-        (start + low * (end - start), start + high * (end - start), steps)
+        (start + low * (end - start), start + high * (end - start), even)
         for (start, end), segment in zip(pairwise(program.starts), program.segments, strict=True)
-        for low, high, steps in _pieces(segment)
+        for low, high, even in _pieces(segment, steps)
     ]
-    sizes = np.array([steps + 1 for *_, steps in pieces])
-    angles = [np.atleast_1d(_inside(low, high, steps)) for low, high, steps in pieces]
+    sizes = np.array([even + 1 for *_, even in pieces])
+    angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
     lead = np.broadcast_shapes(*(angle.shape[:-1] for angle in angles))
     joined = np.concatenate([np.broadcast_to(angle, (*lead, angle.shape[-1])) for angle in angles], axis=-1)
     ends = np.cumsum(sizes)
-    return Resolution(joined, ends - sizes, ends - 1, np.repeat([steps > REST for *_, steps in pieces], sizes))
+    return Resolution(joined, ends - sizes, ends - 1, np.repeat([even > REST for *_, even in pieces], sizes))
 
 
-def _pieces(segment: Segment) -> list[tuple[Any, Any, int]]:
+def _pieces(segment: Segment, steps: int) -> list[tuple[Any, Any, int]]:
     """The smooth pieces of a segment: from and to, as shares of it, and their steps."""
     if segment.still:
         return [(0.0, 1.0, REST)]
     ends = list(pairwise((0.0, *segment.kinks, 1.0)))
     alike = any(np.ndim(kink) for kink in segment.kinks)  # a population's: as many steps for each of its members
     shares = [1 / len(ends) if alike else high - low for low, high in ends]
-    return [(low, high, max(LEAST, int(np.ceil(STEPS * x)))) for (low, high), x in zip(ends, shares, strict=True)]
+    return [(low, high, max(LEAST, int(np.ceil(steps * x)))) for (low, high), x in zip(ends, shares, strict=True)]
 
 
 def _inside(low: Any, high: Any, steps: int) -> Any:

@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import DoorHandleCam, OscillatingRollerCam, door_handle_study, nsga2
+from camkit.cam import high_speed_study, valve_study
 from camkit.cam.closing import ContactPair, contact_along, jump_speed
 from camkit.cam.follower_measures import least_force, least_profile_radius, peak_pressure
+from camkit.cam.high_speed import HighSpeedCam
 from camkit.cam.load import ArmLoad
 from camkit.cam.measures import (
     base_radius,
@@ -28,6 +30,8 @@ from camkit.cam.peaks import highest, raised
 from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
+from camkit.cam.valve import ValveCam
+from camkit.cam.valve_train import FOLLOWERS
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly4567, Return, Rise, Skewed
 from camkit.units import N, deg, kg, mm, rpm
 
@@ -76,7 +80,7 @@ def expected(cam):
 
 def right(cam, n):
     found, values = cam.analyse(n), expected(cam)
-    sizes = {undercut_margin: 1, least_profile_radius: cam.roller_radius, least_force: values[peak_force]}
+    sizes = {undercut_margin: 1, least_profile_radius: values[base_radius], least_force: values[peak_force]}
     for measure, value in values.items():
         close = 1e-5 * (abs(value) + sizes.get(measure, 0)) if np.isfinite(value) else 0
         assert_allclose(measure(found), value, rtol=0, atol=close, err_msg=measure.name)
@@ -210,3 +214,39 @@ def test_corners_and_needles_are_zoomed_in_on(shape):
     found = highest(lambda angle: shape(angle - at), x, inner)
     best = shape(at - at) if shape(1.0) < shape(0.0) and shape(-1.0) < shape(0.0) else shape(0 - at)
     assert_allclose(found.value, best[:, 0], rtol=1e-6, atol=1e-5)
+
+
+# ---------------------------------------------------------------- high-speed cams
+
+
+@pytest.mark.parametrize("law", [law for law in LAWS if law.name != "parabolic"], ids=lambda law: law.name)
+def test_peaks_of_a_high_speed_cam(law):
+    """At 5 angles as at 20001 of either interval, which are even and know nothing of the laws' kinks."""
+    cam = HighSpeedCam(rise_law=law, return_law=Skewed(Cycloidal(), 0.43), spring_factor=9, rise_angle=63 * deg)
+    rise, fall = cam.analyse(20_001).intervals
+    few = cam.analyse(5)
+    expected = {
+        high_speed_study.steepest: [abs(part.pressure_angle).max() for part in (rise, fall)],
+        high_speed_study.peak_force: [part.normal_force.max() for part in (rise, fall)],
+        high_speed_study.peak_torque: [abs(part.cam_torque).max() for part in (rise, fall)],
+        high_speed_study.peak_stress: [np.nanmax(part.stress_coefficient) / mm**0.5 for part in (rise, fall)],
+        high_speed_study.peak_wear: [np.nanmax(part.wear_coefficient) / mm**0.5 for part in (rise, fall)],
+        high_speed_study.peak_pressure: [np.nanmax(part.hertz_pressure) for part in (rise, fall)],
+    }
+    for measure, values in expected.items():
+        assert measure(few) == pytest.approx(max(values), rel=3e-4), measure.name
+    least = min(part.margin.min() for part in (rise, fall))
+    assert high_speed_study.undercut_margin(few) == pytest.approx(least, abs=3e-4)
+
+
+@pytest.mark.parametrize(("n", "m"), [(6, 16), (20, 20), (3, 1)])
+def test_peaks_of_a_valve_cam(n, m):
+    for follower in FOLLOWERS:
+        cam = ValveCam(n=n, m=m, follower=follower, base_radius=30 * mm)
+        fine, few = cam.analyse(20_001), cam.analyse(3)
+        assert steepest(few) == pytest.approx(abs(fine.pressure_angle).max(), rel=1e-5)
+        assert peak_force(few) == pytest.approx(abs(fine.contact_force).max(), rel=1e-5)
+        assert valve_study.peak_stress(few) == pytest.approx(fine.contact_stress.max(), rel=1e-5, nan_ok=True)
+        assert valve_study.peak_camshaft_torque(few) == pytest.approx(abs(fine.cam_torque).max(), rel=1e-5)
+        assert valve_study.face_reach(few) == pytest.approx(abs(fine.velocity).max(), rel=1e-5)
+        assert few.least_radius == pytest.approx(fine.profile_radius[fine.profile_radius > 0].min(), rel=1e-4)
