@@ -40,7 +40,7 @@ def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterato
     with voila_server(folder, REPOSITORY) as address:
         opened = {name: context.new_page() for name in (DOOR_HANDLE, *OTHERS)}
         for name, page in opened.items():
-            page.goto(f"{address}/voila/render/{name}", wait_until="commit")
+            page.goto(f"{address}/voila/render/{name}", wait_until="commit", timeout=90_000)
         yield opened
         context.close()
 
