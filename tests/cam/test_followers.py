@@ -955,3 +955,16 @@ def test_what_cannot_be_built_is_refused_in_a_sentence(build, sentence):
     with pytest.raises(ValueError, match=r"must|intervals") as refusal:
         build()
     assert str(refusal.value) == sentence
+
+
+@both_senses
+@pytest.mark.parametrize("name", ["rocking face", "rocking face below its pivot"])
+def test_the_pressure_angle_of_a_rocking_face_has_the_sign_of_its_offset(name, sigma):
+    """Of a face away from the cam (b > 0) the pivot lies behind the face."""
+    brute = FOLLOWERS[name].at(sigma)
+    analysis = analysed(brute.cam)
+    contact = turned(brute.envelope(INSIDE, -1), sigma * INSIDE)
+    to_pivot = brute.pivot(INSIDE) - contact
+    towards = (brute.outward(INSIDE) * to_pivot).sum(0) / np.hypot(*to_pivot)
+    assert_allclose(np.sin(analysis.pressure_angle), -towards, rtol=1e-6)
+    assert (np.sign(analysis.pressure_angle) == np.sign(brute.cam.face_offset)).all()
