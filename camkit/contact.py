@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .kinds import numbers
+
 GOLDEN = (np.sqrt(5) - 1) / 2
 """``(z/a)^2`` where the shear below the middle of a line contact is largest: the root of ``t^2 + t = 1``."""
 
@@ -66,8 +68,9 @@ def hertz_line(force_per_length: Any, curvature: Any, modulus: Any) -> LineConta
     >>> print(f"{contact.pressure / 1e6:.3f} MPa, {contact.half_width * 1e6:.3f} um")
     191.646 MPa, 13.287 um
     """
-    w, kappa, E = (np.asarray(x, dtype=float) for x in (force_per_length, curvature, modulus))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    w = numbers(force_per_length, "the forces per length")
+    kappa, E = numbers(curvature, "the curvatures"), numbers(modulus, "the moduli")
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         fitting = np.where((w >= 0) & (kappa > 0), kappa, np.nan)
         p0 = np.sqrt(w * E * fitting / np.pi)[()]
         a = np.sqrt(4 * w / (np.pi * E * fitting))[()]

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
+from .kinds import numbers, shown
 from .quantities import counted
 from .typed import typed_number
 
@@ -265,7 +266,7 @@ def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
     (Crawford, Williams 1985).
     """
     if not isinstance(method, str) or method not in METHODS:
-        raise ValueError(f"the method is {method!r}; there are {' and '.join(map(repr, METHODS))}")
+        raise ValueError(f"the method is {shown(method)}; there are {' and '.join(map(repr, METHODS))}")
     w = METHODS[method](completed(matrices))
     return np.asarray(w / w.sum(-1, keepdims=True))
 
@@ -377,8 +378,8 @@ def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
 def _numbers(value: Any, must: str) -> np.ndarray:
     """An array of numbers, refused with a sentence where it is none."""
     try:
-        return np.asarray(value, dtype=float)
-    except (TypeError, ValueError, OverflowError):
+        return numbers(value, "all")
+    except ValueError:
         raise ValueError(must) from None
 
 
@@ -394,7 +395,7 @@ def _objectives(front: Any) -> np.ndarray:
 
 
 def _weights(weights: Any, k: int) -> np.ndarray:
-    must = f"the weights are {weights!r}; they must be numbers"
+    must = f"the weights are {shown(weights)}; they must be numbers"
     w = np.full(k, 1 / k) if weights is None else _numbers(weights, must)
     if w.ndim not in (1, 2) or w.shape[-1] != k:
         raise ValueError(f"there are {w.shape[-1] if w.ndim else 1} weights for {k} objectives")
@@ -463,7 +464,7 @@ def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
     Raises ``ValueError`` for a scale of another name.
     """
     if not isinstance(scale, str) or scale not in SCALES:
-        raise ValueError(f"the scale is {scale!r}; there are {' and '.join(map(repr, SCALES))}")
+        raise ValueError(f"the scale is {shown(scale)}; there are {' and '.join(map(repr, SCALES))}")
     f = _objectives(front)
     y, squares = SCALES[scale](f), _weights(weights, f.shape[1]) ** 2
     to_best, to_worst = (np.sqrt(squares @ ((y - end) ** 2).T) for end in (y.min(axis=0), y.max(axis=0)))

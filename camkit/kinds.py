@@ -68,6 +68,14 @@ def a_number(value: Any, what: str, must: str = "be a finite number", holds: Cal
     raise ValueError(f"{what} is {shown(value)}; it must {must}")
 
 
+def one_number(value: Any, what: str, must: str = "be a finite number") -> float:
+    """``value`` as a float, finite or not; ``ValueError`` for what is no single number."""
+    known = number(value)
+    if known is None or np.ndim(known):
+        raise ValueError(f"{what} is {shown(value)}; it must {must}")
+    return float(known)
+
+
 def numbers(value: Any, what: str) -> np.ndarray:
     """``value`` as an array of floats of any shape; ``ValueError`` for what holds anything but real numbers."""
     if isinstance(value, float):

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .kinds import numbers, shown
 from .plane import Plane
 from .quantities import Design, Measure, declarations, fails, quantity
 from .reference import load
@@ -103,8 +104,8 @@ class UniversalJointShaft(Design):
         >>> round(UniversalJointShaft().made_of("40Cr").allowable_shear / MPa, 1)
         142.5
         """
-        if name not in MATERIALS:
-            raise ValueError(f"the material {name!r} is not known; there are {', '.join(MATERIALS)}")
+        if not isinstance(name, str) or name not in MATERIALS:
+            raise ValueError(f"the material {shown(name)} is not known; there are {', '.join(MATERIALS)}")
         material = MATERIALS[name]
         properties = ("elastic_modulus", "shear_modulus", "density", "allowable_shear")
         return self.replace(**{p: getattr(material, p) for p in properties})
@@ -138,7 +139,9 @@ class UniversalJointShaft(Design):
 
     def stiff_diameter(self, inner_diameter: Any) -> Any:
         """Outer diameter at which the twist is just what is allowed, m (see `stiff_difference`)."""
-        return (self.stiff_difference + inner_diameter**4) ** 0.25
+        bore = numbers(inner_diameter, "the inner diameters")
+        with np.errstate(over="ignore"):
+            return ((self.stiff_difference + bore**4) ** 0.25)[()]
 
     @property
     def twist_governs_below(self) -> Any:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .kinds import finite, number, refuse_kinds, shown
+from .kinds import finite, listed, number, numbers, refuse_kinds, shown
 from .quantities import Measure, Quantity, counted, declarations, unremarked, words
 
 
@@ -36,6 +36,9 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
     1.75
     """
+    if not isinstance(weights, Mapping):
+        raise ValueError(f"the weights are {shown(weights)}; they must be a mapping from measures to numbers")
+    reference = listed(reference, "the reference", "measure")
     if not weights or len(weights) != len(reference):
         raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
     for measure, value in zip(weights, reference, strict=True):
@@ -208,6 +211,7 @@ class Study:
 
     def design(self, x: Any) -> Any:
         """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
+        x = numbers(x, "the free values")
         if np.shape(x)[-1:] != (len(self.free),):
             raise ValueError(f"the design has {np.size(x)} values; this study has {len(self.free)} free quantities")
         columns = (
@@ -223,7 +227,7 @@ class Study:
     def evaluate(self, x: Any) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
         try:
-            x = np.atleast_2d(np.asarray(x, dtype=float))
+            x = np.atleast_2d(numbers(x, "the free values"))
         except (TypeError, ValueError, OverflowError):
             raise ValueError("x must be a table of numbers, a row for each design") from None
         if x.ndim > 2:

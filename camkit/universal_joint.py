@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import Design, Measure, fails, quantity
+from .quantities import Design, Measure, counted, fails, quantity
 from .units import deg
 
 
@@ -116,7 +116,7 @@ class UniversalJoint(Design):
 
     def analyse(self, n: int = 361) -> UniversalJointAnalysis:
         """Angles, speeds and couples at ``n`` input angles of one turn."""
-        return UniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, n))
+        return UniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles")))
 
 
 @dataclass(frozen=True)
@@ -202,7 +202,7 @@ class DoubleUniversalJoint(Design):
 
     def analyse(self, n: int = 361) -> DoubleUniversalJointAnalysis:
         """Angles, speeds, torques and couples at ``n`` input angles of one turn."""
-        return DoubleUniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, n))
+        return DoubleUniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles")))
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ from camkit import (
     Tolerances,
     TranslatingRollerCam,
     UnitRemark,
+    UniversalJointShaft,
 )
 from camkit.quantities import Choice, Quantity
 from camkit.shaft import shaft_study
@@ -121,7 +122,7 @@ CLASSES = [c for c in PUBLIC if inspect.isclass(c) and dataclasses.is_dataclass(
 CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in dataclasses.fields(kind) if f.init]
 
 PYTHON = re.compile(
-    r"object|NoneType|zip\(|\(\)|float:|inhomogeneous|unpack|ufunc|ambiguous|reshape|sequence|zero-size|iterable|dtype|"
+    r"\bobject\b|NoneType|zip\(|\(\)|float:|inhomogeneous|unpack|ufunc|ambiguous|reshape|sequence|zero-size|iterable|dtype|"
     r"convert|operand|Traceback|not supported|0x[0-9a-f]{6}|\n"
 )
 """What a person who never programmed should not read."""
@@ -175,3 +176,62 @@ def used(kind, name, value):
 def test_a_constructor_works_or_refuses_in_a_sentence(kind, name):
     failed = {bad: outcome(lambda v=value: used(kind, name, v)) for bad, value in BAD.items()}
     assert {bad: said for bad, said in failed.items() if said} == {}
+
+
+FRONT = [[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]
+PIECES = [(0.0, 1.0, 0.02, LAW), (1.0, 2.0, 0.0, LAW)]
+ROLLER, FLAT, ROCKER = TranslatingRollerCam(), camkit.TranslatingFlatCam(), camkit.OscillatingRollerCam()
+
+FUNCTIONS = {
+    camkit.ahp: {"judgements": [5, 3, 1], "method": "geometric"},
+    camkit.crowding: {"front": FRONT, "weights": (1, 1)},
+    camkit.knee: {"front": FRONT, "weights": (1, 1)},
+    camkit.topsis: {"front": FRONT, "weights": (1, 1), "scale": "range"},
+    camkit.weighted_sum: {"front": FRONT, "weights": (1, 1)},
+    camkit.judgement_ranges: {"front": FRONT, "judgements": [3], "method": "geometric"},
+    camkit.winner_map: {"front": FRONT},
+    camkit.hertz_line: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
+    camkit.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},
+    camkit.program_between: {"pieces": PIECES, "start": 0.0},
+    camkit.residual_vibration: {"law": LAW, "tau": 1.5, "damping": 0.1},
+    camkit.weighted: {"name": "sum", "weights": {HEIGHT: 1.0}, "reference": (2.0,)},
+    PROGRAM.__call__: {"cam_angle": 0.3},
+    PROGRAM.in_time: {"cam_angle": 0.3, "speed": 10.0},
+    LAW.__call__: {"u": 0.3},
+    ROLLER.base_radius_for: {"pressure_angle": 0.4, "least_radius": 0.001, "n": 31},
+    ROLLER.conjugate: {"distance": 0.1, "roller_radius": 0.005},
+    ROLLER.replace: {"motion": PROGRAM, "base_radius": 0.03},
+    FLAT.base_radius_for: {"least_radius": 0.001, "n": 31},
+    FLAT.conjugate: {"distance": 0.1},
+    ROCKER.conjugate: {"spread": 1.2, "arm_length": 0.06, "roller_radius": 0.005},
+    camkit.OscillatingFlatCam().face_offset_for: {"least_radius": 0.001, "n": 31},
+    camkit.OscillatingFlatCam().conjugate: {"spread": 1.0, "face_offset": 0.01},
+    camkit.ValveCam().with_spring: {"preload_share": 0.4},
+    camkit.ValveCam().motion: {"cam_angle": 0.3},
+    UniversalJointShaft().made_of: {"name": "45"},
+    UniversalJointShaft().stiff_diameter: {"inner_diameter": 0.1},
+    STUDY.design: {"x": [0.03]},
+    STUDY.evaluate: {"x": [[0.03]]},
+    STUDY.weighing: {"weights": (1.0,)},}  # fmt: skip
+FUNCTIONS |= {
+    kind().analyse: {"n": 31}
+    for kind in CLASSES
+    if hasattr(kind, "analyse") and hasattr(kind, "measures") and kind not in (RSSR, Study)
+}
+CALLS = [(function, name) for function, given in FUNCTIONS.items() for name in given]
+
+
+def _called(function, name):
+    return f"{getattr(function, '__qualname__', function)}.{name}"
+
+
+@pytest.mark.parametrize(("function", "name"), CALLS, ids=[_called(*call) for call in CALLS])
+def test_a_function_works_or_refuses_in_a_sentence(function, name):
+    given = FUNCTIONS[function]
+    failed = {bad: outcome(lambda v=value: function(**given | {name: v})) for bad, value in BAD.items()}
+    assert {bad: said for bad, said in failed.items() if said} == {}
+
+
+def test_every_argument_is_good_before_one_is_bad():
+    for function, given in FUNCTIONS.items():
+        function(**given)

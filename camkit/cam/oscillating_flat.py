@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import shown
+from ..kinds import a_number, shown
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, counted, quantity
 from ..units import deg, mm, rpm
@@ -102,7 +102,7 @@ class OscillatingFlatCam(Design):
         9.121 mm, 18.000000 mm
         """
         refuse_radius(least_radius)
-        analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
         return least_radius - lowest(analysis, lambda at: at.offset_free_radius).value
 
     def conjugate(self, spread: Any, face_offset: Any = None) -> OscillatingFlatCam:
@@ -112,7 +112,7 @@ class OscillatingFlatCam(Design):
         """
         return self.replace(
             motion=opposite(self.motion),
-            start_angle=spread - self.start_angle,
+            start_angle=a_number(spread, "the angle between the faces") - self.start_angle,
             face_offset=self.face_offset if face_offset is None else face_offset,
             rotation=-self.rotation,
             load=self.load.opposite(spread, 1.0, 1.0),

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import shown
+from ..kinds import a_number, shown
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, counted, quantity
 from ..units import deg, mm
@@ -79,7 +79,9 @@ class OscillatingRollerCam(Design):
 
         Given in the machine's frame mirrored in the line of centres, so its arm again stands above that line.
         """
-        l = self.arm_length if arm_length is None else arm_length
+        spread = a_number(spread, "the angle between the arms")
+        must = "be a finite number above 0"
+        l = a_number(self.arm_length if arm_length is None else arm_length, "the second arm", must, lambda l: l > 0)
         return self.replace(
             motion=opposite(self.motion),
             arm_length=l,

@@ -8,22 +8,30 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import one_number
 from ..study import Study
 from ..units import deg, mm
 
 STEPS, HALVINGS = 48, 40
+LARGEST = 1000.0
+"""A radius beyond this (m) is a slip."""
 
 
 def refuse_pressure_angle(limit: Any) -> None:
     """``ValueError`` for a limit of the pressure angle that no cam or every cam keeps."""
-    if not 0 < limit < np.pi / 2:
-        raise ValueError(f"the pressure angle wanted is {limit / deg:.4g} deg; it must lie between 0 and 90 deg")
+    angle = one_number(limit, "the pressure angle wanted", "lie between 0 and 90 deg")
+    if not 0 < angle < np.pi / 2:
+        raise ValueError(f"the pressure angle wanted is {angle / deg:.4g} deg; it must lie between 0 and 90 deg")
 
 
 def refuse_radius(limit: Any) -> None:
     """``ValueError`` for a least radius of curvature that is no length."""
-    if not (np.isfinite(limit) and limit >= 0):
-        raise ValueError(f"the least radius wanted is {limit / mm:.4g} mm; it must be a finite number of at least 0 mm")
+    must = "be a finite number of at least 0 mm"
+    radius = one_number(limit, "the least radius wanted", must)
+    if not (np.isfinite(radius) and radius >= 0):
+        raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must {must}")
+    if radius > LARGEST:
+        raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must be at most {LARGEST / mm:.6g} mm")
 
 
 def least_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import shown
+from ..kinds import a_number, shown
 from ..motion import MotionProgram
 from ..quantities import Design, counted, fails, quantity
 from ..units import mm
@@ -75,7 +75,7 @@ class TranslatingFlatCam(Design):
         np.float64(0.004)
         """
         refuse_radius(least_radius)
-        analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
         return least_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
 
     def conjugate(self, distance: Any) -> TranslatingFlatCam:
@@ -83,6 +83,7 @@ class TranslatingFlatCam(Design):
 
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.
         """
+        distance = a_number(distance, "the distance of the faces")
         if fails(distance > self.base_radius):
             raise ValueError(
                 f"the faces are {distance / mm:.4g} mm apart; the first stands {self.base_radius / mm:.4g} mm above "

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import shown
+from ..kinds import a_number, shown
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, counted, fails, quantity
 from ..units import deg, mm
@@ -121,7 +121,7 @@ class TranslatingRollerCam(Design):
             clear = np.sqrt(np.maximum(self.roller_radius**2 - self.offset**2, 0.0))
             return reduce(np.maximum, (steep, tight, clear)) - at.motion.s
 
-        analysis = TranslatingRollerAnalysis(self, np.linspace(0, 1, n) * self.motion.span)
+        analysis = TranslatingRollerAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
         height = highest(analysis, start_height).value
         e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
         return np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
@@ -131,7 +131,8 @@ class TranslatingRollerCam(Design):
 
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.
         """
-        r = self.roller_radius if roller_radius is None else roller_radius
+        distance = a_number(distance, "the distance of the rollers")
+        r = self.roller_radius if roller_radius is None else a_number(roller_radius, "the second roller's radius")
         height = distance - self.start_height
         if fails(height > 0):
             raise ValueError(

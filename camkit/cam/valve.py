@@ -20,8 +20,9 @@ import numpy as np
 
 from ..contact import LineContact, contact_modulus, hertz_line
 from ..geometry import rotated
+from ..kinds import numbers, one_number
 from ..motion import Kinematics, Poly345
-from ..quantities import Design, Quantity, choice, declarations, fails, quantity
+from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity
 from ..units import deg, mm
 from .peaks import Extreme
 from .sizing import least_from_which_on
@@ -136,7 +137,7 @@ class ValveCam(Design):
 
         0 is the start of the opening flank; the ramp and the base circle have negative lift.
         """
-        from_nose = np.where(self.buildable, cam_angle - self.half_angle, np.nan)
+        from_nose = np.where(self.buildable, numbers(cam_angle, "the cam angles") - self.half_angle, np.nan)
         inward = self.half_angle - abs(from_nose)
         opening = np.where(from_nose > 0, -1.0, 1.0)
         flank, ramp = self.flank(np.maximum(inward, 0)), self._ramp(inward)
@@ -158,7 +159,7 @@ class ValveCam(Design):
 
     def analyse(self, n: int = 721) -> ValveAnalysis:
         """The opening flank at ``n`` cam angles; `ValveAnalysis.whole` is the whole cam."""
-        return ValveAnalysis(self, np.linspace(0, 1, n) * self.half_angle)
+        return ValveAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.half_angle)
 
     def with_spring(self, preload_share: float = 0.4) -> ValveCam:
         """The same cam under the weakest spring that holds the follower on it up to the speed margin.
@@ -169,6 +170,8 @@ class ValveCam(Design):
         >>> print(f"{cam.analyse().jump_speed / cam.speed:.4f}")
         1.1500
         """
+        must = "lie above 0, up to 1"
+        preload_share = one_number(preload_share, "the preload's share of the full force", must)
         if not 0 < preload_share <= 1:
             raise ValueError(
                 f"the preload's share of the full force is {preload_share:g}; it must lie above 0, up to 1"

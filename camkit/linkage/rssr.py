@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import number, numbers, shown
 from ..quantities import Design, Quantity, declarations, fails, quantity
 from ..units import deg, mm
 from . import limits
@@ -194,13 +195,17 @@ class RSSR(Links):
         There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
         crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
         """
-        if branch not in (1, -1):
-            raise ValueError(f"the branch is {branch!r}; it must be +1 or -1")
+        if np.ndim(number(branch)) or number(branch) not in (1, -1):
+            raise ValueError(f"the branch is {shown(branch)}; it must be +1 or -1")
+        if not (load is None or isinstance(load, RockerLoad)):
+            raise ValueError(f"the load is {shown(load)}; it must be a RockerLoad")
+        if not isinstance(through, (bool, np.bool_)):
+            raise ValueError(f"through is {shown(through)}; it must be True or False")
         if isinstance(crank_angle, (int, np.integer)) and crank_angle >= 2:
             crank_angle, through = np.linspace(0, 2 * np.pi, crank_angle), True
         try:
-            angles = np.atleast_1d(np.asarray(crank_angle, dtype=float))
-        except (TypeError, ValueError):
+            angles = np.atleast_1d(numbers(crank_angle, "the crank angles"))
+        except ValueError:
             angles = np.zeros(0)
         if not (angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
             raise ValueError("the crank angles must be one or more finite numbers")

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import a_number, finite, listed, number, numbers, refuse_lengths, shown
+from ..kinds import a_number, finite, listed, number, numbers, one_number, refuse_lengths, shown
 from ..quantities import fails
 from ..units import deg, in_unit
 from .joints import Joint, ProgramPeaks, find_joints, find_peaks
@@ -251,8 +251,11 @@ class MotionProgram:
         """
         must = "be a finite number of at least 0"
         speed = a_number(speed, "the speed of the shaft", must, lambda speed: speed >= 0)
+        speed = np.asarray(speed)
         s, v, a, j = self(cam_angle)
-        return Kinematics(s + 0 * speed, v * speed, a * speed**2, j * speed**3)
+        with np.errstate(over="ignore"):
+            square, cube = speed**2, speed**3
+        return Kinematics(s + 0 * speed, v * speed, a * square, j * cube)
 
     def joints(self) -> list[Joint]:
         """A record for each joint, in order; over 360 deg the joint of the last to the first segment comes last.
@@ -317,7 +320,12 @@ def program_between(
     """
     segments: list[Segment] = []
     angle, level = 0.0, start
-    for begin, end, to, law in pieces:
+    level = one_number(start, "the start of the program")
+    for piece in listed(pieces, "what the program is made of", "piece"):
+        if not isinstance(piece, (tuple, list)) or len(piece) != 4:
+            raise ValueError(f"a piece of the program is {shown(piece)}; it must be (from, to, level, law)")
+        *given, law = piece
+        begin, end, to = (one_number(value, "an angle or a level of a piece") for value in given)
         if abs(begin - angle) > ROUNDED:
             what = "overlaps the one before, which ends at" if begin < angle else "leaves angles missing after"
             raise ValueError(f"the piece from {_degrees(begin)} to {_degrees(end)} {what} {_degrees(angle)}")

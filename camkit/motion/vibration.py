@@ -29,6 +29,8 @@ from .law import Kinematics, Law
 from .program import MotionProgram
 
 GAUSS = np.polynomial.legendre.leggauss(5)
+LARGEST = 1e4
+"""A rise of more natural periods is not followed: it takes many steps, and leaves nothing to see."""
 LEAST, PER_PERIOD = 24, 48
 """Panels of the integration: at least in each smooth piece of the law, and in a natural period."""
 
@@ -54,7 +56,10 @@ def period_ratio(angle: Any, speed: Any, natural_frequency: Any) -> Any:
     >>> round(period_ratio(np.pi / 2, 600 * rpm, 2 * np.pi * 100), 6)
     2.5
     """
-    return angle * natural_frequency / (2 * np.pi * speed)
+    must = "be a finite number above 0"
+    beta = a_number(angle, "the angle of the rise", must, lambda x: x > 0)
+    frequency = a_number(natural_frequency, "the natural frequency", must, lambda x: x > 0)
+    return beta * frequency / (2 * np.pi * a_number(speed, "the speed of the shaft", must, lambda x: x > 0))
 
 
 @dataclass(frozen=True)
@@ -104,7 +109,13 @@ def residual_vibration(law: Law | MotionProgram, tau: Any, damping: float = 0.0)
     ratio = np.atleast_1d(numbers(tau, "the period ratios tau"))
     if not (np.isfinite(ratio).all() and (ratio > 0).all()):
         raise ValueError("the period ratio tau holds a value that is not a finite number above 0; it must be that")
+    if ratio.ndim > 1 or not ratio.size:
+        raise ValueError(f"the period ratios tau are {shown(tau)}; they must be numbers in a row")
+    if ratio.max() > LARGEST:
+        raise ValueError(f"the period ratio tau is {ratio.max():.6g}; it must be at most {LARGEST:.6g}")
     damping = a_number(damping, "the damping ratio", "be at least 0 and below 1", lambda z: (z >= 0) & (z < 1))
+    if np.ndim(damping):
+        raise ValueError("the damping ratio is a column; it must be one number")
     W = 2 * np.pi * ratio[:, None]
     m, c = _root(W, damping), 1 + 1j * damping / np.sqrt(1 - damping**2)
     panels = _panels(motion, float(ratio.max()))
