@@ -204,6 +204,8 @@ every_follower = pytest.mark.parametrize("brute", FOLLOWERS.values(), ids=FOLLOW
 both_senses = pytest.mark.parametrize("sigma", [1, -1], ids=["counter-clockwise", "clockwise"])
 INSIDE = np.concatenate([end - span * np.linspace(0.98, 0.02, 60) for end, span in zip(JOINTS, SPAN, strict=True)])
 """Cam angles away from the joints, so that differences can reach to both sides."""
+STROKES = np.concatenate([INSIDE[:60], INSIDE[120:180]])
+"""Those at which the follower moves."""
 
 
 def analysed(cam, phi=INSIDE):
@@ -677,6 +679,53 @@ def test_forces_with_friction_are_those_of_a_beam_in_its_guide(name, up_angle, s
 
 
 @both_senses
+@pytest.mark.parametrize("up_angle", [90, -90])
+@pytest.mark.parametrize("push", [5, 0, -5])
+def test_a_heavy_follower_that_lies_in_its_guide_is_pushed_up_and_pulled_down(push, up_angle, sigma):
+    """Its weight across rubs more than the load pushes: rising on the inner flank, returning on the outer one.
+
+    Along the travel ``F cos(alpha) = Q + mu e |W + F n_x|``, ``e`` the sense of the motion: at the cam nothing rubs.
+    """
+    friction = SlideFriction(coefficient=0, cam_axis=0, roller_pin=0, guide=0.15)
+    load = SlideLoad(mass=20, speed=0, force=push, spring_rate=0, preload=0, gravity=9.81, up_angle=up_angle * deg)
+    brute = FOLLOWERS["offset roller"].at(sigma)
+    analysis = analysed(brute.cam.replace(friction=friction, load=load), STROKES)
+    moves, weight = np.sign(analysis.velocity), 20 * 9.81 * np.sin(up_angle * deg)
+    rub = 0.15 * moves * np.sign(weight)
+    force = (push + rub * weight) / (analysis.normal[1] - rub * analysis.normal[0])
+    assert_array_equal(np.sign(force), moves)
+    assert_allclose(analysis.rubbing.contact_force, force, rtol=1e-9)
+    lost = 0.15 * abs(weight + force * analysis.normal[0]) * abs(analysis.velocity)
+    assert_allclose(analysis.rubbing.cam_torque, push * analysis.velocity + lost, rtol=1e-9)
+
+
+@both_senses
+@pytest.mark.parametrize("name", ["sliding roller", "offset roller", "rocking roller"])
+def test_what_comes_out_of_a_groove_over_what_goes_in_is_its_efficiency(name, sigma):
+    """The inner flank pushes against a load that resists the rise, the outer one pulls against the opposite load."""
+    cam = FOLLOWERS[name].at(sigma).cam
+    constant = "force" if hasattr(cam.load, "force") else "torque"
+    for push, moves in ((40.0, 1), (-40.0, -1)):
+        load = cam.load.replace(mass=0.0, spring_rate=0.0, preload=0.0, **{constant: push})
+        analysis = analysed(cam.replace(load=load), STROKES)
+        there = (np.sign(analysis.velocity) == moves) & (analysis.efficiency > 0)
+        assert there.sum() > 50
+        power = push * analysis.velocity / analysis.rubbing.cam_torque
+        assert_allclose(power[there], analysis.efficiency[there], rtol=1e-9)
+        assert (np.sign(analysis.rubbing.contact_force[there]) == moves).all()
+
+
+@every_follower
+@both_senses
+def test_a_thousandth_of_the_load_makes_a_thousandth_of_the_forces(brute, sigma):
+    cam = brute.at(sigma).cam
+    names = ("mass", "spring_rate", "preload", "force" if hasattr(cam.load, "force") else "torque")
+    with unremarked():  # a spring of 6 N/m is no slip of the unit here
+        light = cam.replace(load=cam.load.replace(**{name: getattr(cam.load, name) / 1000 for name in names}))
+    assert_allclose(1000 * np.array(light.analyse().rubbing), cam.analyse().rubbing, rtol=1e-9, atol=1e-9)
+
+
+@both_senses
 def test_forces_with_friction_of_a_rocking_face(sigma):
     """Moments about the pivot and the power balance, with the sliding face's friction along the face."""
     brute = FOLLOWERS["rocking face"].at(sigma)
@@ -709,6 +758,23 @@ def test_a_steep_follower_jams_in_its_guide():
     assert (analysis.efficiency[1:-1][~jams[1:-1]] > 0).all()
 
 
+@every_follower
+def test_a_drawn_follower_hangs_together(brute):
+    """A slide's guide begins the overhang above its highest place; an arm keeps its length from its pivot."""
+    analysis = analysed(brute.cam)
+    ((name, (root, end)),) = analysis.cranks.items()
+    if name == "follower":
+        highest = (brute.centre if isinstance(brute, Roller) else brute.foot)(JOINTS[:1])[1, 0]
+        assert_allclose(root, [brute.cam.offset, highest + brute.cam.friction.overhang], rtol=1e-12)
+    else:
+        length = (
+            brute.cam.arm_length
+            if isinstance(brute, Roller)
+            else np.hypot(analysis.contact_length, brute.cam.face_offset)
+        )
+        assert_allclose(np.hypot(*(end - root[:, None])), length, rtol=1e-12)
+
+
 # ---------------------------------------------------------------- a motion that does not begin at the level 0
 
 
@@ -736,6 +802,7 @@ def test_sizes_and_preload_hold_at_the_level_0_wherever_the_motion_begins(name, 
     elif isinstance(cam, OscillatingFlatCam):
         face = cam.centre_distance * np.sin(cam.start_angle) + cam.face_offset
         assert_allclose(radius, face, rtol=1e-12)
+        assert_allclose(radius, cam.base_radius, rtol=1e-12)
     else:
         arm = analysis.roller_centre[:, low] - [[cam.centre_distance], [0]]
         assert_allclose(np.arctan2(arm[1], -arm[0]), cam.start_angle, rtol=1e-12)
@@ -779,6 +846,7 @@ def test_the_second_face_of_a_sliding_pair(sigma):
     second = first.conjugate(95 * mm)
     one, two = analysed(first), analysed(second)
     assert_allclose(one.height + two.height, 95 * mm)
+    assert two.bearing.axis == -one.bearing.axis == -brute.cam.offset  # one follower, seen turned by half a turn
     normal, distance = brute.line(INSIDE)
     assert_allclose((-normal * -two.profile).sum(0), 95 * mm - distance, rtol=1e-12)  # touches the second face
     forces_balance(one, two)
@@ -805,6 +873,10 @@ def test_the_second_face_of_a_rocking_pair(sigma):
     second = first.conjugate(60 * deg, 4 * mm)
     one, two = analysed(first), analysed(second)
     assert_allclose(one.arm_angle + two.arm_angle, 60 * deg)
+    psi = 60 * deg - brute.psi(INSIDE)  # the second face in the machine's frame, below the line of centres
+    touched = turned(two.profile * [[1], [-1]], sigma * INSIDE)
+    assert_allclose((touched * [np.sin(psi), -np.cos(psi)]).sum(0), 90 * mm * np.sin(psi) + 4 * mm, rtol=1e-12)
+    assert first.conjugate(60 * deg).face_offset == first.face_offset
     forces_balance(one, two)
 
 

@@ -510,4 +510,5 @@ def test_statics_of_any_design(brute, f, circles):
     assert_allclose(power_in - power_out, lost, rtol=1e-8, atol=1e-15)
     eta = OscillatingRollerAnalysis(replace(brute.cam, friction=Friction(*rub)), phi).efficiency
     assert_allclose(eta, np.maximum(power_out, 0) / power_in, rtol=1e-8, atol=1e-12)
-    assert (eta <= 1 + 1e-12).all()
+    rounding = 1e-15 * brute.a / (brute.l * abs(slope(brute.psi, phi)))  # of the force's moment on the cam, over itself
+    assert (eta <= 1 + rounding).all()

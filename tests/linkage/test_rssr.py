@@ -232,6 +232,19 @@ def test_the_sweep_between_its_crank_angles_counts():
     )
 
 
+def test_a_whole_turn_more_changes_no_sweep():
+    """From 200 to 300 deg the least discriminant is at 270 deg, from 560 to 660 deg a turn later."""
+    for turns in (-2, -1, 0, 1, 3):
+        a = EXAMPLE.replace(coupler=200 * mm).analyse(np.array([200, 300]) * deg + 2 * np.pi * turns)
+        fine = a.linkage.discriminant(np.linspace(200, 300, 20001) * deg).min()
+        assert a.least_discriminant == pytest.approx(fine, abs=1e-9)
+        assert fine < a.discriminant.min() - 0.01
+
+
+def test_two_positions_of_a_turn_are_its_ends():
+    np.testing.assert_array_equal(EXAMPLE.replace(crank=20 * mm).analyse(2).crank_angle, [0, 2 * np.pi])
+
+
 # Special cases that have formulas of their own.
 
 crossing = linkages.map(lambda linkage: linkage.replace(axis_distance=0.0))

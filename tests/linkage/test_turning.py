@@ -53,6 +53,16 @@ def test_every_turn_of_a_slider_can_be_shown(linkage, degrees, turn, branch):
     assert (here.branch, there.branch) == (branch, -branch)
 
 
+def test_a_sweep_turns_about_its_middle_or_to_its_limits():
+    turns = RSSR(20 * mm, 180 * mm, 110 * mm, 120 * mm, 80 * mm).analyse(np.linspace(20, 80, 7) * deg)
+    assert np.degrees(turns.turn_range) == pytest.approx([50 - 180, 50 + 180])
+    low, high = EXAMPLE.linkage.possible_crank_angles()[0]
+    for sweep in (np.linspace(low, high, 31), np.array([low, low + 1 * deg]), np.array([high - 1 * deg, high])):
+        a = EXAMPLE.linkage.analyse(sweep)
+        assert a.turn_range == pytest.approx([low, high], abs=2 * NEXT_TO)
+        assert a.possible_turn == pytest.approx(high - low, abs=1e-9)
+
+
 def test_a_position_is_that_of_the_sweep():
     a = EXAMPLE.replace(branch=-1).analyse(7)
     for i in (0, 3, 6):
