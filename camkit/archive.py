@@ -21,6 +21,7 @@ from scipy.stats import qmc
 
 from .checkpoint import versions
 from .decision import normalised
+from .kinds import refuse_arguments
 from .optimise import Front, dominated, front_of, on_grid
 from .quantities import counted
 from .study import Study
@@ -127,6 +128,7 @@ def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None
 
 
 def _refuse(study: Study, start: Front | None) -> None:
+    refuse_arguments(_refuse, locals())
     n, objectives = len(study.free), len(study.minimise)
     if n > MOST_FREE:
         raise ValueError(f"a quick front takes up to {MOST_FREE} free quantities; this study has {n}: take nsga2()")

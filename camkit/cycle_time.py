@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from .kinds import refuse_arguments
 from .minimum import Minimum, minimise
+from .quantities import quantities
 from .study import Study
 from .units import deg
 
@@ -91,6 +93,10 @@ def shortest_interval(
 
     Raises ``ValueError`` for angles that are not ``0 < shortest < longest``, or a tolerance that is not above 0.
     """
+    refuse_arguments(shortest_interval, locals())
+    if not len(intervals):
+        raise ValueError("there is no interval to shorten; name one or more of the design's")
+    quantities(study.start, intervals)
     if not 0 < shortest < longest < np.inf:
         raise ValueError(
             f"the interval is to lie between {shortest / deg:.4g} and {longest / deg:.4g} deg; "

@@ -7,9 +7,10 @@ is given, and not by an error of Python when it is used.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import types
 import typing
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Mapping, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -89,6 +90,15 @@ def numbers(value: Any, what: str) -> np.ndarray:
         raise ValueError(f"{what} must be numbers; given is {shown(value)}") from None
 
 
+def whole(value: Any, what: str, least: int, most: int = 1_000_000) -> int:
+    """``value`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+        raise ValueError(f"{what} is {shown(value)}; it must be a whole number of at least {least}")
+    if value > most:
+        raise ValueError(f"{what} is {shown(value)}; it must be a whole number of at most {most}")
+    return int(value)
+
+
 def listed(value: Any, what: str, each: str = "number") -> tuple[Any, ...]:
     """``value`` as a tuple; ``ValueError`` for what is no tuple, list or array."""
     if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim):
@@ -156,6 +166,34 @@ def refuse_kinds(thing: Any, but: Container[str] = ()) -> None:
             raise ValueError(f"the {name.replace('_', ' ')} is {shown(value)}; it must be {kind.said}")
 
 
+def refuse_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+    """``ValueError`` in a sentence for an argument of ``function`` that is not of its annotation's kind.
+
+    ``given`` are its ``locals()`` at its door; what is annotated ``Any`` is the function's own business.
+
+    >>> def turned(angle: float, times: int = 1) -> float:
+    ...     refuse_arguments(turned, locals())
+    ...     return times * angle
+    >>> turned(0.5, "twice")
+    Traceback (most recent call last):
+        ...
+    ValueError: the argument times is 'twice'; it must be a whole number
+    """
+    for name, kind in _argument_kinds(function):
+        if not kind.holds(given[name]):
+            raise ValueError(f"the argument {name} is {shown(given[name])}; it must be {kind.said}")
+
+
+@cache
+def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[str, Kind], ...]:
+    """The arguments of a function that can be checked; those that gather others are not."""
+    hints = typing.get_type_hints(function)
+    gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    named = (p.name for p in inspect.signature(function).parameters.values() if p.kind not in gathered)
+    kinds = ((name, _kind(hints[name])) for name in named if name in hints)
+    return tuple((name, kind) for name, kind in kinds if kind is not None)
+
+
 def refuse_lengths(thing: Any) -> None:
     """``ValueError`` in a sentence if columns in the dataclass ``thing``, or in what it holds, differ in length.
 
@@ -221,7 +259,9 @@ def _kind(hint: Any) -> Kind | None:
     if origin is tuple:
         return _sequence(_kind(parts[0]) if isinstance(parts[0], type) and parts[0] is not float else None)
     if isinstance(origin, type) and issubclass(origin, Mapping):
-        return Kind(lambda v: isinstance(v, Mapping), "a mapping such as {name: value}")
+        return _mapping(_kind(parts[1]) if parts[1] is not float else None)
+    if origin is Sequence:
+        return _sequence(_kind(parts[0]) if parts[0] is not float else None)
     if isinstance(hint, type):
         return Kind(lambda v: isinstance(v, hint), f"{_article(hint.__name__)} {hint.__name__}")
     return None
@@ -229,6 +269,14 @@ def _kind(hint: Any) -> Kind | None:
 
 def _sequence(kind: Kind | None) -> Kind:
     def holds(value: Any) -> bool:
-        return isinstance(value, (tuple, list, np.ndarray)) and (kind is None or all(kind.holds(v) for v in value))
+        several = isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim > 0)
+        return several and (kind is None or all(kind.holds(v) for v in value))
 
     return Kind(holds, "a tuple" if kind is None else f"a tuple of which each is {kind.said}")
+
+
+def _mapping(kind: Kind | None) -> Kind:
+    def holds(value: Any) -> bool:
+        return isinstance(value, Mapping) and (kind is None or all(kind.holds(v) for v in value.values()))
+
+    return Kind(holds, "a mapping such as {name: value}" + (f", each value {kind.said}" if kind else ""))

@@ -16,6 +16,7 @@ from scipy.optimize import differential_evolution
 from scipy.stats import qmc
 
 from .epigraph import Epigraph, parts_of
+from .kinds import refuse_arguments, whole
 from .quantities import Measure, PeakMeasure, Quantity, counted, declarations, words
 from .study import KEPT, Evaluation, Study
 from .units import deg
@@ -102,6 +103,7 @@ def minimise(
 
     Raises ``ValueError`` for a study with several objectives, an unknown method, or numbers that are no whole ones.
     """
+    refuse_arguments(minimise, locals())
     if len(study.minimise) != 1:
         raise ValueError(
             f"the study has {len(study.minimise)} objectives; minimise takes one: weigh them with weighted(), "
@@ -109,8 +111,7 @@ def minimise(
         )
     if method not in METHODS:
         raise ValueError(f"the method is {method!r}; there are {', '.join(map(repr, METHODS))}")
-    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise ValueError(f"the seed is {seed!r}; it must be a whole number of at least 0")
+    whole(seed, "the seed", 0, 2**32 - 1)
     starts, designs = counted(starts, "starts", 1), counted(designs, "designs", 1)
     judge = study if recheck is None else study.replace(angles=recheck)
     found = METHODS[method](study, judge, seed, starts, designs)

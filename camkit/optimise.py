@@ -19,8 +19,12 @@ from pymoo.indicators.hv import HV
 from scipy.stats import qmc
 
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, taken_up, versions, why
+from .kinds import numbers, refuse_arguments, shown, whole
 from .quantities import counted
 from .study import Evaluation, Study
+
+MOST_SEED = 2**63 - 1
+"""The largest seed that a file can hold."""
 
 
 class StudyProblem(Problem):
@@ -79,7 +83,17 @@ class Front:
         return len(self.x)
 
     def __getitem__(self, i: int) -> Any:
-        return self.study.design(self.x[i])
+        return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
+
+    def _place(self, i: Any) -> Any:
+        """One or more places on the front; past its end `IndexError`, by which a loop over it ends."""
+        numbers(i, "the place on the front")
+        place = np.asarray(i)
+        if place.dtype.kind not in "iu" or place.ndim > 1:
+            raise ValueError(f"the place on the front is {shown(i)}; it must be a whole number, or several")
+        if not ((-len(self) <= place) & (place < len(self))).all():
+            raise IndexError(f"there is no design {shown(i)} on the front; it has {len(self)}, counted from 0")
+        return place
 
     def hypervolume(self, reference: Any = None) -> float:
         """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`).
@@ -93,6 +107,7 @@ class Front:
 
     def judged_by(self, study: Study) -> Front:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
+        refuse_arguments(Front.judged_by, locals())
         if not len(self):
             return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message, self.record)
         return replace(front_of(study.evaluate(self.x), study), record=self.record)
@@ -101,16 +116,17 @@ class Front:
 def _point(reference: Any, k: int) -> np.ndarray:
     """A point in the space of ``k`` objectives."""
     try:
-        point = np.asarray(reference, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        point = np.full(k, np.nan)
+        point = numbers(reference, "the reference point")
+    except ValueError:
+        point = np.zeros(())
     if point.shape != (k,) or not np.isfinite(point).all():
-        raise ValueError(f"the reference point is {reference!r}; it must be {k} finite numbers")
+        raise ValueError(f"the reference point is {shown(reference)}; it must be {k} finite numbers")
     return point
 
 
 def front_of(evaluation: Evaluation, study: Study) -> Front:
     """The feasible designs of an evaluation that no other dominates."""
+    refuse_arguments(front_of, locals())
     kept = np.flatnonzero(evaluation.feasible)
     f = evaluation.f[kept]
     kept = kept[~dominated(f)]
@@ -120,6 +136,9 @@ def front_of(evaluation: Evaluation, study: Study) -> Front:
 
 def dominated(f: np.ndarray) -> np.ndarray:
     """Which rows another row beats: nowhere worse, somewhere better; ``(p,)``."""
+    f = numbers(f, "the objectives")
+    if f.ndim != 2:
+        raise ValueError(f"the objectives have the shape {f.shape}; they must be a table, a row for each design")
     no_worse = (f[:, None] <= f[None]).all(-1)
     better = (f[:, None] < f[None]).any(-1)
     return np.asarray((no_worse & better).any(0))
@@ -179,13 +198,10 @@ def nsga2_generations(
     the search goes on from it, first giving the generation that it holds; see `nsga2`.  Where the file cannot be
     written the search goes on without it, and says so in ``unkept`` from then on.
     """
-    for name, value, least in (
-        ("population is", population, 4),
-        ("number of generations is", generations, 1),
-        ("seed is", seed, 0),
-    ):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise ValueError(f"the {name} {value!r}; it must be a whole number of at least {least}")
+    whole(population, "the population", 4)
+    whole(generations, "the number of generations", 1)
+    whole(seed, "the seed", 0, MOST_SEED)
+    refuse_arguments(nsga2_generations, locals())
     algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, repair=OnGrid())
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
     record: dict[str, Any] = {"population": int(population), "seed": int(seed), "versions": versions()}

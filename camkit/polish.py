@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .epigraph import Epigraph
+from .kinds import numbers, refuse_arguments, shown
 from .quantities import Measure, PeakMeasure
 from .study import KEPT, Evaluation, Study, WeightedSum
 
@@ -91,8 +92,11 @@ def polish(study: Study, x: Any = None) -> Polished:
 
     Raises ``ValueError`` for another objective, or a start that lies outside its bounds or cannot be built.
     """
+    refuse_arguments(polish, locals())
     objective = _sum_of_residuals(study)
-    start = np.asarray(study.x0 if x is None else x, dtype=float)
+    start = study.x0 if x is None else numbers(x, "the design to polish")
+    if start.shape != study.x0.shape:
+        raise ValueError(f"the design to polish is {shown(x)}; it must be one number for each free quantity")
     low, high = study.bounds
     before = study.evaluate(start)
     if not ((low <= start) & (start <= high)).all():

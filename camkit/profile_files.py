@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .cam.flank import flanks
+from .kinds import shown
 from .markup import csv_cell
 from .units import in_unit
 
@@ -54,6 +55,8 @@ def profile_csv(analysis: Any) -> str:
 def _one_cam(analysis: Any) -> Any:
     """The whole cam, if it is one."""
     analysis = getattr(analysis, "whole", analysis)
+    if not all(hasattr(analysis, name) for name in ("cam_angle", "pitch", "stretch")):
+        raise ValueError(f"given is {shown(analysis)}; it must be the analysis of a cam, which has a profile")
     if np.ndim(analysis.cam_angle) > 1 or np.ndim(analysis.pitch) > 2:
         raise ValueError("this is a population; the profile of one design can be written")
     return analysis

@@ -25,7 +25,7 @@ from __future__ import annotations
 import dataclasses
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -34,7 +34,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .kinds import number, refuse_kinds, refuse_lengths, shown
+from .kinds import number, refuse_kinds, refuse_lengths, shown, whole
 from .markup import Html, html, table
 from .units import factor, in_unit
 
@@ -176,7 +176,7 @@ class Choice:
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
-        if not np.size(self.options):
+        if not len(self.options):
             raise ValueError("the choice has no options; it must have one or more")
 
     @cached_property
@@ -233,6 +233,21 @@ def _declared(kind: type) -> dict[str, Quantity | Choice]:
     return {f.name: f.metadata["declared"] for f in dataclasses.fields(kind) if "declared" in f.metadata}
 
 
+def quantities(design: Any, names: Iterable[Any] = ()) -> dict[str, Quantity]:
+    """The declared numbers of a design; ``ValueError`` if there are ``names`` that are none of them."""
+    declared = {name: entry for name, entry in declarations(design).items() if isinstance(entry, Quantity)}
+    for name in names:
+        if not isinstance(name, str) or name not in declared:
+            kind = type(design).__name__
+            raise ValueError(f"{shown(name)} is not a quantity of {kind}; there are {', '.join(declared)}")
+    return declared
+
+
+def can_be_analysed(design: Any) -> bool:
+    """Whether this is a design, and no class of designs or something else."""
+    return dataclasses.is_dataclass(design) and not isinstance(design, type) and hasattr(design, "analyse")
+
+
 def fails(ok: Any) -> bool:
     """True if ``ok`` is one false answer; a population's answers are a mask and never fail as a whole."""
     if type(ok) is bool:
@@ -242,11 +257,7 @@ def fails(ok: Any) -> bool:
 
 def counted(n: Any, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
-    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < least:
-        raise ValueError(f"the number of {what} is {shown(n)}; it must be a whole number of at least {least}")
-    if n > most:
-        raise ValueError(f"the number of {what} is {shown(n)}; it must be a whole number of at most {most}")
-    return int(n)
+    return whole(n, f"the number of {what}", least, most)
 
 
 def words(name: str) -> str:

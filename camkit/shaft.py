@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from .kinds import numbers, shown
+from .kinds import numbers, refuse_arguments, shown
 from .plane import Plane
-from .quantities import Design, Measure, declarations, fails, quantity
+from .quantities import Design, Measure, declarations, fails, quantity, words
 from .reference import load
-from .study import Study
+from .study import Space, Study
 from .units import GPa, MPa, deg, kg, kW, m, mm, rpm
 
 TORQUE_NUMBER = 9550
@@ -315,7 +315,7 @@ WIDE_SPACE = {"outer_diameter": (60 * mm, 300 * mm), "inner_diameter": (20 * mm,
 """Diameters far beyond the paper's, for other powers, lengths and materials."""
 
 
-def shaft_study(start: UniversalJointShaft | None = None, *, space: Any = None) -> Study:
+def shaft_study(start: UniversalJointShaft | None = None, *, space: Space | None = None) -> Study:
     """The paper's problem: the least area that keeps shear stress, twist, critical speed and buckling stress.
 
     ``space`` maps free quantities to bounds in SI.
@@ -324,6 +324,7 @@ def shaft_study(start: UniversalJointShaft | None = None, *, space: Any = None) 
     >>> study.evaluate([[128*mm, 98*mm]]).f.round(6).tolist(), study.evaluate([[128*mm, 98*mm]]).feasible.tolist()
     ([[0.005325]], [True])
     """
+    refuse_arguments(shaft_study, locals())
     return Study(
         start=start or UniversalJointShaft(),
         free=space or PAPER_SPACE,
@@ -332,7 +333,7 @@ def shaft_study(start: UniversalJointShaft | None = None, *, space: Any = None) 
     )
 
 
-def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Any = None) -> UniversalJointShaft:
+def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Space | None = None) -> UniversalJointShaft:
     """The lightest tube within bounds (``space`` as in `shaft_study`), in closed form where the twist governs.
 
     Stiffness fixes ``D^4 - d^4``, so the area ``pi/4 (D^4 - d^4) / (D^2 + d^2)`` falls as the bore grows: the
@@ -348,7 +349,11 @@ def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Any = Non
 
     Raises ``ValueError`` where no tube within the bounds is stiff enough, or another limit than the twist governs.
     """
-    start, space = start or UniversalJointShaft(), space or PAPER_SPACE
+    study = shaft_study(start, space=space)
+    start, space = study.start, study.free
+    if set(space) != set(PAPER_SPACE):
+        both = " and the ".join(map(words, PAPER_SPACE))
+        raise ValueError(f"the space is {shown(space)}; it must have bounds of the {both}")
     (narrowest, widest), (least_bore, bore) = space["outer_diameter"], space["inner_diameter"]
     if widest**4 - least_bore**4 < start.stiff_difference:
         stiffest = start.replace(outer_diameter=widest, inner_diameter=least_bore).analyse()

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from .kinds import refuse_arguments, shown
 from .markup import Html, attribute, html, markdown, table
-from .quantities import Choice, Measure, declarations, words
-from .study import keeps
+from .quantities import Choice, Measure, can_be_analysed, declarations, words
+from .study import Study, keeps
 
 NOT_MET = "not met"
 BOLD = "Bold: the best of a line."
@@ -96,7 +97,7 @@ def _missed_html(cell: str) -> Html:
 def side_by_side(
     designs: Mapping[str, Any],
     measures: Sequence[Measure] = (),
-    study: Any = None,
+    study: Study | None = None,
     analyses: Sequence[Any] | None = None,
 ) -> SideBySide:
     """Designs of one kind in columns: first the quantities in which they differ, then their measures.
@@ -112,6 +113,12 @@ def side_by_side(
 
     Raises ``ValueError`` for designs of several kinds.
     """
+    refuse_arguments(side_by_side, locals())
+    for name, design in designs.items():
+        if not can_be_analysed(design):
+            raise ValueError(f"{name} is {shown(design)}; it must be a design that can be analysed, such as a cam")
+    if analyses is not None and len(analyses) != len(designs):
+        raise ValueError(f"there are {len(analyses)} analyses of {len(designs)} designs; there must be one of each")
     kinds = sorted({type(design).__name__ for design in designs.values()})
     if len(kinds) > 1:
         raise ValueError(f"the designs are {' and '.join(kinds)}; designs of one kind can be set side by side")
@@ -119,7 +126,7 @@ def side_by_side(
     senses, limits = _senses(study), {m: (v, k) for m, v, k in study.limits} if study else {}
     every = dict.fromkeys([*senses, *(m if m.sign > 0 else -m for m in measures)])
     lines = [*_differences(list(designs.values())), *(_measured(m, analyses, senses, limits) for m in every)]
-    return SideBySide(tuple(designs), tuple(lines))
+    return SideBySide(tuple(map(str, designs)), tuple(lines))
 
 
 def _senses(study: Any) -> dict[Measure, int]:

@@ -6,14 +6,17 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, is_dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from .kinds import finite, listed, number, numbers, refuse_kinds, shown
-from .quantities import Measure, Quantity, counted, declarations, unremarked, words
+from .kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
+from .quantities import Measure, Quantity, can_be_analysed, counted, quantities, unremarked, words
+
+Space = Mapping[str, tuple[float, float]]
+"""Free quantities by name, with their lower and upper bounds in SI."""
 
 
 @dataclass(frozen=True)
@@ -42,10 +45,13 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     if not weights or len(weights) != len(reference):
         raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
     for measure, value in zip(weights, reference, strict=True):
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the weighted sum has {shown(measure)} where a Measure belongs")
+        value = one_number(value, f"the {measure.name} at the reference design", "be finite and not 0")
         if not np.isfinite(value) or value == 0:
             raise ValueError(f"the {measure.name} at the reference design is {value:g}; it must be finite and not 0")
     for measure, weight in weights.items():
-        if not weight >= 0:
+        if not one_number(weight, f"the weight of the {measure.name}", "be 0 or more") >= 0:
             raise ValueError(f"the weight of the {measure.name} is {weight:g}; it must be 0 or more")
 
     def total(analysis: Any) -> Any:
@@ -133,19 +139,14 @@ class Study:
     angles: int = 361
 
     def __post_init__(self) -> None:
-        if isinstance(self.start, type) or not is_dataclass(self.start) or not hasattr(self.start, "analyse"):
+        if not can_be_analysed(self.start):
             raise ValueError(
                 f"a study needs a design that can be analysed, such as a cam; it was given {shown(self.start)}"
             )
-        declared = {k: q for k, q in declarations(self.start).items() if isinstance(q, Quantity)}
         given: Any = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
-        for name in self.free:
-            if not isinstance(name, str) or name not in declared:
-                raise ValueError(
-                    f"{shown(name)} is not a quantity of {type(self.start).__name__}; there are {', '.join(declared)}"
-                )
+        declared = quantities(self.start, self.free)
         if not isinstance(self.free, Mapping):
             ranges = {
                 k: (declared[k].low * declared[k].factor, declared[k].high * declared[k].factor) for k in self.free

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
-from .kinds import number, refuse_kinds, shown
-from .quantities import Measure, Quantity, counted, declarations, words
+from .kinds import number, numbers, refuse_arguments, refuse_kinds, shown
+from .quantities import Measure, Quantity, counted, declarations, quantities, words
 from .study import Evaluation, Study
 from .units import deg, mm
 
@@ -114,12 +114,8 @@ class Tolerances:
         if not 0 <= self.seed < 2**63:
             raise ValueError(f"the seed is {shown(self.seed)}; it must be a whole number of at least 0")
         start = self.study.start
-        declared = {name: q for name, q in declarations(start).items() if isinstance(q, Quantity)}
+        declared = quantities(start, self.half_widths)
         for name, half in self.half_widths.items():
-            if name not in declared:
-                raise ValueError(
-                    f"{shown(name)} is not a quantity of {type(start).__name__}; there are {', '.join(declared)}"
-                )
             _check(name, declared[name], getattr(start, name), half)
         if not any(self.half_widths.values()):
             raise ValueError("there is no tolerance above 0; one must be")
@@ -190,6 +186,10 @@ class Tolerances:
 
     def of(self, measure: Measure) -> np.ndarray:
         """One of the ``measures`` of every part, ``(parts,)``, with its sign."""
+        refuse_arguments(Tolerances.of, locals())
+        if _named(measure) not in self.measures:
+            known = ", ".join(m.name for m in self.measures)
+            raise ValueError(f"the study has no measure {shown(measure.name)}; it has {known}")
         return measure.sign * self.values[self.measures.index(_named(measure))]
 
     @cached_property
@@ -220,13 +220,14 @@ class Tolerances:
 
     def percentiles(self, measure: Measure, levels: Sequence[float] = (2.5, 50, 97.5)) -> np.ndarray:
         """Percentiles of one of the ``measures`` among the parts that can be built, SI."""
-        return np.nanpercentile(self.of(measure), levels)
+        return np.nanpercentile(self.of(measure), _levels(levels))
 
     def band(self, curve: Curve, levels: Sequence[float] = (2.5, 25, 75, 97.5)) -> np.ndarray:
         """Percentiles of a curve at each of its points among the parts that can be built, ``(k, m)``, SI."""
+        refuse_arguments(Tolerances.band, locals())
         at = curve.values(self.nominal)
         parts = np.broadcast_to(curve.values(self.analysis), (self.parts, at.size))
-        return np.percentile(parts[~np.isnan(self.values).any(axis=0)], levels, axis=0)
+        return np.percentile(parts[~np.isnan(self.values).any(axis=0)], _levels(levels), axis=0)
 
     @cached_property
     def indices(self) -> Indices:
@@ -247,6 +248,14 @@ class Tolerances:
             found = sobol_indices(func={"f_A": f_a[varies], "f_B": f_b[varies], "f_AB": f_ab[:, varies]}, n=n)
             indices.first[varies], indices.total[varies] = found.first_order, found.total_order
         return indices
+
+
+def _levels(levels: Any) -> np.ndarray:
+    """Percentages."""
+    found = numbers(levels, "the levels")
+    if not found.size or not ((found >= 0) & (found <= 100)).all():
+        raise ValueError(f"the levels are {shown(levels)}; they must be numbers from 0 to 100, in per cent")
+    return found
 
 
 def _named(measure: Measure) -> Measure:

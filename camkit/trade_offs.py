@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .kinds import refuse_arguments
 from .minimum import Minimum, minimise
 from .optimise import Front, Generation
 from .quantities import counted
@@ -32,6 +33,7 @@ def trade_off(study: Study, points: int = 9, **search: Any) -> Iterator[Minimum]
 
     Raises ``ValueError`` for another number of objectives or fewer than two points.
     """
+    refuse_arguments(trade_off, locals())
     if len(study.minimise) != 2:
         raise ValueError(f"the study has {len(study.minimise)} objectives; a trade-off is between two")
     return _front(study, counted(points, "points"), search)

@@ -17,6 +17,7 @@ import camkit
 from camkit import (
     RSSR,
     Box,
+    CamLever,
     Curve,
     Cycloidal,
     Dwell,
@@ -38,7 +39,11 @@ from camkit import (
     TranslatingRollerCam,
     UnitRemark,
     UniversalJointShaft,
+    cam_lever_study,
 )
+from camkit.cam.high_speed_study import peak_stress
+from camkit.decision import random_index
+from camkit.optimise import dominated, front_of
 from camkit.quantities import Choice, Quantity
 from camkit.shaft import shaft_study
 
@@ -123,7 +128,7 @@ CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in datacl
 
 PYTHON = re.compile(
     r"\bobject\b|NoneType|zip\(|\(\)|float:|inhomogeneous|unpack|ufunc|ambiguous|reshape|sequence|zero-size|iterable|dtype|"
-    r"convert|operand|Traceback|not supported|0x[0-9a-f]{6}|\n"
+    r"convert|operand|out of bounds|Traceback|not supported|0x[0-9a-f]{6}|\n"
 )
 """What a person who never programmed should not read."""
 
@@ -135,10 +140,11 @@ def outcome(act):
         warnings.simplefilter("ignore", UnitRemark)
         try:
             act()
-        except ValueError as refused:
+        except (ValueError, IndexError) as refused:
             said = str(refused)
             plain = not PYTHON.search(said.replace("Cycloidal()", "").replace("shape ()", ""))
-            return "" if plain and 10 < len(said) < 500 and type(refused) is ValueError else f"ValueError: {said!r}"
+            known = type(refused) in (ValueError, IndexError)
+            return "" if plain and known and 10 < len(said) < 500 else f"{type(refused).__name__}: {said!r}"
         except Exception as error:
             return f"{type(error).__name__}: {error}"
     return ""
@@ -178,6 +184,21 @@ def test_a_constructor_works_or_refuses_in_a_sentence(kind, name):
     assert {bad: said for bad, said in failed.items() if said} == {}
 
 
+def first_of(search):
+    """The first step of a search that goes on."""
+
+    def first_step(**given):
+        return next(search(**given))
+
+    first_step.__qualname__ = search.__qualname__
+    return first_step
+
+
+TWO = STUDY.replace(minimise=(HEIGHT, Measure("slope", "deg", lambda analysis: abs(analysis.pressure_angle).max(-1))))
+missed = SumOfResiduals("missed", "mm", lambda analysis: analysis.pitch_radius - 0.05)
+RESIDUAL = STUDY.replace(minimise=(missed,))
+DOOR, DOOR_SPACE = camkit.DoorHandleCam(), {"lift_arm": (0.04, 0.06)}
+SHAFT_SPACE = {"outer_diameter": (0.1, 0.15), "inner_diameter": (0.05, 0.103)}
 FRONT = [[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]
 PIECES = [(0.0, 1.0, 0.02, LAW), (1.0, 2.0, 0.0, LAW)]
 ROLLER, FLAT, ROCKER = TranslatingRollerCam(), camkit.TranslatingFlatCam(), camkit.OscillatingRollerCam()
@@ -218,6 +239,68 @@ FUNCTIONS |= {
     for kind in CLASSES
     if hasattr(kind, "analyse") and hasattr(kind, "measures") and kind not in (RSSR, Study)
 }
+CAM = TranslatingRollerCam()
+CROSS = TWO.evaluate([[0.03], [0.04], [0.05]])
+FOUND = front_of(CROSS, TWO)
+SPREAD = Tolerances(STUDY, {"base_radius": 0.001}, parts=64)
+CURVE = Curve("pressure_angle", "deg", "pressure angle")
+FUNCTIONS |= {
+    camkit.cam_lever_study: {
+        "start": CamLever(), "objective": peak_stress, "max_radius": 0.11, "free_laws": False, "angles": 31
+    },
+    camkit.corrected_valve_study: {"start": camkit.ValveCam(), "weights": (0.5, 0.5)},
+    camkit.door_handle_paper_study: {"start": DOOR, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.door_handle_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.high_speed_study: {
+        "start": camkit.HighSpeedCam(), "objective": peak_stress, "free_laws": True, "free_spring": True,
+        "space": {"arm_length": (0.1, 0.2)}, "at_most": {peak_stress: 1.0}, "at_least": {peak_stress: 1.0}, "angles": 31
+    },
+    camkit.lift_curve_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.lightest_shaft: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
+    camkit.rssr_study: {
+        "start": camkit.CabinDoorLinkage(), "objective": missed, "space": {"crank": (0.05, 0.1)}, "least_swing": 1.0,
+        "inside": Box(*GIVEN[Box]), "outside": Box(*GIVEN[Box]), "positions": 5
+    },
+    camkit.shaft_study: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
+    camkit.valve_study: {
+        "start": camkit.ValveCam(), "weights": (0.5, 0.5), "printed_sign": False, "paper_units": False
+    },
+    camkit.valve_front_study: {"start": camkit.ValveCam(), "limited": HEIGHT, "space": {"n": (2.0, 20.0)}},
+    camkit.minimise: {"study": STUDY, "method": "slsqp", "seed": 1, "starts": 1, "designs": 40, "recheck": 61},
+    camkit.nsga2: {"study": TWO, "population": 4, "generations": 1, "seed": 1},
+    camkit.polish: {"study": RESIDUAL, "x": [0.03]},
+    camkit.quick_front: {"study": TWO, "size": 4, "start": FOUND},
+    first_of(camkit.shortest_interval): {
+        "study": cam_lever_study(free_laws=False, angles=31), "limit": 1e3, "shortest": 0.9, "longest": 1.0,
+        "intervals": ("rise_angle",), "tolerance": 0.05
+    },
+    first_of(camkit.trade_off): {"study": TWO, "points": 2},
+    first_of(camkit.trade_off_steps): {"study": TWO, "points": 2},
+    front_of: {"evaluation": CROSS, "study": TWO},
+    dominated: {"f": FRONT},
+    FOUND.__getitem__: {"i": 0},
+    FOUND.hypervolume: {"reference": (1.0, 1.0)},
+    FOUND.judged_by: {"study": TWO},
+    SPREAD.of: {"measure": HEIGHT},
+    SPREAD.percentiles: {"measure": HEIGHT, "levels": (5, 95)},
+    SPREAD.band: {"curve": CURVE, "levels": (5, 95)},
+    random_index: {"n": 12},
+    camkit.quantity: {
+        "symbol": "l", "default": 50, "low": 20, "high": 90, "unit": "mm", "meaning": "a length", "above": 0.0,
+        "at_least": 1.0, "at_most": 100.0
+    },
+    camkit.profile_csv: {"analysis": CAM.analyse(31)},
+    camkit.profile_dxf: {"analysis": CAM.analyse(31)},
+    camkit.side_by_side: {
+        "designs": {"cam": CAM}, "measures": (HEIGHT,), "study": STUDY, "analyses": [CAM.analyse(31)]
+    },
+    RSSR().closure: {"crank_angle": 0.3},
+    RSSR().discriminant: {"crank_angle": 0.3},
+    RSSR().assembles: {"crank_angle": 0.3},
+    RSSR().analyse: {"crank_angle": 0.3, "branch": 1, "load": camkit.RockerLoad(), "through": False},
+    Box(*GIVEN[Box]).depth: {"points": (0.5, 0.5, 0.5)},
+    Box(*GIVEN[Box]).clearance: {"start": (0.5, 0.5, 0.5), "end": (0.5, 0.5, 2.0)},
+}  # fmt: skip
 CALLS = [(function, name) for function, given in FUNCTIONS.items() for name in given]
 
 

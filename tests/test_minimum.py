@@ -33,6 +33,10 @@ def app_of(design):
     return explore(design, contact_stress, free=["arm_length", "roller_radius", "max_radius"], width=4, height=3)
 
 
+PATIENCE = 60
+"""How long, in seconds, something is waited for that happens at once on an idle machine."""
+
+
 @pytest.fixture
 def app():
     return app_of(FIRST)
@@ -53,18 +57,18 @@ class Gate:
         self.left -= 1
         if self.left == 0:
             self.reached.set()
-            assert self.open.wait(20)
+            assert self.open.wait(PATIENCE)
         return self.measure(analysis)
 
     def stop(self, panel):
         """Run ``panel`` to the gate and stop it there."""
         panel.run()
-        assert self.reached.wait(20)
+        assert self.reached.wait(PATIENCE)
         assert panel.runner.run_button.disabled
         assert not panel.runner.stop_button.disabled
         panel.stop()
         self.open.set()
-        panel.wait(20)
+        panel.wait(PATIENCE)
         assert not panel.runner.run_button.disabled
         assert panel.runner.stop_button.disabled
 
@@ -135,7 +139,7 @@ def test_the_optimum_comes_into_the_sliders_with_the_reason(app):
     panel = improve(app, sizes, minimise=GOALS)
     assert panel.summary().endswith("not run yet")
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     best = minimise(high_speed_study(angles=101))
     assert panel.minimum.f == pytest.approx(best.f, rel=1e-9)
     for name, value in zip(GEOMETRY, best.x, strict=True):
@@ -157,7 +161,7 @@ def test_it_starts_from_the_sliders_and_takes_what_is_chosen(app):
     app.controls["roller_radius"].box.value = 50
     panel.choices.menus["minimise"].label = "wear"
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     start = FIRST.replace(roller_radius=50 * mm)
     assert_allclose(panel.study.x0[1], 50 * mm)
     assert panel.minimum.f == pytest.approx(minimise(high_speed_study(start, peak_wear, angles=101)).f, rel=1e-9)
@@ -170,7 +174,7 @@ def test_an_arm_that_passes_its_start_can_be_optimised():
     app = app_of(HighSpeedCam(rise_c0=-0.6))
     panel = improve(app, lambda start, method: high_speed_study(start, free_laws=True, angles=101))
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     assert panel.runner.banner.value == ""
     assert panel.minimum.feasible
     assert not app.analysis.passes_start
@@ -189,7 +193,7 @@ def test_several_starts_are_asked_of_slsqp_alone(app):
 def test_the_search_is_drawn_in_the_measures_unit(app):
     panel = improve(app, sizes, minimise=GOALS)
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     x, y = xy(panel.picture.axes[0], "best")
     assert y[0] == pytest.approx(2.478, abs=5e-3)
     assert y[-1] == pytest.approx(panel.minimum.f * mm**0.5, rel=1e-5)
@@ -216,7 +220,7 @@ def test_stop_keeps_the_best_so_far(app, method):
     panel.back.click()
     assert app.design == FIRST
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     assert panel.minimum.feasible
 
 
@@ -242,7 +246,7 @@ def test_what_cannot_be_searched_is_said_in_a_sentence(app):
 
     panel = improve(app, refusing, minimise=GOALS)
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     assert "This cannot be searched: the study has 2 objectives; minimise takes one" in panel.runner.banner.value
     assert not panel.runner.run_button.disabled
     app.controls["roller_radius"].box.value = 45
@@ -260,7 +264,7 @@ def test_an_error_in_the_thread_is_shown():
     app = app_of(FIRST)
     panel = improve(app, lambda start, method: Study(start, GEOMETRY, (Measure("r", "mm", broken),)))
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     assert "The search ended early: out of order." in panel.runner.banner.value
     assert not panel.runner.run_button.disabled
 
@@ -292,7 +296,7 @@ def test_the_shortest_interval_and_its_design():
     app = press_app()
     panel = shorten(app, lever, LIMIT, 50 * deg, 61 * deg, largest_radius=RADII)
     panel.run()
-    panel.wait(30)
+    panel.wait(PATIENCE)
     *_, last = shortest_interval(lever(CamLever(), 110 * mm), LIMIT, 50 * deg, 61 * deg)
     assert panel.step.high == pytest.approx(last.high, rel=1e-12)
     assert panel.summary() == f"largest radius: 110 mm\n{last.message}"
@@ -309,7 +313,7 @@ def test_the_shortest_interval_and_its_design():
 def test_the_intervals_are_drawn():
     panel = shorten(press_app(), lever, LIMIT, 50 * deg, 61 * deg, largest_radius=RADII)
     panel.run()
-    panel.wait(30)
+    panel.wait(PATIENCE)
     ax = panel.picture.axes[0]
     kept, missed = xy(ax, "keeps the limit"), xy(ax, "does not")
     assert len(kept[0]) + len(missed[0]) == len(panel.steps)
@@ -351,7 +355,7 @@ def test_a_limit_that_not_even_the_longest_interval_keeps():
     app = press_app()
     panel = shorten(app, lever, 5 / cm**0.5, 50 * deg, 61 * deg, largest_radius=RADII)
     panel.run()
-    panel.wait(20)
+    panel.wait(PATIENCE)
     assert panel.take.disabled
     assert "does not keep the contact stress F_sigma of at most 5 N^0.5 cm^-0.5" in panel.verdict.value
     panel.load()
@@ -367,7 +371,7 @@ def test_reversed_intervals_are_refused_in_a_sentence():
     panel.longest.box.value = 61
     panel.limit.box.value = 9.3
     panel.run()
-    panel.wait(30)
+    panel.wait(PATIENCE)
     assert panel.runner.banner.value == ""
     assert panel.step.limit == pytest.approx(9.3 / cm**0.5)
 

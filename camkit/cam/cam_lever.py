@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import refuse_arguments
 from ..quantities import Measure, declarations, fails, quantity
 from ..study import Study
 from ..units import mm
@@ -205,6 +206,7 @@ def cam_lever_study(
     >>> len(study.free), f"{study.evaluate(study.x0).f[0, 0] / 10:.3f}"
     (12, '10.246')
     """
+    refuse_arguments(cam_lever_study, locals())
     start = start or CamLever()
     return Study(
         start=start,

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from ..geometry import angle_opposite, rotated
+from ..kinds import listed, refuse_arguments
 from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
-from ..study import Study, weighted
+from ..study import Space, Study, weighted
 from ..units import deg, mm
 from . import groove
 from .load import ArmLoad, Friction, refuse_table
@@ -393,7 +394,7 @@ DoorHandleCam.measures = (*CURVE_TABLE, *WORSE_CURVE.values(), groove_gap, strok
 def door_handle_study(
     start: DoorHandleCam | None = None,
     *,
-    space: Any = None,
+    space: Space | None = None,
     reference: DoorHandleCam | None = None,
     weights: Any = (5 / 7, 1 / 7, 1 / 7),
 ) -> Study:
@@ -419,6 +420,7 @@ def door_handle_study(
     >>> study.evaluate([0.042, 0.5, 60 * deg]).feasible.tolist(), study.evaluate(study.x0).feasible.tolist()
     ([True], [False])
     """
+    refuse_arguments(door_handle_study, locals())
     start = start or DoorHandleCam()
     of = WORSE_CURVE
     joined = {of[undercut_margin]: 0.1, groove_gap: 0.0}
@@ -455,7 +457,7 @@ def door_handle_paper_study(
 def lift_curve_study(
     start: DoorHandleCam | None = None,
     *,
-    space: Any = None,
+    space: Space | None = None,
     reference: DoorHandleCam | None = None,
     weights: Any = (5 / 7, 1 / 7, 1 / 7),
 ) -> Study:
@@ -471,6 +473,7 @@ def lift_curve_study(
     >>> study.evaluate(study.x0).f.round(4).tolist()
     [[1.0, -0.047]]
     """
+    refuse_arguments(lift_curve_study, locals())
     start = start or DoorHandleCam()
     free = space or LIFT_SPACE
     for name in free:
@@ -505,6 +508,7 @@ WITHOUT_LIFT = (
 def _effort(of: Any, reference: DoorHandleCam, weights: Any) -> Measure:
     """The weighted sum of pressure angle, force and torque, each over its value at ``reference``."""
     parts = [of[measure] for measure in EFFORT]
+    weights = listed(weights, "the weights", "part of the effort")
     if len(weights) != len(parts):
         raise ValueError(f"the effort has {len(parts)} parts (angle, force, torque); there are {len(weights)} weights")
     analysis = reference.analyse(STUDY_ANGLES)

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ..kinds import refuse_arguments
 from ..quantities import Measure, PeakMeasure
-from ..study import Study
+from ..study import Space, Study
 from ..units import mm
 from .closing import jump_speed
 from .high_speed import FreeLawCam, HighSpeedCam, number
@@ -80,7 +81,7 @@ def high_speed_study(
     *,
     free_laws: bool = False,
     free_spring: bool = True,
-    space: Mapping[str, tuple[float, float]] | None = None,
+    space: Space | None = None,
     at_most: Mapping[Measure, float] | None = None,
     at_least: Mapping[Measure, float] | None = None,
     angles: int = 201,
@@ -97,6 +98,7 @@ def high_speed_study(
     >>> print(f"{study.evaluate(study.x0).f[0, 0] * mm**0.5:.4f}")
     2.4780
     """
+    refuse_arguments(high_speed_study, locals())
     start = start or HighSpeedCam()
     free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}

@@ -5,10 +5,11 @@ Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 11
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
+from ..kinds import listed, refuse_arguments
 from ..quantities import Measure
-from ..study import Study, WeightedSum, weighted
+from ..study import Space, Study, WeightedSum, weighted
 from ..units import deg, mm
 from .measures import peak, peak_force, steepest
 from .valve import ValveAnalysis, ValveCam
@@ -72,6 +73,9 @@ def _corner(start: ValveCam, end: int) -> ValveAnalysis:
 
 def _against_fullness(wear: Measure, weights: Sequence[float], most: Measure, at: ValveAnalysis) -> WeightedSum:
     """``W1 (-xi / K1) + W2 (wear / K2)``: ``K1`` the fullness at the upper corner, ``K2`` what ``most`` is ``at``."""
+    weights = listed(weights, "the weights", "objective")
+    if len(weights) != 2:
+        raise ValueError(f"there are {len(weights)} weights; there must be one of the fullness and one of the wear")
     parts = dict(zip((-fullness, wear), weights, strict=True))
     name = f"fullness against {most.name}{'' if wear.sign > 0 else ', sign as printed'}"
     return weighted(name, parts, (fullness(_corner(at.cam, 1)), most(at)))
@@ -94,6 +98,7 @@ def valve_study(
     >>> [f"{k:.9g}" for k in study.minimise[0].reference]
     ['0.637143792', '599.758095']
     """
+    refuse_arguments(valve_study, locals())
     start = start or ValveCam()
     start, size = (in_paper_units(start), listed_deceleration) if paper_units else (start, nose_deceleration)
     objective = _against_fullness(-size if printed_sign else size, weights, size, _corner(start, 0))
@@ -111,6 +116,7 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
     >>> study.evaluate([[20, 20], [20, 1]]).feasible.tolist()
     [True, False]
     """
+    refuse_arguments(corrected_valve_study, locals())
     start = start or ValveCam()
     objective = _against_fullness(peak_acceleration, weights, peak_acceleration, _corner(start, 1))
     return Study(start, PAPER_BOX, (objective,), at_least={least_radius: PAPER_LEAST_RADIUS}, angles=STUDY_ANGLES)
@@ -128,13 +134,14 @@ def keeping_least_radius(cam: ValveCam, least: float = PAPER_LEAST_RADIUS) -> Va
 def valve_front_study(
     start: ValveCam | None = None,
     limited: Measure = nose_radius,
-    space: Mapping[str, tuple[float, float]] | None = None,
+    space: Space | None = None,
 ) -> Study:
     """The real conflict: much fullness against little peak positive acceleration.
 
     ``limited`` is the radius that the paper's limit of 4.5 mm holds for: `nose_radius` as published, or
     `least_radius`; ``space`` are other bounds than the paper's.
     """
+    refuse_arguments(valve_front_study, locals())
     objectives = (-fullness, peak_acceleration)
     limit = {limited: PAPER_LEAST_RADIUS}
     return Study(start or ValveCam(), space or PAPER_BOX, objectives, at_least=limit, angles=STUDY_ANGLES)

@@ -10,13 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from ..kinds import shown
+from ..kinds import refuse_arguments, shown
 from ..quantities import Measure, choice, counted, fails, quantity
-from ..study import Study
+from ..study import Space, Study
 from ..units import deg, mm
 from .load import RockerLoad
 from .measures import (
@@ -110,7 +109,7 @@ def rssr_study(
     start: CabinDoorLinkage | None = None,
     objective: Measure | None = None,
     *,
-    space: Any = None,
+    space: Space | None = None,
     least_swing: float | None = None,
     inside: Box | None = None,
     outside: Box | None = None,
@@ -128,6 +127,7 @@ def rssr_study(
     >>> (paper.f / deg).round(2).tolist(), paper.feasible.tolist()
     ([[213.3]], [True])
     """
+    refuse_arguments(rssr_study, locals())
     swung = {} if least_swing is None else {swing: least_swing}
     housed = {} if inside is None else {room_in(inside): 0.0}
     clear = {} if outside is None else {clearance_from(outside): 0.0}

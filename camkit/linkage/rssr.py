@@ -44,6 +44,12 @@ def reaches(a: Any, b: Any, k: Any) -> Any:
     return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
 
 
+def _angles(crank_angle: Any) -> np.ndarray:
+    """Crank angles as an array, ``nan`` for those that are not finite."""
+    angles = numbers(crank_angle, "the crank angles")
+    return angles if np.isfinite(angles).all() else np.where(np.isfinite(angles), angles, np.nan)
+
+
 def _vector(*components: Any) -> np.ndarray:
     return np.stack(np.broadcast_arrays(*components))
 
@@ -98,7 +104,8 @@ class RSSR(Links):
         The print lacks ``1 / l_1`` in the last term, which only shows where the axes are not at 90 deg.
         """
         l1, l2, l3, s0, s3, h0, L = self.sizes
-        sin, cos = np.sin(crank_angle), np.cos(crank_angle)
+        angle = _angles(crank_angle)
+        sin, cos = np.sin(angle), np.cos(angle)
         a = s0 * np.sin(L) / l1 - np.cos(L) * sin
         b = h0 / l1 - cos
         k = (l1**2 + l3**2 + s0**2 + s3**2 + h0**2 - l2**2) / (2 * l1 * l3)
@@ -204,7 +211,7 @@ class RSSR(Links):
         if isinstance(crank_angle, (int, np.integer)) and crank_angle >= 2:
             crank_angle, through = np.linspace(0, 2 * np.pi, crank_angle), True
         try:
-            angles = np.atleast_1d(numbers(crank_angle, "the crank angles"))
+            angles = np.atleast_1d(_angles(crank_angle))
         except ValueError:
             angles = np.zeros(0)
         if not (angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):

@@ -44,6 +44,10 @@ class Box:
 
     def _walls(self, points: Any) -> np.ndarray:
         """How far ``points`` ``(3, ...)`` lie beyond each of the six walls, ``(6, ...)``."""
+        points = numbers(points, "the points")
+        points = np.where(np.isfinite(points), points, np.nan)
+        if not points.ndim or len(points) != 3:
+            raise ValueError(f"the points have the shape {points.shape}; they must be x, y, z, each of any shape")
         low, high = (np.reshape(corner, (3,) + (1,) * (np.ndim(points) - 1)) for corner in (self.low, self.high))
         return np.concatenate([low - points, points - high])
 
@@ -57,7 +61,10 @@ class Box:
         Along the link the distance from the box is the largest of six straight lines, one for each wall; it is
         least at an end or where two of them cross.
         """
-        ends = np.stack(np.broadcast_arrays(start, end))
+        try:
+            ends = np.stack(np.broadcast_arrays(numbers(start, "the start"), numbers(end, "the end")))
+        except ValueError as refusal:
+            raise ValueError(f"the link has no two ends: {refusal}") from None
         first, last = self._walls(ends[0]), self._walls(ends[1])
         i, j = np.transpose(list(combinations(range(6), 2)))
         gap, growth = first[i] - first[j], (last - first)[j] - (last - first)[i]
