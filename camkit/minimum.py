@@ -103,6 +103,8 @@ def minimise(
 
     Raises ``ValueError`` for a study with several objectives, an unknown method, or numbers that are no whole ones.
     """
+    whole(seed, "the seed", 0, 2**32 - 1)
+    starts, designs = counted(starts, "starts", 1), counted(designs, "designs", 1)
     refuse_arguments(minimise, locals())
     if len(study.minimise) != 1:
         raise ValueError(
@@ -111,8 +113,6 @@ def minimise(
         )
     if method not in METHODS:
         raise ValueError(f"the method is {method!r}; there are {', '.join(map(repr, METHODS))}")
-    whole(seed, "the seed", 0, 2**32 - 1)
-    starts, designs = counted(starts, "starts", 1), counted(designs, "designs", 1)
     judge = study if recheck is None else study.replace(angles=recheck)
     found = METHODS[method](study, judge, seed, starts, designs)
     if method != "slsqp":

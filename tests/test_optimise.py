@@ -339,7 +339,7 @@ def test_a_study_is_recognised_by_what_it_says():
     assert fingerprint(study) == fingerprint(same)
     others = [
         study.replace(start=study.start.replace(motion_law=Poly345())),
-        study.replace(angles=181),
+        study.replace(angles=2 * study.angles),
         study.weighing((0.5, 0.25, 0.25)),
         study.replace(at_most={}),
         study.replace(free={**study.free, "lift_arm": (0.045, np.nextafter(0.055, 1))}),
