@@ -154,6 +154,7 @@ def test_ratio_and_index_are_saatys_definition():
     assert judgement.consistency_index == pytest.approx((largest - 4) / 3)
     assert judgement.consistency_ratio == pytest.approx((largest - 4) / 3 / 0.90)
     assert_allclose(judgement.matrix @ judgement.weights, largest * judgement.weights)
+    assert ahp([[1]]).consistency_index == 0
 
 
 weight_lists = st.lists(st.floats(0.05, 20), min_size=1, max_size=14)
@@ -195,6 +196,9 @@ def test_an_upper_triangle_is_read_row_by_row():
     assert_array_equal(judgement_matrix(LEADER)[1], [1 / 4, 1, 1 / 3, 3])
     assert_array_equal(judgement_matrix(LEADER)[:, 3], [7, 3, 5, 1])
     assert judgement_matrix([7]).tolist() == [[1, 7], [1 / 7, 1]]
+    for n in range(2, 16):
+        w = np.arange(1.0, n + 1)
+        assert_allclose(judgement_matrix((w[:, None] / w)[np.triu_indices(n, 1)]), w[:, None] / w)
 
 
 def test_the_worst_judgement_is_the_one_that_was_spoiled():

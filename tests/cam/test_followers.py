@@ -863,6 +863,9 @@ def test_the_second_roller_of_a_rocking_pair(sigma):
     centre = brute.pivot(INSIDE) + 60 * mm * np.array([-np.cos(psi), np.sin(psi)])
     assert_allclose(two.roller_centre * [[1], [-1]], centre, atol=1e-15)
     assert_allclose(two.pitch * [[1], [-1]], brute.on_cam(centre, INSIDE), atol=1e-15)
+    assert_allclose(np.hypot(*(two.profile - two.pitch)), 9 * mm, rtol=1e-12)
+    alike = first.conjugate(80 * deg)
+    assert (alike.arm_length, alike.roller_radius) == (first.arm_length, first.roller_radius)
     forces_balance(one, two)
 
 
@@ -983,6 +986,8 @@ DROP = MotionProgram((Return(120 * deg, 40 * mm, Cycloidal()), Dwell(60 * deg)))
 REFUSALS = [
     (lambda: TranslatingRollerCam(offset=50 * mm),
      "the offset of the follower is 50 mm; base circle and roller make 38 mm, and it must stay below that"),
+    (lambda: TranslatingRollerCam(offset=-50 * mm),
+     "the offset of the follower is -50 mm; base circle and roller make 38 mm, and it must stay below that"),
     (lambda: TranslatingRollerCam(base_radius=-3 * mm),
      "the base radius r_b (cam axis to profile at the motion's level 0) is -3 mm; "
      "it must be a finite number above 0 mm"),
