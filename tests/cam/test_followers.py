@@ -455,9 +455,10 @@ def test_the_base_circle_for_a_pressure_angle(limit, offset, sigma):
 
 @both_senses
 @pytest.mark.parametrize("offset", [-8, 0, 8])
-@pytest.mark.parametrize(("roller", "least"), [(8, 6), (0, 15), (14, 2)])
-def test_the_base_circle_for_a_least_radius(roller, least, offset, sigma):
-    cam = TranslatingRollerCam(program(30 * mm), 60 * mm, roller * mm, offset * mm, sigma)
+@pytest.mark.parametrize(("roller", "least", "rise"), [(8, 6, 120), (0, 15, 120), (14, 2, 120), (4, 1, 40)])
+def test_the_base_circle_for_a_least_radius(roller, least, rise, offset, sigma):
+    motion = program(30 * mm, np.array([rise, 60, 100, 50]) * deg)
+    cam = TranslatingRollerCam(motion, 60 * mm, roller * mm, offset * mm, sigma)
     needed = cam.base_radius_for(least_radius=least * mm)
 
     def least_at(base):
