@@ -354,6 +354,7 @@ def test_objectives_as_large_as_numbers_go_are_chosen_from_alike():
     f = np.array([[-1.0, 0.9], [0.2, 0.7], [1.0, -0.6]])
     for choose in (weighted_sum, topsis, knee, crowding):
         assert choose(f * [1.7e308, 1e-300], [1, 2]) == choose(f, [1, 2])
+        assert choose((f - 2) * [5e307, 1e-300], [1, 2]) == choose(f - 2, [1, 2])  # all below 0
 
 
 # Weighted sums by hand: 3/4, 1/4: 0.25, 0.275, 0.4, 0.75; 1/4, 3/4: 0.75, 0.425, 0.2, 0.25; equal: 0.5, 0.35, 0.3, 0.5.
@@ -605,6 +606,12 @@ def test_ranges_of_two_objectives_are_known():
     assert told.high == pytest.approx(5, rel=1e-8)
 
 
+def test_a_winner_who_loses_beyond_the_scale_stays_to_its_ends():
+    """0.05 w1 + 0.05 w2 is the least between w2 = 19 w1 and w1 = 19 w2."""
+    (told,) = judgement_ranges([[0, 1], [0.05, 0.05], [1, 0]], [2])
+    assert (told.low, told.high, told.below, told.above) == (pytest.approx(1 / 9), pytest.approx(9), None, None)
+
+
 def test_ranges_with_many_criteria_and_gaps_are_bounded():
     """Each bound of a large matrix with gaps against the winners just inside and just outside."""
     upper = [2, 5, None, 7, 3, 1 / 2, 2, None, 1, 9, 4, 1, 3, 1 / 3, 2]
@@ -661,5 +668,7 @@ def test_a_map_says_what_the_chooser_says(k):
     f = np.random.default_rng(k).random((9, k))
     for choose in (weighted_sum, topsis):
         chart = winner_map(f, choose)
+        steps = {1: 1, 2: 1000, 3: 60, 4: 20, 5: 12, 6: 8}[k]
+        assert len(chart.weights) == math.comb(steps + k - 1, k - 1)
         for i in range(0, len(chart.weights), max(len(chart.weights) // 7, 1)):
             assert chart.winners[i] == choose(f, chart.weights[i])

@@ -26,6 +26,7 @@ from camkit.motion import (
     Return,
     Rise,
 )
+from camkit.quantities import unremarked
 from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
 
 
@@ -118,6 +119,17 @@ def test_a_slow_follower_needs_no_preload_and_a_loose_one_jumps_at_once(cam):
     assert preload_needed(at_speed(cam, 0, **heavy), 1 * rpm) == 0
     pulled = {name: -2 * size for name, size in heavy.items()}
     assert jump_speed(at_speed(cam, 0, **pulled)) == 0
+
+
+@every_cam
+def test_a_thousandth_of_the_load_jumps_at_the_same_speed(cam):
+    names = ("mass", "spring_rate", "preload", "torque" if isinstance(cam.load, ArmLoad) else "force")
+    with unremarked():  # a spring of 9 N/m is no slip of the unit here
+        light = cam.replace(load=cam.load.replace(**{name: getattr(cam.load, name) / 1000 for name in names}))
+    assert jump_speed(light.analyse()) == pytest.approx(jump_speed(cam.analyse()), rel=1e-9)
+    assert 1000 * preload_needed(light.analyse(), 2000 * rpm) == pytest.approx(
+        preload_needed(cam.analyse(), 2000 * rpm), rel=1e-9
+    )
 
 
 def test_a_follower_that_never_slows_down_never_jumps():
