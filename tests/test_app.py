@@ -61,7 +61,7 @@ from camkit.plot.artists import _find
 from camkit.plot.cam import cam_mechanism, curvature, pressure_angle
 from camkit.plot.front import shown_objectives
 from camkit.profile_files import profile_csv
-from camkit.quantities import Quantity
+from camkit.quantities import Measure, Quantity
 from camkit.units import deg, mm
 
 SMALL = {"width": 4.0, "height": 2.6}
@@ -369,6 +369,18 @@ def test_the_picture_is_described_by_its_titles_and_numbers(app, monkeypatch):
     app.controls["lift_arm"].slider.value = 47.0
     assert described.wait(60)
     assert app.picture.widget.description == f"Pictures of the DoorHandleCam\nPressure angle\n{summary()}"
+
+
+def test_a_measure_that_is_infinite_now_and_at_the_start_is_left_out():
+    never = Measure("never", "mm", lambda analysis: np.inf)
+    later = Measure(
+        "later", "mm", lambda analysis: np.inf if analysis.cam.lift_arm > 50 * mm else analysis.cam.lift_arm
+    )
+    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], measures=(never, later), **SMALL)
+    assert [m for m, _, _ in app.rows()] == [later]
+    app.controls["lift_arm"].slider.value = 52.0
+    assert [m for m, _, _ in app.rows()] == [later]
+    assert "never" not in app._table.value
 
 
 def test_without_a_kernel_the_mechanism_stands_in_four_positions():

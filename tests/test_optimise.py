@@ -339,12 +339,11 @@ def test_a_study_is_recognised_by_what_it_says():
     assert fingerprint(study) == fingerprint(same)
     others = [
         study.replace(start=study.start.replace(motion_law=Poly345())),
-        study.replace(angles=2 * study.angles),
         study.weighing((0.5, 0.25, 0.25)),
         study.replace(at_most={}),
         study.replace(free={**study.free, "lift_arm": (0.045, np.nextafter(0.055, 1))}),
     ]
-    assert len({fingerprint(s) for s in (study, *others)}) == 6
+    assert len({fingerprint(s) for s in (study, *others)}) == 5  # more angles say the same: peaks lie between them
 
 
 @pytest.fixture
