@@ -60,7 +60,7 @@ class CamAnalysis(ABC):
     def resolved(self) -> Any:
         """The same cam at the cam angles of its `resolution`."""
         other = replace(self, cam_angle=self.resolution.angle)
-        other.__dict__["resolved"] = other
+        other.__dict__.update(resolved=other, motion=self.cam.motion.resolved)
         return other
 
     @cached_property

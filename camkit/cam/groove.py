@@ -21,8 +21,6 @@ import numpy as np
 COARSE, FINE, ROUNDS, CLOSER = 49, 5, 3, 3
 """Places along the groove; then how many around each of the nearest two, how often, each time so much closer."""
 
-PAIRS = np.triu_indices(COARSE, 1)
-
 
 def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
     """The least distance between two parts of a groove's pitch curve, less ``2 radius``, m; below 0 the walls merge.
@@ -41,15 +39,17 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
     """
     x, y = path(span * np.linspace(0, 1, COARSE))
     along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
-    first, second = PAIRS
-    near = (x[..., second] - x[..., first]) ** 2 + (y[..., second] - y[..., first]) ** 2
-    near[along[..., second] - along[..., first] < np.pi * radius] = np.inf
-    best = np.argmin(near, axis=-1)[..., None]
-    least = np.sqrt(np.take_along_axis(near, best, -1))
-    pair, reach = (
-        np.stack([first[best], second[best]]).astype(float),
-        1.0,
-    )  # in coarse steps
+    least, mate = np.full(along.shape, np.inf), np.zeros(along.shape, dtype=int)
+    for k in range(1, COARSE):  # in parts that fit into the processor's own memory
+        i, j = (..., slice(None, -k)), (..., slice(k, None))
+        near = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
+        better = (near < least[i]) & (along[j] - along[i] >= np.pi * radius)
+        np.copyto(least[i], near, where=better)
+        np.copyto(mate[i], k, where=better)
+    first = np.argmin(least, axis=-1)[..., None]
+    second = first + np.take_along_axis(mate, first, -1)
+    least = np.sqrt(np.take_along_axis(least, first, -1))
+    pair, reach = np.stack([first, second]).astype(float), 1.0  # in coarse steps
     around, close = np.linspace(-1, 1, FINE), least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
     for _ in range(ROUNDS if close.any() else 0):
         t, u = np.clip(pair + reach * around, 0, COARSE - 1)

@@ -207,6 +207,20 @@ class MotionProgram:
         """Cam angles that show every segment, however narrow, with its joints and kinks from both sides."""
         return resolve(self)
 
+    @cached_property
+    def resolved(self) -> Kinematics:
+        """``s, v, a, j`` at the cam angles of the `resolution`: a law is asked once for all of a population."""
+        shown = self.resolution
+        with np.errstate(all="ignore"):
+            motions = [self.segments[i].motion(u) for i, u in shown.shares]
+            shapes = [np.shape(x)[:-1] for x in (self.possible, shown.angle, *self.levels, *sum(motions, ()))]
+            out = np.empty((4, *np.broadcast_shapes(*shapes), shown.angle.shape[-1]))
+            for (i, _), motion, first, last in zip(shown.shares, motions, shown.first, shown.last, strict=True):
+                for k, values in enumerate(motion):
+                    out[k][..., first : last + 1] = values if k else self.levels[i] + values
+        np.copyto(out, np.nan, where=np.logical_not(self.possible))
+        return Kinematics(*out)
+
     @property
     def periodic(self) -> Any:
         """Whether the program spans 360 deg."""
@@ -275,15 +289,18 @@ class MotionProgram:
 
     def _within(self, phi: Any) -> Any:
         """Cam angles brought into the turn, ``nan`` where the program says nothing."""
-        once = np.where(np.abs(phi - TURN) <= SAME_ANGLE, TURN, np.mod(phi, TURN))
-        x = np.where(self.periodic, once, phi)
+        x = phi
+        if np.any(self.periodic) and not (phi.size and phi.min() >= 0 and phi.max() <= TURN):
+            once = np.where(np.abs(phi - TURN) <= SAME_ANGLE, TURN, np.mod(phi, TURN))
+            x = np.where(self.periodic, once, phi)
         return np.where((x >= -SAME_ANGLE) & (x <= self.span + SAME_ANGLE), x, np.nan)
 
     def _at(self, x: Any) -> Any:
         index = np.zeros(x.shape, dtype=int)
         for edge in self.starts[1:-1]:
             index = index + (x >= edge - SAME_JOINT)
-        pieces = [self._piece(i, index == i, x) for i in np.unique(index)]
+        speaks = [(i, index == i) for i in range(len(self.segments))]
+        pieces = [self._piece(i, here, x) for i, here in speaks if here.any()]
         shapes = [np.shape(values) for _, _, motion in pieces for values in motion]
         lead = np.broadcast_shapes(*(shape[:-1] for shape in (np.shape(self.possible), index.shape, *shapes)))
         out = np.full((4, *lead, x.shape[-1]), np.nan)

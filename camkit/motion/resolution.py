@@ -27,6 +27,8 @@ class Resolution(NamedTuple):
     """Where each piece ends, ``(k,)``."""
     moves: np.ndarray
     """Which angles belong to a segment that moves, ``(n,)``."""
+    shares: tuple[tuple[int, Any], ...]
+    """Of each piece the number of its segment, and its angles as shares of that."""
 
     @property
     def inner(self) -> np.ndarray:
@@ -44,17 +46,20 @@ def resolve(program: MotionProgram, steps: int = STEPS) -> Resolution:
     >>> narrow.angle.size, int((narrow.angle > 3).sum())
     (132, 129)
     """
+    shares = [(i, *piece) for i, segment in enumerate(program.segments) for piece in _pieces(segment, steps)]
+    spans = list(pairwise(program.starts))
     pieces = [
         (start + low * (end - start), start + high * (end - start), even)
-        for (start, end), segment in zip(pairwise(program.starts), program.segments, strict=True)
-        for low, high, even in _pieces(segment, steps)
+        for i, low, high, even in shares
+        for start, end in (spans[i],)
     ]
     sizes = np.array([even + 1 for *_, even in pieces])
     angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
     lead = np.broadcast_shapes(*(angle.shape[:-1] for angle in angles))
     joined = np.concatenate([np.broadcast_to(angle, (*lead, angle.shape[-1])) for angle in angles], axis=-1)
     ends = np.cumsum(sizes)
-    return Resolution(joined, ends - sizes, ends - 1, np.repeat([even > REST for *_, even in pieces], sizes))
+    moves = np.repeat([even > REST for *_, even in pieces], sizes)
+    return Resolution(joined, ends - sizes, ends - 1, moves, tuple((i, _inside(*piece)) for i, *piece in shares))
 
 
 def _pieces(segment: Segment, steps: int) -> list[tuple[Any, Any, int]]:
