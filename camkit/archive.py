@@ -3,7 +3,7 @@
 An archive search.  It keeps the designs that no other beats, evenly spread, and tries a batch of others near them in
 every round: between and beyond neighbours where the front has its widest gaps, by the differences of neighbours
 (the step of differential evolution: it has the front's own direction and size), and by steps along one quantity that
-shrink from round to round.  The rounds look at few angles of each design; the last rounds look at all.
+shrink from round to round.  The rounds look roughly, at few angles of each design; the last rounds look exactly.
 
 It knows studies, not mechanisms.  `nsga2` serves any number of free quantities.
 """
@@ -112,7 +112,7 @@ def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None
     _refuse(study, start)
     began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
-    coarse = study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)))
+    coarse = study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
     pace = WARM if start is not None and len(start) and coarse.evaluate(start.x).feasible.any() else COLD
     # The first round goes on from all of these: beside a beaten design may lie a part of the front.
     archive = _judged(coarse, np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))

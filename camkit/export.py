@@ -311,7 +311,7 @@ def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measur
             raise ValueError(f"the file frees {shown(k)}, which a {type(start).__name__} does not have")
         name, quantity = declared[k]
         free[name] = tuple(quantity.factor * b for b in _numbers(bounds, k, 2))
-    limits = {
+    limits: dict[str, Any] = {
         name: {_found(k, named): _numbers([v], k, 1)[0] * factor(_found(k, named).unit) for k, v in limited.items()}
         for name, limited in ((n, _mapping(entry[n], n)) for n in ("at_most", "at_least"))
     }

@@ -206,6 +206,15 @@ def refuse_lengths(thing: Any) -> None:
         raise ValueError(f"the {type(thing).__name__} has columns of {told}; they must be equally long")
 
 
+def columns(thing: Any) -> bool:
+    """Whether a number of ``thing``, or of what it holds, is a column: it is a population.
+
+    >>> columns((1.0, np.array([[2.0], [3.0]]))), columns((1.0, 2.0))
+    (True, False)
+    """
+    return bool(_lengths(thing))
+
+
 def _lengths(value: Any) -> set[int]:
     """How many members the columns within ``value`` have."""
     if type(value) is float:

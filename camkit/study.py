@@ -124,7 +124,8 @@ class Study:
 
     ``free`` names fields of the design, with bounds in SI or, as a bare name, with the range that its
     declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
-    ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.
+    ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.  A ``rough`` study
+    is for the first rounds of a search: where an analysis can find its peaks more quickly and less exactly, it does.
 
     Raises ``ValueError`` for what is no design that can be analysed, for a name that is not a number of the design,
     for bounds that are reversed, not finite or impossible, for a limit that is not finite, and for no free quantity or
@@ -137,6 +138,7 @@ class Study:
     at_most: Mapping[Measure, float] | None = None
     at_least: Mapping[Measure, float] | None = None
     angles: int = 361
+    rough: bool = False
 
     def __post_init__(self) -> None:
         if not can_be_analysed(self.start):
@@ -223,7 +225,8 @@ class Study:
 
     def analyse(self, x: Any) -> Any:
         """The analysis of the design or population ``x``."""
-        return self.design(x).analyse(self.angles)
+        analysis = self.design(x).analyse(self.angles)
+        return replace(analysis, rough=True) if self.rough and hasattr(analysis, "rough") else analysis
 
     def evaluate(self, x: Any) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""

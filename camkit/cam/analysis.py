@@ -8,15 +8,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..geometry import offset_curvature, rotated
+from ..kinds import columns
 from ..motion import Kinematics
-from ..motion.resolution import Resolution
+from ..motion.resolution import ROUGH, Resolution, resolve
 from ..quantities import fails
 from . import groove, peaks, statics
 from .peaks import Extreme
@@ -35,6 +36,8 @@ class CamAnalysis(ABC):
 
     cam: Any
     cam_angle: np.ndarray
+    rough: bool = field(default=False, kw_only=True)
+    """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
 
     @property
     @abstractmethod
@@ -54,13 +57,14 @@ class CamAnalysis(ABC):
     @cached_property
     def resolution(self) -> Resolution:
         """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides."""
-        return self.cam.motion.resolution
+        motion = self.cam.motion
+        return resolve(motion, ROUGH) if self.rough else motion.resolution
 
     @cached_property
     def resolved(self) -> Any:
         """The same cam at the cam angles of its `resolution`."""
         other = replace(self, cam_angle=self.resolution.angle)
-        other.__dict__.update(resolved=other, motion=self.cam.motion.resolved)
+        other.__dict__.update(resolved=other, motion=self.cam.motion.over(self.resolution))
         return other
 
     @cached_property
@@ -70,7 +74,7 @@ class CamAnalysis(ABC):
 
     def refuse_impossible(self) -> None:
         """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if fails(self.buildable[..., 0]):
+        if not columns(self.cam) and fails(self.buildable[..., 0]):
             raise ValueError(self.resolved.refusal())
 
     @property
@@ -256,6 +260,8 @@ class CamAnalysis(ABC):
 def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
     """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
     shown, resolution = analysis.resolved, analysis.resolution
+    if analysis.rough:
+        return peaks.roughly_highest(resolution.angle, f(shown), resolution.inner)
 
     def value(angle: Any) -> Any:
         return f(shown if angle is resolution.angle else analysis.at(angle))
@@ -337,7 +343,7 @@ class RollerAnalysis(CamAnalysis):
         motion = self.cam.motion
         if not self.groove or np.all(motion.periodic):
             return np.where(self.buildable[..., 0], np.inf, np.nan)[()]
-        found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius)
+        found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius, self.rough)
         return np.where(np.atleast_1d(motion.periodic)[..., 0] & np.isfinite(found), np.inf, found)[()]
 
     def contact_point(self, flank: Any = 1) -> np.ndarray:

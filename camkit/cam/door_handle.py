@@ -219,16 +219,18 @@ class DoorHandleAnalysis:
     cam: DoorHandleCam
     cam_angle: np.ndarray
     k: int
+    rough: bool = field(default=False, kw_only=True)
+    """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
 
     @cached_property
     def lift(self) -> OscillatingRollerAnalysis:
         """The lift curve."""
-        return OscillatingRollerAnalysis(self.cam.lift, self.cam_angle)
+        return OscillatingRollerAnalysis(self.cam.lift, self.cam_angle, rough=self.rough)
 
     @cached_property
     def relief(self) -> OscillatingRollerAnalysis:
         """The relief curve, in the frame of its own (mirrored) crank."""
-        return OscillatingRollerAnalysis(self.cam.relief, self.cam_angle)
+        return OscillatingRollerAnalysis(self.cam.relief, self.cam_angle, rough=self.rough)
 
     @property
     def curves(self) -> dict[str, OscillatingRollerAnalysis]:
@@ -318,7 +320,7 @@ class DoorHandleAnalysis:
             both = zip(self.lift.at(np.maximum(lift, 0.0)).pitch, relief, strict=True)
             return np.stack([np.where(lift > cam.relief_cam_angle, x, y) for x, y in both])
 
-        return groove.gap(path, cam.handle_angle + after, cam.roller_radius)
+        return groove.gap(path, cam.handle_angle + after, cam.roller_radius, self.rough)
 
     @cached_property
     def undercut(self) -> np.ndarray:

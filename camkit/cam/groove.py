@@ -18,14 +18,17 @@ from typing import Any
 
 import numpy as np
 
-COARSE, FINE, ROUNDS, CLOSER = 49, 5, 3, 3
-"""Places along the groove; then how many around each of the nearest two, how often, each time so much closer."""
+COARSE, FINE, ROUNDS, CLOSER, ROUGH = 49, 5, 3, 3, 25
+"""Places along the groove; then how many around each of the nearest two, how often, each time so much closer.
+
+A rough look takes the last number of places and one round."""
 
 
-def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
+def gap(path: Callable[[Any], Any], span: Any, radius: Any, rough: bool = False) -> Any:
     """The least distance between two parts of a groove's pitch curve, less ``2 radius``, m; below 0 the walls merge.
 
     Only a gap below a quarter of the radius is looked at more closely; a larger one is an estimate from above.
+    A ``rough`` look is at fewer places and once around the nearest.
 
     ``path`` gives its points ``(2, ..., n)`` at ``(..., n)`` places from 0 to ``span``.  Where nothing lies side by
     side the neighbours along the curve are the nearest, and the gap is about ``(pi - 2) radius``.
@@ -37,10 +40,11 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
     >>> print(f"{gap(hairpin, 200 + 15 * np.pi, 14.0):.3f}, {gap(hairpin, 200 + 15 * np.pi, 15.0):.3f}")
     2.000, 0.000
     """
-    x, y = path(span * np.linspace(0, 1, COARSE))
+    places, rounds = (ROUGH, 1) if rough else (COARSE, ROUNDS)
+    x, y = path(span * np.linspace(0, 1, places))
     along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
     least, mate = np.full(along.shape, np.inf), np.zeros(along.shape, dtype=int)
-    for k in range(1, COARSE):  # in parts that fit into the processor's own memory
+    for k in range(1, places):  # in parts that fit into the processor's own memory
         i, j = (..., slice(None, -k)), (..., slice(k, None))
         near = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
         better = (near < least[i]) & (along[j] - along[i] >= np.pi * radius)
@@ -51,16 +55,16 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
     least = np.sqrt(np.take_along_axis(least, first, -1))
     pair, reach = np.stack([first, second]).astype(float), 1.0  # in coarse steps
     around, close = np.linspace(-1, 1, FINE), least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
-    for _ in range(ROUNDS if close.any() else 0):
-        t, u = np.clip(pair + reach * around, 0, COARSE - 1)
-        px, py = path(np.concatenate([t, u], axis=-1) * span / (COARSE - 1))
+    for _ in range(rounds if close.any() else 0):
+        t, u = np.clip(pair + reach * around, 0, places - 1)
+        px, py = path(np.concatenate([t, u], axis=-1) * span / (places - 1))
         apart = _between(along, u)[..., None, :] - _between(along, t)[..., :, None]
         near = np.hypot(*(p[..., :FINE, None] - p[..., None, FINE:] for p in (px, py)))
         near = np.where(apart >= np.pi * np.asarray(radius)[..., None], near, np.inf)
         near = near.reshape(*near.shape[:-2], FINE * FINE)
         best = np.argmin(near, axis=-1)[..., None]
         found = np.take_along_axis(near, best, -1)
-        here = [np.take_along_axis(places, k, -1) for places, k in ((t, best // FINE), (u, best % FINE))]
+        here = [np.take_along_axis(place, k, -1) for place, k in ((t, best // FINE), (u, best % FINE))]
         better = close & (found < least)
         pair = np.where(better, here, pair)
         least, reach = np.where(better, found, least), reach / CLOSER
@@ -69,6 +73,6 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Any) -> Any:
 
 def _between(along: Any, step: Any) -> Any:
     """How far along the curve a place lies, which is counted in coarse steps."""
-    whole = np.minimum(step.astype(int), COARSE - 2)
+    whole = np.minimum(step.astype(int), along.shape[-1] - 2)
     low, high = (np.take_along_axis(along, whole + k, -1) for k in (0, 1))
     return low + (step - whole) * (high - low)

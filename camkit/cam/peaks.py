@@ -84,6 +84,15 @@ def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
     return Extreme(value[..., 0], place[..., 0])
 
 
+def roughly_highest(angle: Any, values: Any, inner: Any) -> Extreme:
+    """As `highest`, of ``values`` at the cam angles ``angle`` alone: the top of the parabola at the highest of them."""
+    angle, values = np.broadcast_arrays(angle, values)
+    best = np.argmax(values, axis=-1, keepdims=True)
+    around = (_at(values, np.clip(best + k, 0, values.shape[-1] - 1)) for k in (-1, 0, 1))
+    value = _at(values, best) + np.where(inner[best], _summit(*around)[1], 0.0)
+    return Extreme(value[..., 0], _at(angle, best)[..., 0])
+
+
 def _looked(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) -> tuple[Any, Any, Any, Any]:
     """The highest of a few angles from ``begin`` to ``end``, where it is, how much it bends, and if it is at an end.
 

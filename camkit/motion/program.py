@@ -207,10 +207,8 @@ class MotionProgram:
         """Cam angles that show every segment, however narrow, with its joints and kinks from both sides."""
         return resolve(self)
 
-    @cached_property
-    def resolved(self) -> Kinematics:
-        """``s, v, a, j`` at the cam angles of the `resolution`: a law is asked once for all of a population."""
-        shown = self.resolution
+    def over(self, shown: Resolution) -> Kinematics:
+        """``s, v, a, j`` at the cam angles of a resolution: a law is asked once for all of a population."""
         with np.errstate(all="ignore"):
             motions = [self.segments[i].motion(u) for i, u in shown.shares]
             shapes = [np.shape(x)[:-1] for x in (self.possible, shown.angle, *self.levels, *sum(motions, ()))]
@@ -218,7 +216,8 @@ class MotionProgram:
             for (i, _), motion, first, last in zip(shown.shares, motions, shown.first, shown.last, strict=True):
                 for k, values in enumerate(motion):
                     out[k][..., first : last + 1] = values if k else self.levels[i] + values
-        np.copyto(out, np.nan, where=np.logical_not(self.possible))
+        if not np.all(self.possible):
+            np.copyto(out, np.nan, where=np.logical_not(self.possible))
         return Kinematics(*out)
 
     @property

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 STEPS, LEAST, REST = 128, 16, 2
 """Even steps in a segment that moves, in the least of its smooth pieces, and in a dwell."""
+ROUGH = 48
+"""Even steps in a segment that moves where a search looks roughly."""
 HAIR, ROUNDING = 1e-9, 4e-12
 """How far inside the ends of a piece its first and last angles lie: a share of it, and at least so many rad."""
 
