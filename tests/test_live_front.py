@@ -177,6 +177,18 @@ def test_few_angles_are_never_the_last_word():
     assert len(front) > 90
 
 
+@pytest.mark.parametrize("make", [door_handle_study, lift_curve_study, valve_front_study])
+def test_a_rough_study_is_near_the_exact_one(make):
+    """On feasible designs: objectives within half a per cent, so the exact rounds begin near their end."""
+    study = make()
+    low, high = study.bounds
+    x = low + np.random.default_rng(5).random((300, len(low))) * (high - low)
+    exact, rough = study.evaluate(x), study.replace(rough=True).evaluate(x)
+    assert exact.feasible.sum() > 10
+    assert_allclose(rough.f[exact.feasible], exact.f[exact.feasible], rtol=5e-3)
+    assert (rough.feasible == exact.feasible).mean() > 0.98
+
+
 def test_it_is_the_same_at_every_call(lift):
     again = quick_front(lift_curve_study())
     assert_array_equal(again.x, lift.x)
