@@ -34,7 +34,7 @@ from camkit.cam.undercut import undercut_in_words
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_study import VALVE_MEASURES
 from camkit.linkage.cabin_door import CabinDoorLinkage
-from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise
 from camkit.plot.beside import Beside, cams_beside, curves_beside
 from camkit.plot.cam import DOOR_HANDLE_VIEWS, cam_mechanism, contact_force, curvature, efficiency, pressure_angle
 from camkit.plot.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
@@ -392,10 +392,33 @@ def test_the_sentence_says_what_is_undercut_where_and_by_how_much():
     s, _, a, _ = cam.motion(angle)
     radius = 8 * mm + s + a
     said = undercut_in_words(cam.analyse())
-    found = re.fullmatch(r"Undercut: the follower cuts away the profile at ([\d.]+) deg by ([\d.]+) mm\.", said)
+    found = re.fullmatch(
+        r"Undercut: the follower cuts away the profile at ([\d.]+) deg, "
+        r"where its radius of curvature is ([\d.]+) mm too small\.",
+        said,
+    )
     assert found
     assert np.interp(float(found[1]) * deg, angle, radius) == pytest.approx(radius.min(), abs=1e-6)  # there are two
     assert float(found[2]) == pytest.approx(-radius.min() / mm, rel=0.005)
+
+
+def test_a_knife_edge_is_not_undercut():
+    """A speed that drops to 0 makes a convex corner, into which an edge without a radius fits."""
+    motion = MotionProgram(
+        (Rise(90 * deg, 10 * mm, HalfCycloidalStart()), Dwell(90 * deg), Return(180 * deg, 10 * mm, Cycloidal()))
+    )
+    cam = TranslatingRollerCam(motion, roller_radius=2 * mm)
+    assert "the profile" in undercut_in_words(cam.replace(groove=False).analyse())
+    for groove in (True, False):
+        assert undercut_in_words(cam.replace(roller_radius=0, groove=groove).analyse()) == ""
+
+
+def test_walls_that_merge_are_told():
+    """350 deg with a rise of 5 mm: a groove 16 mm wide ends 5 mm outside its start, and no flank is too sharp."""
+    cam = TranslatingRollerCam(MotionProgram((Rise(350 * deg, 5 * mm, Cycloidal()),)))
+    assert undercut_in_words(cam.analyse()) == "Walls merge: two parts of the groove overlap by 7.36 mm."
+    for sound in (cam.replace(groove=False), cam.replace(roller_radius=3 * mm)):
+        assert undercut_in_words(sound.analyse()) == ""
 
 
 def test_the_panel_says_it_and_takes_it_back():

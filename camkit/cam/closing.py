@@ -1,8 +1,8 @@
 """What keeps a follower on its cam, and what the shaft and the surfaces bear.
 
 Every function takes any cam's analysis.  Jump and preload are those of a rigid follower without friction:
-the inner flank pushes with ``Q / lever``, ``Q = J omega^2 w + (what resists besides)``, and cannot pull.  Between the
-cam angles of the analysis the extremes are found by zooming in.
+the inner flank pushes with ``Q / lever``, ``Q = J omega^2 w + (what resists besides)``, and cannot pull.  The
+extremes are those of the whole curve, whatever cam angles the analysis has (see `peaks`).
 
 Speeds are in rad/s.  Only a high-speed cam knows its speed as a share of the rated one, at which its load is given:
 there speeds are such shares, and 1.2 is 20 % above the rated speed.

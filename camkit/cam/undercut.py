@@ -11,28 +11,40 @@ from ..units import deg, mm
 
 
 def undercut_in_words(analysis: Any) -> str:
-    """One sentence that says which flank is undercut, at which cam angle and by how much; empty if none is.
+    """What is undercut, at which cam angle, and which walls of a groove merge; empty if nothing is lost.
 
-    By how much: how far the least convex radius of curvature lies below 0, which under a roller is by how much its
-    radius is larger than that of its path.
+    Of a flank it says how much larger the least convex radius of curvature would have to be: how far it lies below 0,
+    which under a roller is by how much the roller's radius is larger than that of its path.  How far the follower then
+    stays from its place is another, smaller number, which `flank.flanks` finds.
 
-    >>> from camkit import TranslatingFlatCam, mm
-    >>> undercut_in_words(TranslatingFlatCam().analyse())
+    >>> from camkit import TranslatingRollerCam, deg, mm
+    >>> from camkit.motion import Cycloidal, MotionProgram, Rise
+    >>> undercut_in_words(TranslatingRollerCam().analyse())
     ''
-    >>> undercut_in_words(TranslatingFlatCam(base_radius=8 * mm).analyse())
-    'Undercut: the follower cuts away the profile at 87.61 deg by 2.66 mm.'
+    >>> motion = MotionProgram((Rise(40 * deg, 30 * mm, Cycloidal()),))
+    >>> undercut_in_words(TranslatingRollerCam(motion, roller_radius=20 * mm, groove=False).analyse())
+    'Undercut: the follower cuts away the profile at 32.3 deg, where its radius of curvature is 3.95 mm too small.'
     """
     curves = getattr(analysis, "curves", None) or {"": analysis}
     told = [words for name, curve in curves.items() for words in _flanks(curve, name if len(curves) > 1 else "")]
-    return f"Undercut: the follower cuts away {', and '.join(told)}." if told else ""
+    cut = [f"Undercut: the follower cuts away {', and '.join(told)}."] if told else []
+    return " ".join([*cut, *_merged(analysis)])
+
+
+def _merged(analysis: Any) -> Iterator[str]:
+    """Parts of a groove between which no wall is left, in words."""
+    gap = float(getattr(analysis, "groove_gap", np.inf))
+    if gap < 0:
+        yield f"Walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm."
 
 
 def _flanks(curve: Any, name: str) -> Iterator[str]:
     """Each flank of a curve that is undercut, in words."""
     of = f" of the {name} curve" if name else ""
     for flank, (radius, cam_angle) in _margins(curve).items():
-        if radius <= 0:
-            deep = f" by {-float(radius) / mm:.3g} mm" if -np.inf < radius < 0 else ""
+        if radius < 0:  # at 0 a cusp, or a corner into which a knife edge fits: nothing is lost
+            lacks = f"{-float(radius) / mm:.3g} mm too small"
+            deep = f", where its radius of curvature is {lacks}" if np.isfinite(radius) else ""
             yield f"{flank}{of} at {float(cam_angle) / deg:.4g} deg{deep}"
 
 
