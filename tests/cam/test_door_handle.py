@@ -395,6 +395,7 @@ def test_the_default_study_judges_the_whole_cam_where_whole_cams_live():
         "base radius (pitch), worse curve": (30 * mm, -1),
         "least convex radius (pitch), worse curve": (7 * mm, -1),
         "undercut margin of the groove, worse curve": (0.1, -1),
+        "wall between parts of the groove": (0.0, -1),
     }
     x, f, feasible = drawn(study)
     assert feasible.mean() == pytest.approx(0.21, abs=0.01)
