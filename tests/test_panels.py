@@ -119,7 +119,7 @@ def test_a_box_for_a_count_refuses_what_a_program_may_set_only_in_range():
 
 # ---------------------------------------------------------------- every box of every panel
 
-TYPED = ("1e160", "-1e300", "0")
+TYPED = ("1e160", "-1e300", "1e308", "0")
 LEVER = (cam_mechanism, pressure_angle, curvature, contact_force)
 PANELS = {
     "door handle": (DoorHandleCam(), DOOR_HANDLE_VIEWS, DoorHandleCam.measures),
@@ -189,6 +189,21 @@ def test_a_number_far_too_large_is_refused_in_one_sentence_and_the_picture_stays
     assert panel.controls["base_radius"].box.text == "30"
     assert panel.picture.widget.data == shown
     assert panel.picture.widget.layout.display == ""
+
+
+def test_a_number_that_only_its_unit_makes_infinite_is_refused_too():
+    spring = "load.spring_rate"
+    panel = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=[spring])
+    knob = panel.controls[spring]
+    first, shown = knob.value, knob.box.text
+    assert 1e308 * knob.declared.factor == math.inf
+    for typed in ("1e308", "-1e308"):
+        knob.box.text = typed
+        said = sentence(panel._banner)
+        assert f"{float(typed):g} {knob.declared.unit} was typed; it must be a finite number" in said
+        assert (knob.value, knob.box.text) == (first, shown)
+    knob.box.text = "2"
+    assert panel.design.load.spring_rate == 2 * knob.declared.factor
 
 
 def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():

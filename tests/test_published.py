@@ -1,5 +1,6 @@
 """`make app`: what it binds to, and the limits of the kernels that it starts."""
 
+import asyncio
 import json
 import os
 import shutil
@@ -37,6 +38,32 @@ def test_the_limits_of_published_pages_are_known_by_these_names():
     assert kernels.most > 0
     assert kernels.cull_idle_timeout > 0
     assert kernels.cull_connected
+
+
+def test_a_page_that_never_opens_gives_its_place_back():
+    """A plain GET runs the notebook and never connects; neither a running notebook nor an open page is ended."""
+
+    async def visits():
+        kernels = PublishedKernels(closed_for=1)
+        crawled, opened, running = [await kernels.start_kernel() for _ in range(3)]
+        try:
+            kernels.notify_connect(opened)
+            kernels.stop_watching_activity(running)
+            kernels.get_kernel(running).execution_state = "busy"
+            async with asyncio.timeout(60):
+                while crawled in kernels:
+                    await asyncio.sleep(0.2)
+            await asyncio.sleep(2 * kernels.closed_for)
+            assert {opened, running} == set(kernels.list_kernel_ids())
+            kernels.get_kernel(running).execution_state = "idle"
+            async with asyncio.timeout(60):
+                while running in kernels:
+                    await asyncio.sleep(0.2)
+            assert kernels.list_kernel_ids() == [opened]
+        finally:
+            await kernels.shutdown_all(now=True)
+
+    asyncio.run(visits())
 
 
 def test_a_published_page_keeps_its_searches_to_itself(tmp_path, monkeypatch):

@@ -9,6 +9,7 @@ from typing import Any
 
 import anywidget
 import ipywidgets as w
+import numpy as np
 import traitlets
 
 from ..json_file import MOST_BYTES
@@ -148,10 +149,11 @@ class Knob:
     def _typed(self, shown: float) -> None:
         if self._silent:
             return
-        value = shown * self.declared.factor
+        value = float(np.nan_to_num(shown * self.declared.factor))  # beyond all numbers: the largest there is
         if far_too_large(self.declared, value):
             self.set(self.value)
-            self._refused(f"{self.declared.text(value)} was typed; it must be {self.declared.possible_for(value)}")
+            typed = f"{shown:.6g} {self.declared.unit}".rstrip()
+            self._refused(f"{typed} was typed; it must be {self.declared.possible_for(value)}")
             return
         self.value = value
         self._put(self.slider, shown)
