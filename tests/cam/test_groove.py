@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from camkit import DoorHandleCam, OscillatingRollerCam
+from camkit.cam import groove
 from camkit.cam.measures import groove_gap, undercut_margin
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
@@ -38,6 +39,28 @@ def test_the_ends_of_an_open_groove_merge():
     for angle, merges in ((300, False), (330, False), (345, True)):
         open_ = cam.replace(motion=MotionProgram((Rise(angle * deg, 5 * mm, Cycloidal()),))).analyse(2001)
         assert (groove_gap(open_) < 0) == merges == (wall(open_.pitch, 8 * mm) < 0)
+
+
+@pytest.mark.parametrize("at", [45.0, 46.3, 47.9, 50.0, 51.1])
+@pytest.mark.parametrize("radius", [12.01, 12.5, 13])
+def test_a_waist_is_found_between_the_places_looked_at(radius, at):
+    """Two legs 30 mm apart around a half circle; both bulge inwards by 1.5 mm at the same height."""
+
+    def hairpin(t):
+        bend = np.clip(t - 100, 0, 15 * np.pi) / 15
+        leg = np.minimum(t, 100) - np.maximum(t - 100 - 15 * np.pi, 0)
+        half = 15 - 1.5 * np.exp(-(((leg - at) / 15) ** 2))
+        return np.stack([-half * np.cos(bend), leg + 15 * np.sin(bend)])
+
+    assert groove.gap(hairpin, 200 + 15 * np.pi, radius) == pytest.approx(27 - 2 * radius, abs=2e-3)
+
+
+@pytest.mark.parametrize("degrees", [182, 186, 190, 200, 215])
+def test_of_an_arc_only_places_half_a_circle_apart_count(degrees):
+    """Its ends are the nearest of them: nearer places lie along the groove, not side by side."""
+    r, span = 10.2, np.radians(degrees)
+    chord = 2 * r * np.sin(span / 2)
+    assert groove.gap(lambda u: r * np.stack([np.cos(u), np.sin(u)]), span, 10) == pytest.approx(chord - 20, abs=1e-9)
 
 
 def test_a_closed_cam_has_no_ends():
