@@ -161,6 +161,16 @@ def test_the_tube_behind_a_joint_carries_more(angle, used) -> None:
         assert (best.outer_diameter, best.inner_diameter) == pytest.approx(tuple(searched), rel=1e-7)
 
 
+@pytest.mark.parametrize("angle", [61, 75, 89])
+def test_a_steep_joint_turns_as_long_as_it_is_below_a_right_angle(angle) -> None:
+    """One and a member of a population; `test_refuses_a_joint_that_cannot_turn` has 90 deg."""
+    one = UniversalJointShaft(joint_angle=angle * deg).analyse()
+    assert one.buildable
+    assert one.tube_torque * np.cos(angle * deg) == pytest.approx(one.torque)
+    two = UniversalJointShaft(joint_angle=np.array([[angle], [angle + 90]]) * deg).analyse()
+    assert two.tube_torque[:, 0] == pytest.approx([one.tube_torque, np.nan], nan_ok=True)
+
+
 def test_standard_tubes_hold_the_torque_behind_the_joint() -> None:
     straight = UniversalJointShaft()
     bent = straight.replace(joint_angle=40 * deg)
