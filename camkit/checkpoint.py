@@ -129,8 +129,10 @@ def why(error: OSError) -> str:
 
     >>> why(OSError(28, "No space left on device", "search.npz"))
     'no space left on device'
+    >>> why(OSError("File or stream is not seekable."))
+    'file or stream is not seekable'
     """
-    said = error.strerror or str(error) or "it cannot be written"
+    said = (error.strerror or str(error)).rstrip(".") or "it cannot be written"
     return said[0].lower() + said[1:]
 
 

@@ -7,6 +7,7 @@ annotation of its field before anything is built of it, whatever the constructor
 from __future__ import annotations
 
 import inspect
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
@@ -21,7 +22,9 @@ from .quantities import Choice, Design, Quantity, declarations, unremarked, word
 from .units import factor, in_unit
 
 MOST_ROWS = 5000
-"""Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``."""
+"""Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
+
+Metadata ``in_all=(what, most)`` says how many the lists of such fields may have together, over the whole file."""
 MOST_THINGS = 500
 """Entries that are objects themselves, such as the segments of a program."""
 
@@ -51,8 +54,9 @@ def entry_of(thing: Any, where: str = "value") -> Any:
         return thing
     if isinstance(thing, (tuple, list, np.ndarray)):
         return [entry_of(value, where) for value in thing]
-    name = type(thing).__name__
-    if name in kinds() and is_dataclass(thing):
+    name, known = type(thing).__name__, kinds()
+    if name in known and is_dataclass(thing):
+        _refuse_namesake(type(thing), known[name], where)
         declared = declarations(thing)
         values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init}
         return {"kind": name} | {
@@ -61,6 +65,16 @@ def entry_of(thing: Any, where: str = "value") -> Any:
         }
     what = f"a {name}" if is_dataclass(thing) or not callable(thing) else "a function of one's own"
     raise ValueError(f"the {where} is {what}, which no file can hold")
+
+
+def _refuse_namesake(kind: type, read: type, where: str) -> None:
+    """A class of one's own under the name of another, which a file would be read as."""
+    if kind is not read:
+        other = "camkit's" if _ours(read) else "another one of your own, made later"
+        raise ValueError(
+            f"the {where} is a {kind.__name__} of your own, which would be read again as {other}: give your class a "
+            "name of its own, or make the thing anew"
+        )
 
 
 def _field_entry(value: Any, declared: Any, where: str) -> Any:
@@ -97,6 +111,8 @@ class Reading:
 
     missing: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    held: Counter[str] = field(default_factory=Counter)
+    """How many entries there are so far in lists that take long to work out."""
 
     def thing(self, entry: Any, hint: Any = object, most: int = MOST_ROWS) -> Any:
         """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
@@ -147,9 +163,17 @@ class Reading:
         if isinstance(declared, Choice):
             return self._choice(entry, name, declared)
         value = self.thing(entry, hint, of.metadata.get("most", MOST_ROWS))
+        if "in_all" in of.metadata and isinstance(entry, list):
+            self._count(len(entry), *of.metadata["in_all"])
         if not fits(value, hint):
             raise ValueError(f"the file says {shown(entry)} for {name!r}; {_wanted(hint)} belongs there")
         return value
+
+    def _count(self, entries: int, what: str, most: int) -> None:
+        """``entries`` more in lists of which a file can have ``most`` together, however many lists there are."""
+        self.held[what] += entries
+        if self.held[what] > most:
+            raise ValueError(f"the file has more than {most} {what} in all; they would take too long to work out")
 
     def _choice(self, entry: Any, name: str, declared: Choice) -> Any:
         """An option by its name, or something of one's own that has all that the options have in common."""

@@ -7,18 +7,22 @@ lacks what a later camkit has added, is read with a remark (`read`).
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .decision import METHODS, judgement_matrix
+from .decision import METHODS, judgement_matrix, typed_judgement
 from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number, key
 from .json_file import MOST_BYTES, content_of, digest_remarks, shown, signed, text_of
-from .quantities import Design, Measure, declarations
+from .kinds import one_number
+from .quantities import Design, Measure, declarations, words
 from .reference import problems  # noqa: F401 - so that files may name their designs
 from .study import Study, WeightedSum, weighted
 from .units import factor
@@ -30,6 +34,8 @@ COUNTS = {"population": (1, 100_000), "generations": (1, 1_000_000), "designs": 
 """What a file may say of a search."""
 MOST_ANGLES = 20_001
 """Cam angles of an analysis."""
+SAME_BOUND = 1e-9
+"""A design that misses a bound by no more than this share of it is on the bound: what rounding in a unit does."""
 MOST_POINTS = 5_000_000
 """Designs of a front times angles of each: more do not fit into the memory of a small machine at once."""
 PLAIN = re.compile(r"\w[\w +,.:;()/%^-]*")
@@ -64,13 +70,22 @@ class Read:
 
 def save(thing: Any, path: str | Path) -> None:
     """Write a design, a front or a `Work` to a JSON file; a file that is there is kept until the new one is whole."""
-    text, path = to_json(thing), Path(path)
+    text, path = to_json(thing), _path(path)
     part = path.with_name(f".{path.name}.part")
     try:
         part.write_text(text, encoding="utf-8")
         part.replace(path)
+    except OSError as error:  # of the file that was asked for, not of the part that nobody knows
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from None
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+
+
+def _path(path: Any) -> Path:
+    if not isinstance(path, (str, os.PathLike)) or not Path(path).name:
+        raise ValueError(f"the path of the file is {shown(path)}; it must be a text such as 'design.json', or a Path")
+    return Path(path)
 
 
 def load(
@@ -83,7 +98,7 @@ def load(
 
     ``kind`` and ``measures`` are those of `read`.
     """
-    path = Path(path)
+    path = _path(path)
     with path.open("rb") as file:
         found = read(file.read(MOST_BYTES + 1), kind, measures)
     for remark in found.remarks:
@@ -260,10 +275,13 @@ def _record_entry(record: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _judgements_entry(matrix: Any) -> Any:
-    """A matrix or its upper triangle, ``None`` where there is no judgement."""
+    """A matrix or its upper triangle, of numbers or text such as ``"1/3"``; ``None`` where there is no judgement."""
     if isinstance(matrix, (list, tuple, np.ndarray)):
         return [_judgements_entry(value) for value in matrix]
-    return None if matrix is None or np.isnan(matrix) else entry_of(matrix)
+    told = typed_judgement(matrix) if isinstance(matrix, str) else matrix
+    told = float(told) if isinstance(told, Fraction) else told
+    known = told is not None and one_number(told, "a judgement", "be a number, a text such as '1/3', or None")
+    return None if told is None or np.isnan(known) else entry_of(told)
 
 
 def _entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
@@ -326,11 +344,19 @@ def _front(work: Work, message: str, reading: Reading) -> Any:
     if not len(work.x):
         return Front(work.study, work.x, np.zeros((0, len(work.study.minimise))), message, work.record)
     front = front_of(work.study.evaluate(work.x), work.study)
-    if len(front) < len(work.x):
-        reading.remarks.append(
-            f"{len(work.x) - len(front)} of its {len(work.x)} designs miss a limit or are dominated and were left out"
-        )
+    reading.remarks.extend(left_out(len(work.x), len(front)))
     return replace(front, record=work.record)
+
+
+def left_out(told: int, kept: int) -> list[str]:
+    """What is to be remarked where a file has ``told`` designs of a front, of which ``kept`` are one.
+
+    >>> left_out(20, 20), left_out(20, 19)
+    ([], ['1 of its 20 designs miss a limit or are dominated and were left out'])
+    """
+    if kept == told:
+        return []
+    return [f"{told - kept} of its {told} designs miss a limit or are dominated and were left out"]
 
 
 def _x(rows: Any, study: Study) -> np.ndarray:
@@ -343,7 +369,22 @@ def _x(rows: Any, study: Study) -> np.ndarray:
         raise ValueError(
             f"the file has {len(rows)} designs at {study.angles} angles each; there can be {MOST_POINTS} points in all"
         )
-    return np.array(rows, dtype=float).reshape(-1, n) * [declared[name].factor for name in study.free]
+    x = np.array(rows, dtype=float).reshape(-1, n) * [declared[name].factor for name in study.free]
+    _refuse_outside(x, study)
+    return x
+
+
+def _refuse_outside(x: np.ndarray, study: Study) -> None:
+    """Every design of a front lies between the bounds of its study, but for rounding."""
+    low, high = study.bounds
+    rounding = SAME_BOUND * np.maximum(abs(low), abs(high))
+    for i, j in np.argwhere((x < low - rounding) | (x > high + rounding))[:1]:
+        name = list(study.free)[j]
+        say: Any = declarations(study.start)[name].text  # type: ignore[union-attr]
+        raise ValueError(
+            f"the front of the file has a design outside the bounds of its study: the {words(name)} of design {i + 1} "
+            f"is {say(x[i, j])}; the bounds are {say(low[j])} and {say(high[j])}"
+        )
 
 
 # ---------------------------------------------------------------- measures

@@ -99,6 +99,10 @@ def digest_remarks(text: str, told: Any) -> list[str]:
 
 def text_of(file: str | bytes) -> str:
     """The text of a file in UTF-8, with or without a byte order mark, that may be JSON."""
+    if not isinstance(file, (str, bytes, bytearray, memoryview)):
+        raise ValueError(
+            f"what is to be read is {shown(file)}; it must be the text of a file, or its bytes (`load` takes a path)"
+        )
     data = file.encode("utf-8", "surrogatepass") if isinstance(file, str) else bytes(file)
     if len(data) > MOST_BYTES:
         raise ValueError(f"the file has more than {MOST_BYTES // 10**6} million bytes; no saved design or study has")
@@ -122,6 +126,8 @@ def _refuse_binary(data: bytes) -> None:
     for mark, name in MARKS.items():
         if data.startswith(mark):
             raise ValueError(_encoding(f"in {name}"))
+    if data[1:4] == b"\0\0\0" or data[:3] == b"\0\0\0":  # letters in four bytes
+        raise ValueError(_encoding("in UTF-32"))
     if data[1:4:2] == b"\0\0" or data[:4:2] == b"\0\0":  # every other byte: letters in two bytes
         raise ValueError(_encoding("in UTF-16"))
     if b"\0" in data:

@@ -9,6 +9,7 @@ Whatever is not `Html` yet is escaped on its way into HTML, so that nothing but 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
@@ -26,7 +27,7 @@ def escaped(text: Any) -> Html:
     >>> escaped("<script>f()</script>")
     '&lt;script&gt;f()&lt;/script&gt;'
     """
-    return text if isinstance(text, Html) else Html(escape(str(text), quote=False))
+    return text if isinstance(text, Html) else Html(escape(_visible(text), quote=False))
 
 
 def attribute(name: str, text: Any) -> Html:
@@ -35,7 +36,7 @@ def attribute(name: str, text: Any) -> Html:
     >>> html("<i {}>{}</i>", attribute("title", "l'arm"), "l'arm")
     "<i title='l&#x27;arm'>l'arm</i>"
     """
-    return Html(f"{name}='{escape(str(text), quote=True)}'")
+    return Html(f"{name}='{escape(_visible(text), quote=True)}'")
 
 
 def html(template: str, *parts: Any, **named: Any) -> Html:
@@ -82,6 +83,8 @@ def markdown(text: Any) -> str:
 
 
 _FORMULA = re.compile(r"\s*[=+\-@＝＋－＠]")
+_INNER_FORMULA = re.compile(r";(?=[\s\"]*[=+\-@＝＋－＠])")
+"""Where a spreadsheet that separates cells by semicolons would begin one."""
 
 
 def csv_cell(text: Any) -> str:
@@ -89,8 +92,13 @@ def csv_cell(text: Any) -> str:
 
     >>> csv_cell("=1+1"), csv_cell("-3.5"), csv_cell("-least radius")
     ("'=1+1", '-3.5', "'-least radius")
+
+    Some spreadsheets separate by semicolons, whatever the file does; what they would begin is no formula either:
+
+    >>> csv_cell("x;=1+1")
+    "x;'=1+1"
     """
-    line = _one_line(text)
+    line = _INNER_FORMULA.sub(";'", _one_line(text))
     return f"'{line}" if _FORMULA.match(line) and not _is_number(line) else line
 
 
@@ -104,4 +112,10 @@ def _is_number(text: str) -> bool:
 
 def _one_line(text: Any) -> str:
     """Control characters, tabs and ends of lines as blanks."""
-    return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+", " ", str(text))
+    return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+", " ", _visible(text))
+
+
+def _visible(text: Any) -> str:
+    """``text`` without what shows nothing but changes what is around it, such as the direction of writing."""
+    said = str(text)
+    return said if said.isascii() else "".join(c for c in said if unicodedata.category(c) != "Cf")

@@ -51,6 +51,7 @@ from camkit.linkage.measures import departure, excess
 from camkit.linkage.space import Box
 from camkit.motion import Cycloidal, Dwell, Law, MotionProgram, Poly345, Return, Rise, Segment, Skewed
 from camkit.motion.shaped import SPLINE, Family, ShapedLaw
+from camkit.optimise import front_of
 from camkit.plot.cam import pressure_angle
 from camkit.quantities import Design, Quantity, declarations
 from camkit.reference.problems import KnownProblem
@@ -196,6 +197,49 @@ def test_a_cam_with_a_shaped_law_comes_back(law):
     assert from_json(to_json(fast), HighSpeedCam) == fast
 
 
+def own_law(name):
+    return dataclass(frozen=True)(type(name, (Cycloidal,), {"__annotations__": {}, "name": "my own"}))
+
+
+def test_a_class_that_would_be_read_as_another_is_not_written():
+    def cam(law):
+        return OscillatingRollerCam(motion=MotionProgram((Rise(1.0, 0.3, law),)))
+
+    with pytest.raises(ValueError, match=r"^the law of the Rise is a Poly345 of your own, .* as camkit's: give"):
+        to_json(cam(own_law("Poly345")()))
+    older, newer = own_law("LawOfMyOwn"), own_law("LawOfMyOwn")
+    assert from_json(to_json(cam(newer()))) == cam(newer())
+    with pytest.raises(ValueError, match=r"^the law of the Rise is a LawOfMyOwn of your own, .* as another one of yo"):
+        to_json(cam(older()))
+
+
+def long_laws(kind, *lengths):
+    """Rises whose laws have so many points each, as a file says it."""
+    more = {"start": [0, 0], "end": [0, 0]} if kind == "SplineLaw" else {"tolerance": 1.0}
+    rows = [np.linspace(0, 1, n + 2)[1:-1] if kind == "SplineLaw" else np.linspace(0, 1, n) for n in lengths]
+    laws = [{"kind": kind, "u": row.tolist(), "s": row.tolist(), **more} for row in rows]
+    angle = 6 / len(laws)
+    return [{"kind": "Rise", "angle": angle, "lift": 0.001, "law": law} for law in laws]
+
+
+@pytest.mark.parametrize(
+    ("kind", "lengths", "sentence"),
+    [("SplineLaw", [300] * 5, "knots of splines"), ("TableLaw", [5000, 4000, 1001], "rows of tables of motion")],
+)
+def test_laws_that_would_take_long_together_are_refused(kind, lengths, sentence):
+    content = json.loads(GOOD["program"])
+    content["design"]["motion"]["segments"] = long_laws(kind, *lengths)
+    with pytest.raises(ValueError, match=f"^the file has more than [0-9]+ {sentence} in all; they would take too long"):
+        read(json.dumps(content))
+
+
+@pytest.mark.parametrize(("kind", "lengths"), [("SplineLaw", [30] * 36), ("TableLaw", [3600, 3600])])
+def test_laws_as_long_as_users_have_them_are_read(kind, lengths):
+    content = json.loads(GOOD["program"])
+    content["design"]["motion"]["segments"] = long_laws(kind, *lengths)
+    assert len(read(json.dumps(content)).thing.motion.segments) == len(lengths)
+
+
 def test_what_no_file_can_hold_is_refused_for_its_true_reason():
     family = Family("mine", lambda c: Cycloidal(), 1.0)
     one = MotionProgram((Rise(1.0, 0.3, replace(SHAPED, family=family)),))
@@ -294,9 +338,36 @@ def test_an_empty_front_says_again_what_stood_in_the_way():
     assert again.message == empty.message != ""
 
 
+def worst_corner(front):
+    """A design between the bounds, as it stands in a file, that is beaten or misses a limit."""
+    study = front.study
+    x = np.array(list(np.ndindex((2,) * len(study.free))))
+    corners = np.take_along_axis(study.bounds, x, 0)
+    told = study.evaluate(corners)
+    beaten = (told.f[:, None] > front.f).all(-1).any(-1)
+    declared = declarations(study.start)
+    row = corners[np.flatnonzero(~told.feasible | beaten)[0]]
+    return [v / declared[n].factor for n, v in zip(study.free, row, strict=True)]
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_a_front_outside_the_bounds_of_its_study_is_refused(front, end):
+    content = json.loads(to_json(front))
+    declared = declarations(front.study.start)
+    name, bounds = next(iter(front.study.free.items()))
+    factor = declared[name].factor
+    content["front"]["front"][3][0] = bounds[end] / factor
+    read(json.dumps(content))  # on the bound
+    content["front"]["front"][3][0] = (bounds[end] + (end - 0.5) * 1e-3) / factor
+    refused = "^the front of the file has a design outside the bounds of its study: the .* of design 4 is .*; the"
+    for kind in (None, Work):
+        with pytest.raises(ValueError, match=refused):
+            read(json.dumps(content), kind)
+
+
 def test_designs_of_an_edited_front_that_miss_a_limit_are_left_out_with_a_remark(front):
     content = json.loads(to_json(front))
-    content["front"]["front"][3][0] = 500.0
+    content["front"]["front"][3] = worst_corner(front)
     found = read(json.dumps(content))
     assert len(found.thing) == len(front) - 1
     assert EDITED in found.remarks
@@ -308,6 +379,15 @@ def test_the_way_from_judgements_to_weights_comes_back():
     again = from_json(to_json(work))
     assert again.methods == {"criteria": "geometric"}
     assert again.judgements == {"criteria": (5.0, None, 1.0)}
+
+
+def test_judgements_may_be_text_as_they_may_be_elsewhere():
+    told = Work(plain, plain.start, {"criteria": ["1/3", 2, "?"], "importance": [[1, "4"], ["1/4", 1]]})
+    again = from_json(to_json(told)).judgements
+    assert again == {"criteria": (1 / 3, 2, None), "importance": ((1, 4.0), (0.25, 1))}
+    for wrong in ("much", True, object()):
+        with pytest.raises(ValueError, match=r"is no number above 0|^a judgement is .*; it must be a number, a text"):
+            to_json(replace(told, judgements={"criteria": [wrong, 2, 3]}))
 
 
 # ---------------------------------------------------------------- files of yesterday, edited, damaged
@@ -591,6 +671,8 @@ def test_a_file_that_went_through_windows_is_the_same(tmp_path):
 OTHERS = {
     "UTF-16": (GOOD["design"].encode("utf-16"), "the file is written in UTF-16; save it as UTF-8"),
     "UTF-16 without a mark": (GOOD["design"].encode("utf-16-be"), "the file is written in UTF-16; save it as UTF-8"),
+    "UTF-32 without a mark": (GOOD["design"].encode("utf-32-le"), "the file is written in UTF-32; save it as UTF-8"),
+    "UTF-32, big first": (GOOD["design"].encode("utf-32-be"), "the file is written in UTF-32; save it as UTF-8"),
     "UTF-32": (GOOD["design"].encode("utf-32"), "the file is written in UTF-32; save it as UTF-8"),
     "Latin-1": (
         GOOD["work"].replace("weighted sum", "gewählte Summe").encode("latin-1"),
@@ -623,6 +705,24 @@ def test_a_file_of_another_kind_is_told_apart(data, sentence, tmp_path):
     if not sentence.startswith("the file is damaged"):
         assert str(refused.value) == sentence
     assert str(refused.value).startswith(sentence[:19])
+
+
+@pytest.mark.parametrize("given", [None, 5, {}, 10**10, [1], 2.5])
+def test_what_is_no_text_is_not_read(given):
+    with pytest.raises(ValueError, match=r"^what is to be read is .*; it must be the text of a file, or its bytes"):
+        from_json(given)
+    if not isinstance(given, int):
+        for act in (partial(load, given), partial(save, DoorHandleCam(), given)):
+            with pytest.raises(ValueError, match=r"^the path of the file is .*; it must be a text such as"):
+                act()
+
+
+def test_an_error_of_the_disk_names_the_file_that_was_asked_for(tmp_path):
+    (tmp_path / "file").touch()
+    for path, error in (("none/x.json", FileNotFoundError), ("file/x.json", NotADirectoryError)):
+        with pytest.raises(error) as told:
+            save(DoorHandleCam(), tmp_path / path)
+        assert told.value.filename == str(tmp_path / path)
 
 
 def test_a_disk_that_fills_up_keeps_the_file_that_was_there(tmp_path, monkeypatch):
@@ -720,6 +820,17 @@ def test_a_remark_shows_in_the_panel(page, monkeypatch, tmp_path):
     assert len(page.front) == 20
     assert said(page).startswith(f"The file is loaded, but {UNMARKED}; and it lacks 'methods' of the study")
     app.load(DoorHandleCam())
+
+
+def test_designs_that_a_page_leaves_out_are_remarked(page, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    content = json.loads((FILES / OLD[2]).read_bytes())
+    work = load(FILES / OLD[2], Work, tell=list)
+    rows = content["work"]["front"]
+    rows[3] = worst_corner(front_of(work.study.evaluate(work.x), work.study))
+    page.load_json(json.dumps(content))
+    assert len(page.front) == 19
+    assert said(page).endswith("1 of its 20 designs miss a limit or are dominated and were left out.")
 
 
 def test_a_law_that_the_menu_does_not_offer_is_shown_when_it_is_loaded(page, monkeypatch, tmp_path):

@@ -79,6 +79,14 @@ def test_what_is_escaped_is_read_back_letter_by_letter():
     assert Elements(escaped(EVIL)).tags == set()
 
 
+def test_what_turns_the_direction_of_writing_is_left_out():
+    turned = "arm\u202e(mm)\u2066\u200b \ufeffmra"
+    assert escaped(turned) == "arm(mm) mra"
+    assert attribute("title", turned) == "title='arm(mm) mra'"
+    assert markdown(turned) == "arm(mm) mra"
+    assert escaped("naïve Größe, α²") == "naïve Größe, α²"
+
+
 def test_only_html_is_not_escaped_again():
     inner = html("<b>{}</b>", "a < b")
     assert isinstance(inner, Html)
@@ -111,6 +119,8 @@ def test_markdown_shows_a_name_in_one_cell():
         ("=1+1", "'=1+1"), ("+1+1", "'+1+1"), ("@SUM(A1)", "'@SUM(A1)"), ("-a", "'-a"), ("-3.5", "-3.5"),
         ("+2", "+2"), ("\t=1", "' =1"), ("\r=1", "' =1"), (" =1", "' =1"), ("＝1", "'＝1"), ("a\nb", "a b"),
         ("=cmd|'/c calc'!A1", "'=cmd|'/c calc'!A1"), ("a=b", "a=b"), ("", ""),
+        ("x;=1+1", "x;'=1+1"), ('x; "=1"', "x;' \"=1\""), ("x;y", "x;y"), ("\ufeff=1+1", "'=1+1"), ("a\u202eb", "ab"),
+        ("\u200b-\u2066a", "'-a"),
     ],
 )  # fmt: skip
 def test_a_spreadsheet_takes_no_cell_for_a_formula(text, cell):

@@ -518,6 +518,7 @@ class Search(Panel):
         try:
             found = export.read(file, export.Work, self._measures())
             self.load(found.thing)
+            found = replace(found, remarks=(*found.remarks, *export.left_out(len(found.thing.x), len(self.front))))
         except ValueError as refusal:
             tell(self._banner, f"This file cannot be used: {refusal}.")
         else:

@@ -36,6 +36,8 @@ SAME_ANGLE = 1e-9
 """Cam angles closer than this (rad) are the same."""
 ROUNDED = 1e-4 * deg
 """A span that misses the turn by no more than this (rad) is a turn whose angles were rounded."""
+LIKELY_DEGREES = 10.0
+"""A segment of so many radians, or more, was meant in degrees."""
 NEARLY = 0.5 * deg
 """A span that misses the turn by less than this (rad), and by more than rounding, is a mistake."""
 SAME_JOINT = 1e-12
@@ -374,8 +376,8 @@ def _word(segment: Segment) -> str:
     return type(segment).__name__.lower()
 
 
-def _degrees(angle: Any) -> str:
-    return f"{in_unit(float(angle), 'deg'):.6g} deg" if finite(angle) else str(angle)
+def _degrees(angle: Any, digits: int = 6) -> str:
+    return f"{in_unit(float(angle), 'deg'):.{digits}g} deg" if finite(angle) else str(angle)
 
 
 def _refuse_angle(segment: Segment) -> None:
@@ -384,6 +386,15 @@ def _refuse_angle(segment: Segment) -> None:
         said = shown(segment.angle) if angle is None else _degrees(angle)
         raise ValueError(f"the angle of the {_word(segment)} is {said}; it must be a finite angle above 0 deg")
     object.__setattr__(segment, "angle", np.where(_positive(angle), angle, np.nan) if np.ndim(angle) else angle)
+
+
+def _meant(program: MotionProgram) -> str:
+    """What to write where a segment's angle was given in degrees."""
+    for segment in program.segments:
+        if not np.ndim(segment.angle) and LIKELY_DEGREES <= segment.angle <= 360:
+            given = f"{segment.angle:.6g}"
+            return f" (the {_word(segment)} was given {given} rad; for degrees write {given} * deg)"
+    return ""
 
 
 def _refuse_program(program: MotionProgram) -> None:
@@ -397,10 +408,10 @@ def _refuse_program(program: MotionProgram) -> None:
     if fails(program._beyond <= ROUNDED):
         much = program._beyond >= NEARLY
         spans = _degrees(program.span) if much else f"{_degrees(program._beyond)} more than a full turn"
-        raise ValueError(f"the program spans {spans}; it can span at most 360 deg")
+        raise ValueError(f"the program spans {spans}; it can span at most 360 deg{_meant(program)}")
     if fails(np.logical_not(program._misses)):
         raise ValueError(
-            f"the program spans {_degrees(program.span)}; {_degrees(-program._beyond)} are missing to a full turn: "
+            f"the program spans {_degrees(program.span, 10)}; {_degrees(-program._beyond)} are missing to a full turn: "
             "lengthen a segment or add a dwell"
         )
     if fails(program.closes):

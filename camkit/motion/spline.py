@@ -21,6 +21,10 @@ from .law import Kinematics, Law, Peaks
 
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
+KNOTS_IN_ALL = 1200
+"""Of all splines in a file."""
+ROWS_IN_ALL = 10_000
+"""Of all tables of motion in a file, each of which is smoothed: one of every 0.1 deg of a turn twice and more."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ class SplineLaw(Law):
     ValueError: the knots of the spline are 0.6, 0.4; they must increase strictly between 0 and 1
     """
 
-    u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS})
+    u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS, "in_all": ("knots of splines", KNOTS_IN_ALL)})
     s: tuple[Any, ...]
     start: tuple[Any, ...] = (0.0, 0.0)
     end: tuple[Any, ...] = (0.0, 0.0)
@@ -121,7 +125,7 @@ class TableLaw(Law):
     (True, np.float64(1.87))
     """
 
-    u: tuple[float, ...]
+    u: tuple[float, ...] = field(metadata={"in_all": ("rows of tables of motion", ROWS_IN_ALL)})
     s: tuple[float, ...]
     tolerance: float = 1e-4
 

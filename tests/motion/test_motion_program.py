@@ -369,6 +369,11 @@ law = Cycloidal()
             "the program spans 400 deg; it can span at most 360 deg",
         ),
         (
+            lambda: MotionProgram((Rise(120, 0.02, law),)),
+            "the program spans 6875.49 deg; it can span at most 360 deg (the rise was given 120 rad; for degrees write "
+            "120 * deg)",
+        ),
+        (
             lambda: MotionProgram((Rise(180 * deg, 0.02, law), Return(180 * deg, 0.015, law))),
             "the program ends 0.005 from its start after 360 deg; a full turn must come back to its start",
         ),
@@ -415,6 +420,10 @@ def three(middle, law=Cycloidal()):  # noqa: B008  a frozen value
         (
             119.99,
             "the program spans 359.99 deg; 0.01 deg are missing to a full turn: lengthen a segment or add a dwell",
+        ),
+        (
+            119.9998,
+            "the program spans 359.9998 deg; 0.0002 deg are missing to a full turn: lengthen a segment or add a dwell",
         ),
         (119.6, "the program spans 359.6 deg; 0.4 deg are missing to a full turn: lengthen a segment or add a dwell"),
         (120.01, "the program spans 0.01 deg more than a full turn; it can span at most 360 deg"),
