@@ -776,6 +776,13 @@ def test_a_drawn_follower_hangs_together(brute):
         assert_allclose(np.hypot(*(end - root[:, None])), length, rtol=1e-12)
 
 
+def test_a_steep_arm_works_up_to_a_right_angle():
+    """From 65 to 77 deg; above it rests on the circle that its face touches."""
+    analysis = OscillatingFlatCam(start_angle=65 * deg).analyse(361)
+    high = np.isclose(analysis.motion.s, 12 * deg)
+    assert_allclose(np.hypot(*analysis.profile[:, high]), 80 * mm * np.sin(77 * deg) + 5 * mm, rtol=1e-6)
+
+
 # ---------------------------------------------------------------- a motion that does not begin at the level 0
 
 
