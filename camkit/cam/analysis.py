@@ -17,7 +17,7 @@ import numpy as np
 from ..geometry import offset_curvature, rotated
 from ..kinds import columns
 from ..motion import Kinematics
-from ..motion.resolution import ROUGH, Resolution, resolve
+from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
 from . import groove, peaks, statics
 from .peaks import Extreme
@@ -51,20 +51,29 @@ class CamAnalysis(ABC):
     def at(self, cam_angle: Any) -> Any:
         """The same cam at other cam angles."""
         other = replace(self, cam_angle=cam_angle)
-        other.__dict__["resolved"] = self.resolved  # a cached property: the cam has one resolution
+        # cached properties: the cam has one resolution
+        other.__dict__.update(resolved=self.resolved, resolution=self.resolution)
         return other
 
     @cached_property
     def resolution(self) -> Resolution:
-        """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides."""
-        motion = self.cam.motion
-        return resolve(motion, ROUGH) if self.rough else motion.resolution
+        """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides.
+
+        Those of the load's tables, too.
+        """
+        load, motion = getattr(self.cam, "load", None), self.cam.motion
+        angles, levels = (getattr(load, name, ()) for name in ("cam_angle_table", "travel_table"))
+        if not (self.rough or len(angles) or len(levels)):
+            return motion.resolution
+        steps = ROUGH if self.rough else STEPS
+        return resolve(motion, steps, [x for x, _ in angles], [x for x, _ in levels])
 
     @cached_property
     def resolved(self) -> Any:
         """The same cam at the cam angles of its `resolution`."""
         other = replace(self, cam_angle=self.resolution.angle)
-        other.__dict__.update(resolved=other, motion=self.cam.motion.over(self.resolution))
+        motion = self.cam.motion.over(self.resolution)
+        other.__dict__.update(resolved=other, resolution=self.resolution, motion=motion)
         return other
 
     @cached_property
@@ -147,8 +156,8 @@ class CamAnalysis(ABC):
         """What resists the follower's travel, N, or N m for an arm."""
 
     @cached_property
-    def _found(self) -> dict[Callable[[Any], Any], Extreme]:
-        """What `highest` has found: an objective and a limit often ask for the same peak."""
+    def _found(self) -> dict[tuple[Callable[[Any], Any], int], Extreme]:
+        """What `highest` (1) and `lowest` (-1) have found: an objective and a limit often ask for the same peak."""
         return {}
 
     @cached_property
@@ -246,15 +255,17 @@ class CamAnalysis(ABC):
 
     def highest(self, f: Callable[[Any], Any]) -> Extreme:
         """The largest value of ``f(analysis)`` over the cam, whichever cam angles the analysis has."""
-        if f not in self._found:
-            found = highest(self, f)
-            self._found[f] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
-        return self._found[f]
+        return self._extreme(f, 1)
 
     def lowest(self, f: Callable[[Any], Any]) -> Extreme:
         """As `highest`, for the least value."""
-        value, angle = self.highest(lambda analysis: -f(analysis))
-        return Extreme(-value, angle)
+        return self._extreme(f, -1)
+
+    def _extreme(self, f: Callable[[Any], Any], way: int) -> Extreme:
+        if (f, way) not in self._found:
+            found = highest(self, f) if way > 0 else lowest(self, f)
+            self._found[f, way] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
+        return self._found[f, way]
 
 
 def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:

@@ -22,8 +22,8 @@ from ..quantities import Design, fails, quantity
 def jump_speed(analysis: Any) -> Any:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
-    0 if the follower does not even stay on a resting cam, ``inf`` if it stays at any speed, as it does in a groove
-    without a spring: that is form closed.
+    0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
+    speed, as it does in a groove without a spring: that is form closed.
 
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
     >>> from camkit.units import rpm
@@ -37,6 +37,7 @@ def jump_speed(analysis: Any) -> Any:
         return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
 
     slack = analysis.highest(slackness).value
+    slack = np.where(_thrown_off(analysis), np.inf, slack)
     with np.errstate(divide="ignore"):
         return 1 / np.sqrt(np.where(getattr(analysis, "form_closed", False), 0.0 * np.isfinite(slack), slack))[()]
 
@@ -45,7 +46,7 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
     """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
 
     The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
-    ``ValueError`` for a speed that is not finite.
+    ``inf`` where the follower's speed drops at once.  ``ValueError`` for a speed that is not finite.
 
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
     >>> from camkit.units import rpm
@@ -62,7 +63,15 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
         without = at.static_resistance - at.preload
         return -(at.inertia * speed**2 * at.acceleration + without)
 
-    return np.maximum(analysis.highest(lacking).value, 0.0)
+    least = np.maximum(analysis.highest(lacking).value, 0.0)
+    drops = _thrown_off(analysis) & ~np.asarray(getattr(analysis, "form_closed", False)) & (np.asarray(speed) > 0)[()]
+    return np.where(drops, np.inf, least)[()]
+
+
+def _thrown_off(analysis: Any) -> Any:
+    """Whether the follower has mass and its speed drops at once, which no force can make it follow."""
+    corner = getattr(analysis, "corner", None)
+    return (corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0) if corner else np.False_
 
 
 class TorqueBalance(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,21 @@ from ..quantities import Measure
 from .closing import ContactPair, contact_along, jump_speed, torque_balance
 from .measures import CURVE, base_radius, groove_gap, mean_efficiency, peak, peak_force, peak_torque, steepest
 
+_force = attrgetter("contact_force")
+
 least_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
 undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
-least_force = Measure("least contact force", "N", lambda a: a.lowest(lambda at: at.contact_force).value)
-mean_torque = Measure(
-    "mean cam torque with friction", "N mm", lambda a: torque_balance(a.cam_angle, a.rubbing.cam_torque).mean
-)
+least_force = Measure("least contact force", "N", lambda a: a.lowest(_force).value)
+
+
+def _mean_torque(analysis: Any) -> Any:
+    """Mean over the cam angle of what turns the cam, friction included, however many angles the analysis has."""
+    shown = analysis.resolved
+    return torque_balance(shown.cam_angle, shown.rubbing.cam_torque).mean
+
+
+mean_torque = Measure("mean cam torque with friction", "N mm", _mean_torque)
 
 
 def _overspeed(analysis: Any) -> Any:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar
 
 import numpy as np
@@ -466,8 +466,19 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     @cached_property
     def undercut_margin(self) -> Any:
-        """Least ``q = 1 - r kappa``, also between the angles; 0 or less: the profile is undercut."""
-        return self.along("margin_between").min(-1)
+        """Least ``q = 1 - r kappa``, also between the angles; 0 or less: the profile is undercut.
+
+        ``-inf`` where the arm's speed drops at once.
+        """
+        return self.least_margins.min(-1)
+
+    @cached_property
+    def least_margins(self) -> np.ndarray:
+        """``q`` of rise and fall as `seen`, each valley lowered; ``-inf`` at a drop of the arm's speed."""
+        margins, drop = self.along("margin_between"), self.corner(-1)
+        away = abs(self.moving_angle - np.expand_dims(drop.cam_angle, -1))
+        nearest = away <= away.min(-1, keepdims=True)
+        return np.where((np.expand_dims(drop.value, -1) > 0) & nearest, -np.inf, margins)
 
     @property
     def is_undercut(self) -> Any:
@@ -476,8 +487,9 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     @property
     def loses_contact(self) -> Any:
-        """Whether the roller would lift off somewhere, ``N < 0``."""
-        return np.any([(s.normal_force < -s._nothing).any(-1) for s in self.seen], axis=0)
+        """Whether the roller would lift off somewhere: ``N < 0``, or the arm's speed drops at once."""
+        pulled = [(s.normal_force < -s._nothing).any(-1) for s in self.seen]
+        return reduce(np.logical_or, pulled, self.corner(-1).value > 0)
 
     @property
     def beyond(self) -> np.ndarray:

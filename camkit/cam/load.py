@@ -37,6 +37,11 @@ class ArmLoad(Design):
         refuse_table("torque table", "travel", "torque", self.torque_table)
         refuse_table("cam angle table", "cam angle", "torque", self.cam_angle_table)
 
+    @property
+    def travel_table(self) -> Table:
+        """The table over the travel, whatever it holds."""
+        return self.torque_table
+
     def inertia(self, arm_length: Any) -> Any:
         """Moment of inertia about the arm's pivot, kg m^2."""
         return self.mass * arm_length**2 / 3

@@ -27,7 +27,7 @@ from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .follower_measures import FLAT_CURVE
 from .load import ArmLoad, Friction
-from .sizing import refuse_radius
+from .sizing import if_possible, refuse_radius
 from .statics import Pivot
 
 
@@ -95,6 +95,7 @@ class OscillatingFlatCam(Design):
         """Least offset of the face with which no radius of curvature is below ``least_radius``, m.
 
         The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
+        ``ValueError`` (``nan`` in a population) where the arm's speed drops at once: no offset keeps it there.
 
         >>> cam = OscillatingFlatCam()
         >>> wide = cam.replace(face_offset=cam.face_offset_for(least_radius=18 * mm))
@@ -103,7 +104,8 @@ class OscillatingFlatCam(Design):
         """
         refuse_radius(least_radius)
         analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
-        return least_radius - lowest(analysis, lambda at: at.offset_free_radius).value
+        size = least_radius - lowest(analysis, lambda at: at.offset_free_radius).value
+        return if_possible(size, analysis.corner(-1))
 
     def conjugate(self, spread: Any, face_offset: Any = None) -> OscillatingFlatCam:
         """The second cam of a pair: it carries a second face on the same arm, ``spread`` (rad) from the first.

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..kinds import one_number
+from ..quantities import fails
 from ..study import Study
 from ..units import deg, mm
 
@@ -32,6 +33,21 @@ def refuse_radius(limit: Any) -> None:
         raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must {must}")
     if radius > LARGEST:
         raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must be at most {LARGEST / mm:.6g} mm")
+
+
+def if_possible(size: Any, drop: Any, excepted: Any = False) -> Any:
+    """``size`` that keeps a least radius of curvature; ``nan`` in a population where the speed drops at once.
+
+    ``drop`` is the largest such drop and where it is (see `CamAnalysis.corner`): the profile is cut away there,
+    however large it is.  ``ValueError`` for one design, if it is not ``excepted``.
+    """
+    possible = (drop.value == 0) | excepted
+    if fails(possible):
+        raise ValueError(
+            f"the follower's speed drops at once at a cam angle of {drop.cam_angle / deg:.4g} deg; no size keeps a "
+            "least radius of curvature there: choose a motion whose speed does not jump"
+        )
+    return np.where(possible, size, np.nan)[()]
 
 
 def least_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:

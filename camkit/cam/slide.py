@@ -40,6 +40,11 @@ class SlideLoad(Design):
         refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
 
     @property
+    def travel_table(self) -> Table:
+        """The table over the travel, whatever it holds."""
+        return self.force_table
+
+    @property
     def side_force(self) -> Any:
         """The weight's part across the travel, to the right of the rise, N: it presses the follower into its guide."""
         return self.mass * self.gravity * np.sin(self.up_angle)

@@ -22,7 +22,7 @@ from ..units import mm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .follower_measures import FLAT_CURVE
-from .sizing import refuse_radius
+from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
 from .translating_roller import rise_and_return, top_level
@@ -70,13 +70,16 @@ class TranslatingFlatCam(Design):
     def base_radius_for(self, *, least_radius: Any, n: int = 721) -> Any:
         """Least base radius with which no radius of curvature is below ``least_radius``: ``rho - s - w``, m.
 
+        ``ValueError`` (``nan`` in a population) where the follower's speed drops at once: none keeps it there.
+
         >>> cam = TranslatingFlatCam()
         >>> cam.replace(base_radius=cam.base_radius_for(least_radius=4 * mm)).analyse().profile_margin.value.round(9)
         np.float64(0.004)
         """
         refuse_radius(least_radius)
         analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
-        return least_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
+        size = least_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
+        return if_possible(size, analysis.corner(-1))
 
     def conjugate(self, distance: Any) -> TranslatingFlatCam:
         """The second cam of a pair: it carries a second face below the cam axis, ``distance`` from the first.

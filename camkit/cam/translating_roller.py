@@ -23,7 +23,7 @@ from ..units import deg, mm
 from .analysis import RollerAnalysis, highest
 from .conjugate import opposite
 from .follower_measures import ROLLER_CURVE
-from .sizing import least_from_which_on, refuse_pressure_angle, refuse_radius
+from .sizing import if_possible, least_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
 
@@ -104,6 +104,8 @@ class TranslatingRollerCam(Design):
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
         ``least_radius``: of curvature of the profile where it is convex, m.  Everything else stays as it is.  Where
         the limits leave that open, the least is where the roller just touches the cam axis; a cam must be larger.
+        Where the follower's speed drops at once the profile has a corner, which only a knife edge can follow: there no
+        base radius keeps a ``least_radius``, which is a ``ValueError``, or ``nan`` in a population.
 
         >>> cam = TranslatingRollerCam()
         >>> wide = cam.replace(base_radius=cam.base_radius_for(pressure_angle=20 * deg))
@@ -124,7 +126,10 @@ class TranslatingRollerCam(Design):
         analysis = TranslatingRollerAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
         height = highest(analysis, start_height).value
         e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
-        return np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
+        size = np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
+        if least_radius is None:
+            return size
+        return if_possible(size, analysis.corner(-1), (r == 0) & (np.asarray(least_radius) == 0))
 
     def conjugate(self, distance: Any, roller_radius: Any = None) -> TranslatingRollerCam:
         """The second cam of a pair: it carries a roller below the cam axis, ``distance`` from the first one's centre.

@@ -118,6 +118,10 @@ class _Move(Segment):
         refuse_lengths(self)
 
     @property
+    def still(self) -> bool:
+        return bool(np.all(np.asarray(self.lift) == 0))
+
+    @property
     def kinks(self) -> tuple[Any, ...]:
         return getattr(self.law, "kinks", ())
 

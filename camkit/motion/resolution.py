@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,11 +12,13 @@ if TYPE_CHECKING:
     from .program import MotionProgram, Segment
 
 STEPS, LEAST, REST = 128, 16, 2
-"""Even steps in a segment that moves, in the least of its smooth pieces, and in a dwell."""
+"""Even steps in a segment that moves, in the least of its smooth pieces, and in a dwell in which nothing happens."""
 ROUGH = 48
 """Even steps in a segment that moves where a search looks roughly."""
 HAIR, ROUNDING = 1e-9, 4e-12
 """How far inside the ends of a piece its first and last angles lie: a share of it, and at least so many rad."""
+HALVINGS = 44
+"""Of a step, in which the level goes through a given one."""
 
 
 class Resolution(NamedTuple):
@@ -40,38 +43,81 @@ class Resolution(NamedTuple):
         return inside
 
 
-def resolve(program: MotionProgram, steps: int = STEPS) -> Resolution:
+def resolve(
+    program: MotionProgram, steps: int = STEPS, at_angles: Sequence[float] = (), at_levels: Sequence[float] = ()
+) -> Resolution:
     """The same number of ``steps`` for every segment that moves, whatever its angle.
+
+    What else depends on the cam angle or on the level may have corners: at the cam angles ``at_angles`` (rad), and
+    wherever the level goes through one of ``at_levels`` (m or rad).  Pieces end there, too.
 
     >>> from camkit.motion import Cycloidal, Dwell, MotionProgram, Rise
     >>> narrow = resolve(MotionProgram((Dwell(3.0), Rise(0.01, 1.0, Cycloidal()))))
     >>> narrow.angle.size, int((narrow.angle > 3).sum())
     (132, 129)
+    >>> resolve(MotionProgram((Dwell(3.0),)), at_angles=[1.0]).angle[[0, 16, 17, 33]].round(6)
+    array([0., 1., 1., 3.])
     """
-    shares = [(i, *piece) for i, segment in enumerate(program.segments) for piece in _pieces(segment, steps)]
-    spans = list(pairwise(program.starts))
-    pieces = [
-        (start + low * (end - start), start + high * (end - start), even)
-        for i, low, high, even in shares
-        for start, end in (spans[i],)
-    ]
+    shares, pieces, moves = [], [], []
+    for i, segment in enumerate(program.segments):
+        start, end = program.starts[i], program.starts[i + 1]
+        more = [(angle - start) / (end - start) for angle in at_angles]
+        if not segment.still and len(at_levels):
+            more += _passed(segment, np.asarray(at_levels) - program.levels[i])
+        for low, high, even in _pieces(segment, steps, [x for x in more if np.any((x > 0) & (x < 1))]):
+            shares.append((i, low, high, even))
+            pieces.append((start + low * (end - start), start + high * (end - start), even))
+            moves.append(not segment.still)
     sizes = np.array([even + 1 for *_, even in pieces])
     angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
     lead = np.broadcast_shapes(*(angle.shape[:-1] for angle in angles))
     joined = np.concatenate([np.broadcast_to(angle, (*lead, angle.shape[-1])) for angle in angles], axis=-1)
     ends = np.cumsum(sizes)
-    moves = np.repeat([even > REST for *_, even in pieces], sizes)
-    return Resolution(joined, ends - sizes, ends - 1, moves, tuple((i, _inside(*piece)) for i, *piece in shares))
+    inside = tuple((i, _inside(*piece)) for i, *piece in shares)
+    return Resolution(joined, ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
 
 
-def _pieces(segment: Segment, steps: int) -> list[tuple[Any, Any, int]]:
-    """The smooth pieces of a segment: from and to, as shares of it, and their steps."""
-    if segment.still:
+def _pieces(segment: Segment, steps: int, more: list[Any]) -> list[tuple[Any, Any, int]]:
+    """The smooth pieces of a segment, which end at ``more`` shares of it, too: from and to, as shares, their steps."""
+    if segment.still and not more:
         return [(0.0, 1.0, REST)]
-    ends = list(pairwise((0.0, *segment.kinks, 1.0)))
-    alike = any(np.ndim(kink) for kink in segment.kinks)  # a population's: as many steps for each of its members
+    kinks = () if segment.still else segment.kinks
+    ends = list(pairwise((0.0, *(_in_order([*kinks, *more]) if more else kinks), 1.0)))
+    if segment.still:
+        return [(low, high, LEAST) for low, high in ends]
+    alike = any(np.ndim(end) for _, end in ends)  # a population's: as many steps for each of its members
     shares = [1 / len(ends) if alike else high - low for low, high in ends]
     return [(low, high, max(LEAST, int(np.ceil(steps * x)))) for (low, high), x in zip(ends, shares, strict=True)]
+
+
+def _in_order(shares: list[Any]) -> list[Any]:
+    """Ends of pieces in order; a population's ``(p, 1)`` that lie outside a member's segment stand at its end."""
+    if not any(np.ndim(x) for x in shares):
+        return sorted({float(x) for x in shares})
+    columns = np.concatenate([np.atleast_1d(x) for x in np.broadcast_arrays(*shares)], axis=-1)
+    columns = np.sort(np.clip(columns, 0.0, 1.0), axis=-1)
+    return [columns[..., k : k + 1] for k in range(columns.shape[-1])]
+
+
+def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
+    """The shares of a segment at which it has changed the level by one of ``changes``: the first time and the last.
+
+    1 where it never has.  A list of numbers, or of ``(p, 1)`` for a population.
+    """
+    u = np.linspace(0.0, 1.0, STEPS + 1)
+    beyond = np.expand_dims(segment.motion(u).s, -2) > changes[..., None]
+    crosses = beyond[..., 1:] != beyond[..., :-1]
+    found = []
+    for first in (np.argmax(crosses, -1), STEPS - 1 - np.argmax(crosses[..., ::-1], -1)):
+        low, high = u[first], u[first + 1]
+        side = np.take_along_axis(beyond, first[..., None], -1)[..., 0]
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            same = (segment.motion(middle).s > changes) == side
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found.append(np.where(crosses.any(-1), high, 1.0))
+    both = np.concatenate(found, axis=-1)
+    return [both[..., k] if both.ndim == 1 else both[..., k : k + 1] for k in range(both.shape[-1])]
 
 
 def _inside(low: Any, high: Any, steps: int) -> Any:

@@ -37,7 +37,7 @@ from camkit.cam.high_speed_study import (
 from camkit.contact import contact_modulus
 from camkit.export import from_json, to_json
 from camkit.minimum import minimise
-from camkit.motion import LAWS, Degree9, ModifiedSine, Poly345, SplineLaw
+from camkit.motion import LAWS, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.shaped import KNOTS, SPLINE, ShapedLaw
 from camkit.profile_files import profile_csv
 from camkit.units import GPa, cm, deg, mm, rpm
@@ -718,3 +718,19 @@ def test_more_limits_can_be_set():
     study = high_speed_study(at_least={gap: 60 * mm}, space={"roller_radius": (20 * mm, 60 * mm)})
     assert list(study.free) == ["roller_radius"]
     assert study.evaluate([[50 * mm]]).feasible.tolist() == [True]
+
+
+def test_a_cam_whose_arm_stops_at_once_is_undercut_and_left():
+    """A corner of the pitch curve has the radius 0, less than any roller's; the margin of the profile knows it too."""
+    stops = HighSpeedCam(rise_law=FreePolynomial(end=(1, 0.5, 0)))
+    a = stops.analyse()
+    assert a.profile_margin.value < 0
+    assert a.undercut_margin == undercut_margin(a) == -np.inf
+    assert a.is_undercut
+    assert a.loses_contact
+    assert jump_speed(a) == 0
+    study = high_speed_study(stops)
+    assert not study.evaluate(study.x0).feasible[0]
+    smooth = HighSpeedCam(rise_law=FreePolynomial(end=(1, 0, 0))).analyse()
+    assert smooth.undercut_margin > 0
+    assert not smooth.loses_contact
