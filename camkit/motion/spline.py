@@ -79,7 +79,16 @@ class SplineLaw(Law):
         rest = [np.all(np.equal(v, 0)) and np.all(np.equal(w, 0)) for v, w in zip(self.start, self.end, strict=True)]
         return [*rest, False].index(False)
 
+    @cached_property
+    def _single(self) -> BSpline | None:
+        """The law as one curve; ``None`` for a population."""
+        basis = _basis(self.u, len(self.start))
+        values = (0.0, *self.s, 1.0, *self.start, *self.end)
+        return None if any(map(np.ndim, values)) else BSpline(basis.t, basis.c @ np.array(values), basis.k)
+
     def at(self, u: Any) -> Kinematics:
+        if self._single is not None:
+            return Kinematics(*(self._single(u, k) for k in range(4)))
         basis = _basis(self.u, len(self.start))
         values = (0.0, *self.s, 1.0, *self.start, *self.end)
         curves = [basis(u, k) for k in range(4)]
