@@ -16,6 +16,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
 from camkit.cam.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
+from camkit.cam.measures import groove_gap
 from camkit.decision import CHOOSERS
 from camkit.export import from_json
 from camkit.geometry import rotated
@@ -27,7 +28,7 @@ from camkit.units import in_unit
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 
 START = DoorHandleCam(door_torque=10)
-MEASURES = (*WORSE_CURVE.values(), *CURVE_TABLE)
+MEASURES = (*WORSE_CURVE.values(), groove_gap, *CURVE_TABLE)
 TURN = 75 * deg
 
 
