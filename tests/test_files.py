@@ -808,6 +808,73 @@ def test_a_bad_file_leaves_the_last_good_picture_and_one_sentence(page, name, mo
     assert all(a is b or a == b for a, b in zip(state(), before, strict=True))
 
 
+EFFORT = lift_curve_study(DoorHandleCam()).minimise[0]
+SIZES = DoorHandleCam.measures[:10]
+GRID = np.stack(np.meshgrid(*(np.linspace(*ends, 7) for ends in plain.free.values()), indexing="ij"), -1).reshape(-1, 3)
+FOREIGN = {
+    "one objective": (SIZES[:1], "the study has 1 objective; the judgements here weigh 2: effort, least radius"),
+    "three objectives": (SIZES[:3], "the study has 3 objectives; the judgements here weigh 2"),
+    "ten objectives": (SIZES, "the study has 10 objectives; the judgements here weigh 2"),
+    "one part": (
+        (weighted("effort", {SIZES[0]: 1.0}, [1.0]), SIZES[1]),
+        "its effort has 1 part; the judgements here weigh 3: pressure angle, contact force, cam torque",
+    ),
+    "beyond what can be drawn": (
+        (weighted("effort", dict(zip(EFFORT.parts, (0.5, 0.3, 0.2), strict=True)), [1e-300] * 3), plain.minimise[1]),
+        "a curve reaches",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FOREIGN)
+def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, monkeypatch, tmp_path):
+    """Sound files of another page: the front, its picture and all that follows it stay together."""
+    monkeypatch.chdir(tmp_path)
+    minimise, sentence = FOREIGN[name]
+    own = page.study
+    good = front_of(own.evaluate(GRID), own)
+    page.load(Work(own, page.explorer.design, x=good.x))
+    assert len(page.front) > 3
+    page.select(len(page.front) - 1)
+    page.picture.settle()
+    study = plain.replace(minimise=minimise)
+    x = front_of(study.evaluate(GRID), study).x
+    other = {"judgements": {"criteria": [9, 5, 1]}, "search": {"population": 44, "rule": "knee"}}
+    text = to_json(Work(study, DoorHandleCam(lift_arm=45 * mm), x=x, **other))
+
+    def state():
+        shown = page.study, page._x, page.front, page.explorer.design, page.picture._last[0].front
+        boxes = page.rule.value, page.pick.value, page.pick.max, page.population.value, page.criteria.upper
+        told = page.winner, page.status.value, page.verdict.value, page.found.value, page.picture.widget.data
+        return shown, boxes, told, {name: bounds.value for name, bounds in page.bounds.items()}
+
+    before = state()
+    page.load_json(text)
+    assert said(page).startswith(f"This file cannot be used: {sentence}")
+    page.picture.settle()
+    after = state()
+    assert all(a is b for a, b in zip(after[0], before[0], strict=True))
+    assert after[1:] == before[1:]
+    page.importance.sliders[0, 1].value = 3.0
+    page.criteria.load(PAPER_JUDGEMENTS)
+    page._clicked(0.5, 0.5)
+    page.select(page.winner)
+    assert page.explorer.design == page.front[page.winner]
+    page.importance.load([1])
+    page.explorer.load(DoorHandleCam())
+
+
+def test_a_study_of_three_objectives_is_shown_where_nothing_weighs_them(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    app = explore(DoorHandleCam(), pressure_angle, width=4, height=3)
+    finder = search(app, {"lift": lift_curve_study}, space=plain.free, free=list(plain.free))
+    study = plain.replace(minimise=SIZES[:3])
+    finder.load_json(to_json(Work(study, app.design, x=front_of(study.evaluate(GRID), study).x)))
+    assert said(finder) == ""
+    assert finder.front.f.shape == (len(finder.front), 3)
+    assert finder.winner is not None
+
+
 def test_a_remark_shows_in_the_panel(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     app = page.explorer

@@ -152,8 +152,8 @@ class Explorer(Panel):
         try:
             found = export.read(file, type(self.design))
             found.thing.analyse()
-        except ValueError as refusal:
-            tell(self._banner, f"This file cannot be used: {refusal}.")
+        except IMPOSSIBLE as refusal:
+            tell(self._banner, f"This file cannot be used: {reason(refusal)}.")
         else:
             self.load(found.thing)
             if self.design is found.thing:  # else it cannot be built, which the banner says

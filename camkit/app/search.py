@@ -22,14 +22,14 @@ from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
 from ..quantities import Measure, Quantity, declarations, words
-from ..study import Study
+from ..study import Study, WeightedSum
 from ..units import in_unit
 from .controls import Download, Upload, banner, label_html, small_html, tell
 from .explore import Explorer, changed, declared_in, remarked
 from .judge import Judgements
 from .kept import Kept, keep, unfinished
 from .number import NumberBox, WholeBox, staying
-from .panel import IMPOSSIBLE, Panel
+from .panel import IMPOSSIBLE, Panel, reason
 from .picture import LivePicture
 from .running import Job, here, left_behind
 
@@ -123,7 +123,7 @@ class Search(Panel):
         self.picture.widget.on_click(self._clicked)
         super().__init__([self._body()])
         for panel in self._judges().values():
-            panel.on_change(self._judged)
+            panel.on_change(lambda: None if self._silent else self._judged())
         self._show_front()
         self._offer_resume()
         for job in left_behind(self._kind(), self._place):
@@ -162,7 +162,7 @@ class Search(Panel):
         self.stop_button.on_click(lambda _: self.stop())
         self.resume_button.on_click(lambda _: self.resume())
         self.take.on_click(lambda _: self.select(self.winner))
-        self.rule.observe(lambda _: self._show_front(), "value")
+        self.rule.observe(lambda _: None if self._silent else self._show_front(), "value")
         self._silent = False
         self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
 
@@ -320,7 +320,7 @@ class Search(Panel):
         return {
             "numbers": numbers,
             "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
-            "judgements": {name: [panel.upper, panel.method.value] for name, panel in self._judges().items()},
+            "judgements": {name: [*told] for name, told in self._judged_now().items()},
             "search": self._settings(),
         }
 
@@ -334,6 +334,14 @@ class Search(Panel):
         for name, panel in self._judges().items():
             if name in judgements and len(judgement_matrix(judgements[name])) != len(panel.names):
                 raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
+
+    def _check_objectives(self, study: Study) -> None:
+        """The page's judgements weigh the objectives, and the parts of those that are weighted sums."""
+        if self.importance and len(study.minimise) != len(self.importance.names):
+            raise ValueError(_other_count("the study", len(study.minimise), "objective", self.importance))
+        for measure in study.minimise:
+            if self.criteria and isinstance(measure, WeightedSum) and len(measure.parts) != len(self.criteria.names):
+                raise ValueError(_other_count(f"its {measure.name}", len(measure.parts), "part", self.criteria))
 
     def _read(self, kept: Kept) -> tuple[Any, Any, Study]:
         """The page of a search that did not end, its design and study, all checked; ``ValueError`` in a sentence."""
@@ -414,17 +422,19 @@ class Search(Panel):
         self._show_front()
 
     def _show_front(self) -> None:
+        """Nothing is told of a front that cannot be drawn."""
         weights = self.importance.weights if self.importance else None
-        self.winner = CHOOSERS[self.rule.value](self.front, weights) if len(self.front) else None
+        winner = CHOOSERS[self.rule.value](self.front, weights) if len(self.front) else None
+        selected = self._selected()
+        analysis = self.explorer.start.analyse(self.study.angles)
+        start = np.array([measure(analysis) for measure in self.study.minimise])
+        self.picture.show(ShownFront(self.front, selected, winner, start))
+        self.winner, self._marked = winner, selected
         self._silent = True
         self.pick.max, self.pick.disabled = max(len(self.front) - 1, 0), not len(self.front)
         self._silent = False
-        self._marked = self._selected()
         self.take.disabled = self.winner is None
         self.verdict.value, self.found.value = self._verdict(), escaped(_told(self.front.record))
-        analysis = self.explorer.start.analyse(self.study.angles)
-        start = np.array([measure(analysis) for measure in self.study.minimise])
-        self.picture.show(ShownFront(self.front, self._selected(), self.winner, start))
         for act in self._followers:
             act()
 
@@ -483,7 +493,11 @@ class Search(Panel):
         }
 
     def load(self, work: export.Work) -> None:
-        """Show a saved study: judgements, bounds, front, and the design in the sliders."""
+        """Show a saved study: judgements, bounds, front, and the design in the sliders.
+
+        What cannot be judged, computed or drawn here raises ``ValueError`` or ``ArithmeticError``, and all stays as it
+        was.
+        """
         if type(work.study.start) is not type(self.explorer.start) or type(work.design) is not type(
             self.explorer.start
         ):
@@ -493,22 +507,52 @@ class Search(Panel):
             )
         self._check_settings(work.search)
         self._check_judgements(work.judgements)
+        self._check_objectives(work.study)
         work.design.analyse()
-        x = np.asarray(work.x)
-        empty = Front(work.study, x, np.zeros((0, len(work.study.minimise))))
-        front = front_of(work.study.evaluate(x), work.study) if len(x) else empty
-        self.study, self._x, self.front = work.study, x, replace(front, record=work.record)
+        self._show_loaded(work)
         for name, bounds in self.bounds.items():
             bounds.set(work.study.free.get(name))
         for name, value in work.search.items():
             getattr(self, name).value = value
-        for name, panel in self._judges().items():
-            if name in work.judgements:
-                panel.method.value = work.methods.get(name, "eigenvector")
-                panel.load(work.judgements[name])
-        self.explorer.load(work.design)
         self.status.value = f"loaded: {len(self.front)} designs on the front"
-        self._show_front()
+
+    def _show_loaded(self, work: export.Work) -> None:
+        """Front, judgements and design of a file: all of them or none."""
+        x = np.asarray(work.x)
+        empty = Front(work.study, x, np.zeros((0, len(work.study.minimise))))
+        front = front_of(work.study.evaluate(x), work.study) if len(x) else empty
+        before, pick = (self.study, self._x, self.front, self.rule.value, self._judged_now()), self.pick.value
+        told = {name: (upper, work.methods.get(name, "eigenvector")) for name, upper in work.judgements.items()}
+        rule = work.search.get("rule", self.rule.value)
+        try:
+            self._swap(work.study, x, replace(front, record=work.record), rule, told)
+            (self._judged if told.keys() & self._judges().keys() else self._show_front)()
+            self.explorer.load(work.design)
+            if self.explorer.design is not work.design:
+                raise ValueError("its design cannot be computed and drawn")
+        except Exception:
+            self._swap(*before)
+            self._show_front()
+            self._silent = True
+            self.pick.value = pick
+            self._silent = False
+            raise
+
+    def _judged_now(self) -> dict[str, tuple[Any, str]]:
+        """The judgements on the page, each with the way from them to weights."""
+        return {name: (panel.upper, panel.method.value) for name, panel in self._judges().items()}
+
+    def _swap(self, study: Study, x: np.ndarray, front: Front, rule: str, told: Mapping[str, tuple[Any, str]]) -> None:
+        """Another study, front and judgements, not shown yet."""
+        self._silent = True
+        try:
+            self.study, self._x, self.front, self.rule.value = study, x, front, rule
+            for name, panel in self._judges().items():
+                if name in told:
+                    upper, panel.method.value = told[name]
+                    panel.load(upper)
+        finally:
+            self._silent = False
 
     def _say(self, sentence: str) -> None:
         tell(self._banner, sentence)
@@ -519,8 +563,8 @@ class Search(Panel):
             found = export.read(file, export.Work, self._measures())
             self.load(found.thing)
             found = replace(found, remarks=(*found.remarks, *export.left_out(len(found.thing.x), len(self.front))))
-        except ValueError as refusal:
-            tell(self._banner, f"This file cannot be used: {refusal}.")
+        except IMPOSSIBLE as refusal:
+            tell(self._banner, f"This file cannot be used: {reason(refusal)}.")
         else:
             tell(self._banner, remarked(found))
 
@@ -529,7 +573,7 @@ class Search(Panel):
         weights = {"weights": self.criteria.weights} if self.criteria else {}
         start, measures = self.explorer.start, [*self.explorer.measures, *self.study.measures]
         for make in self.studies.values():
-            with suppress(ValueError):  # of free quantities that this problem does not have
+            with suppress(*IMPOSSIBLE):  # of free quantities that this problem does not have
                 measures += make(start, reference=start, space=dict(self.study.free), **weights).measures
         return tuple(measures)
 
@@ -541,6 +585,12 @@ class Search(Panel):
         f = front.f[winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def _other_count(whose: str, count: int, what: str, panel: Judgements) -> str:
+    """Why judgements do not weigh what a file holds."""
+    plural = "" if count == 1 else "s"
+    return f"{whose} has {count} {what}{plural}; the judgements here weigh {len(panel.names)}: {', '.join(panel.names)}"
 
 
 def _offered(value: Any, control: Any) -> bool:
