@@ -110,6 +110,7 @@ class Search(Panel):
     ) -> None:
         self.explorer, self.studies, self.criteria, self.importance = explorer, studies, criteria, importance
         declared: Any = declarations(explorer.design)
+        self._silent = False
         self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
         self._make_widgets(population, generations)
         self.study = self._study()
@@ -163,7 +164,6 @@ class Search(Panel):
         self.resume_button.on_click(lambda _: self.resume())
         self.take.on_click(lambda _: self.select(self.winner))
         self.rule.observe(lambda _: None if self._silent else self._show_front(), "value")
-        self._silent = False
         self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
 
     def _count(self, name: str, value: int, low: int, high: int) -> WholeBox:
