@@ -24,6 +24,10 @@ def _refuse_square(name: str, angle: Any) -> None:
         raise ValueError(f"the {name} is {angle / deg:.6g} deg; a universal joint turns below 90 deg only")
 
 
+FEWEST = 61
+"""Input angles of a turn: with fewer, peaks between them would be missed."""
+
+
 @dataclass(frozen=True)
 class Cross:
     """Where the cross of one joint takes its output: geometry alone.
@@ -115,8 +119,8 @@ class UniversalJoint(Design):
         _refuse_square("angle beta", self.angle)
 
     def analyse(self, n: int = 361) -> UniversalJointAnalysis:
-        """Angles, speeds and couples at ``n`` input angles of one turn."""
-        return UniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles")))
+        """Angles, speeds and couples at ``n`` input angles of one turn, 61 or more: peaks are looked for at these."""
+        return UniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles", FEWEST)))
 
 
 @dataclass(frozen=True)
@@ -201,8 +205,8 @@ class DoubleUniversalJoint(Design):
         _refuse_square("second angle beta_2", self.second_angle)
 
     def analyse(self, n: int = 361) -> DoubleUniversalJointAnalysis:
-        """Angles, speeds, torques and couples at ``n`` input angles of one turn."""
-        return DoubleUniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles")))
+        """Angles, speeds, torques and couples at ``n`` input angles of a turn, 61 or more: peaks are those at them."""
+        return DoubleUniversalJointAnalysis(self, np.linspace(0, 2 * np.pi, counted(n, "input angles", FEWEST)))
 
 
 @dataclass(frozen=True)

@@ -322,3 +322,11 @@ def test_refusals(make, said) -> None:
     with pytest.raises(ValueError, match=r".") as refused:
         make()
     assert str(refused.value) == said
+
+
+def test_joints_are_measured_at_angles_enough():
+    joint = DoubleUniversalJoint()
+    fine = abs(joint.analyse(100_001).intermediate_torque).max()
+    assert abs(joint.analyse(61).intermediate_torque).max() == pytest.approx(fine, rel=2e-3)
+    with pytest.raises(ValueError, match=r"^the number of input angles is 3; it must be a whole number of at least 61"):
+        joint.analyse(3)

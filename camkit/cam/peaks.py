@@ -1,8 +1,11 @@
-"""The largest value of a curve over a cam, wherever it stands: the one way in which all measures find their peaks.
+"""The largest value of a curve over a cam, wherever it stands: how the measures of cams find their peaks.
 
 A program is looked at where its motion has something to say (see `camkit.motion.resolution`), whatever cam angles an
 analysis was asked for.  Every local maximum between those angles is raised to the top of the parabola through its
 neighbours; around the highest the curve is looked at once more, and if its top is not found there, by zooming in.
+
+The peaks of a high-speed cam's rise and fall, which its study sees as curves, are `raised` alone: within some 0.4 % of
+their size.  Linkages and joints are measured at the positions that an analysis was asked for.
 """
 
 from __future__ import annotations

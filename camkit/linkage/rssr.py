@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..kinds import number, numbers, shown
-from ..quantities import Design, Quantity, declarations, fails, quantity
+from ..quantities import Design, Quantity, counted, declarations, fails, quantity
 from ..units import deg, mm
 from . import limits
 from .load import RockerLoad
@@ -42,6 +42,10 @@ def inclination(a: np.ndarray, b: np.ndarray) -> Any:
 def reaches(a: Any, b: Any, k: Any) -> Any:
     """Whether ``a sin(x) + b cos(x) + k = 0`` has a solution, rounding forgiven."""
     return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
+
+
+FEWEST = 61
+"""Positions of a whole turn: with fewer, what is worst between them would be missed."""
 
 
 def _angles(crank_angle: Any) -> np.ndarray:
@@ -197,7 +201,8 @@ class RSSR(Links):
         """Positions, motion and static forces at the given crank angles (rad).
 
         A whole number of 2 or more in place of angles is how many there are over one turn, both ends included, as
-        every other design is analysed; an angle in rad is a ``float``.
+        every other design is analysed; it must be 61 or more, as measures are found at these positions alone.  An
+        angle in rad is a ``float``.
 
         There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
         crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
@@ -209,7 +214,7 @@ class RSSR(Links):
         if not isinstance(through, (bool, np.bool_)):
             raise ValueError(f"through is {shown(through)}; it must be True or False")
         if isinstance(crank_angle, (int, np.integer)) and crank_angle >= 2:
-            crank_angle, through = np.linspace(0, 2 * np.pi, crank_angle), True
+            crank_angle, through = np.linspace(0, 2 * np.pi, counted(crank_angle, "crank angles", FEWEST)), True
         try:
             angles = np.atleast_1d(_angles(crank_angle))
         except ValueError:

@@ -241,8 +241,12 @@ def test_a_whole_turn_more_changes_no_sweep():
         assert fine < a.discriminant.min() - 0.01
 
 
-def test_two_positions_of_a_turn_are_its_ends():
-    np.testing.assert_array_equal(EXAMPLE.replace(crank=20 * mm).analyse(2).crank_angle, [0, 2 * np.pi])
+def test_positions_too_few_to_measure_a_turn_are_refused():
+    """At its ends alone the rocker stands still, and a study would find a swing of 0."""
+    turning = EXAMPLE.replace(crank=20 * mm)
+    np.testing.assert_array_equal(turning.analyse(61).crank_angle[[0, -1]], [0, 2 * np.pi])
+    with pytest.raises(ValueError, match=r"^the number of crank angles is 2; it must be a whole number of at least 61"):
+        turning.analyse(2)
 
 
 # Special cases that have formulas of their own.
@@ -509,9 +513,9 @@ def test_a_bare_linkage_in_a_study_turns_all_the_way_round():
     assert evaluation.feasible.tolist() == [True, True, False]
     best = minimise(study)
     assert (best.x[0] / mm, best.f / deg) == pytest.approx((20, 23.462), abs=1e-3)
-    a = RSSR(crank=20 * mm).analyse(7)
-    assert a.crank_angle == pytest.approx(np.arange(7) * 60 * deg)
-    assert a.rocker_angle == pytest.approx(RSSR(crank=20 * mm).analyse(np.arange(7) * 60 * deg).rocker_angle)
+    a = RSSR(crank=20 * mm).analyse(73)
+    assert a.crank_angle == pytest.approx(np.arange(73) * 5 * deg)
+    assert a.rocker_angle == pytest.approx(RSSR(crank=20 * mm).analyse(np.arange(73) * 5 * deg).rocker_angle)
     with pytest.raises(ValueError, match=r"^the crank cannot sweep from 0 to 360 deg: the linkage can be assembled"):
         RSSR().analyse()
 
