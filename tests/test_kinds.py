@@ -168,7 +168,7 @@ def used(kind, name, value):
     elif isinstance(made, RSSR):
         made.analyse([0.1, 0.2])
     elif hasattr(made, "analyse"):
-        made.analyse(31)
+        made.analyse(61)
     elif isinstance(made, camkit.Law):
         made(0.3)
         made.peaks()
@@ -235,7 +235,7 @@ FUNCTIONS = {
     STUDY.evaluate: {"x": [[0.03]]},
     STUDY.weighing: {"weights": (1.0,)},}  # fmt: skip
 FUNCTIONS |= {
-    kind().analyse: {"n": 31}
+    kind().analyse: {"n": 61}
     for kind in CLASSES
     if hasattr(kind, "analyse") and hasattr(kind, "measures") and kind not in (RSSR, Study)
 }
