@@ -24,7 +24,7 @@ from .units import factor, in_unit
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
 
-Metadata ``in_all=(what, most)`` says how many the lists of such fields may have together, over the whole file."""
+Metadata ``in_all=(what, most)`` says how many the lists of such fields may have together in a design."""
 MOST_THINGS = 500
 """Entries that are objects themselves, such as the segments of a program."""
 
@@ -112,7 +112,7 @@ class Reading:
     missing: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
     held: Counter[str] = field(default_factory=Counter)
-    """How many entries there are so far in lists that take long to work out."""
+    """How many entries one design has so far in lists that take long to work out."""
 
     def thing(self, entry: Any, hint: Any = object, most: int = MOST_ROWS) -> Any:
         """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
@@ -170,7 +170,7 @@ class Reading:
         return value
 
     def _count(self, entries: int, what: str, most: int) -> None:
-        """``entries`` more in lists of which a file can have ``most`` together, however many lists there are."""
+        """``entries`` more in lists of which a design can have ``most`` together, however many lists there are."""
         self.held[what] += entries
         if self.held[what] > most:
             raise ValueError(f"the file has more than {most} {what} in all; they would take too long to work out")

@@ -301,6 +301,7 @@ def _entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
 
 def _work(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure]) -> Work:
     study = _study(entry, reading, measures)
+    reading.held.clear()  # another design
     design = reading.thing(entry["design"], type(study.start)) if "design" in entry else study.start
     if not isinstance(design, type(study.start)):
         raise ValueError("the file is damaged: its design is of another kind than its start")

@@ -217,7 +217,10 @@ class MotionProgram:
         """``s, v, a, j`` at the cam angles of a resolution: a law is asked once for all of a population."""
         with np.errstate(all="ignore"):
             motions = [self.segments[i].motion(u) for i, u in shown.shares]
-            shapes = [np.shape(x)[:-1] for x in (self.possible, shown.angle, *self.levels, *sum(motions, ()))]
+            shapes = [
+                np.shape(x)[:-1]
+                for x in (self.possible, shown.angle, *self.levels, *(x for motion in motions for x in motion))
+            ]
             out = np.empty((4, *np.broadcast_shapes(*shapes), shown.angle.shape[-1]))
             for (i, _), motion, first, last in zip(shown.shares, motions, shown.first, shown.last, strict=True):
                 for k, values in enumerate(motion):

@@ -22,9 +22,9 @@ from .law import Kinematics, Law, Peaks
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
 KNOTS_IN_ALL = 1200
-"""Of all splines in a file."""
-ROWS_IN_ALL = 10_000
-"""Of all tables of motion in a file, each of which is smoothed: one of every 0.1 deg of a turn twice and more."""
+"""Of all splines of a design in a file."""
+ROWS_IN_ALL = 4000
+"""Of all tables of motion of a design in a file: a row for every 0.1 deg of a turn; analysis looks between any two."""
 
 
 @dataclass(frozen=True)
