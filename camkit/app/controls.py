@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import anywidget
 import ipywidgets as w
-import numpy as np
 import traitlets
 
 from ..json_file import MOST_BYTES
@@ -149,7 +149,9 @@ class Knob:
     def _typed(self, shown: float) -> None:
         if self._silent:
             return
-        value = float(np.nan_to_num(shown * self.declared.factor))  # beyond all numbers: the largest there is
+        value = float(shown * self.declared.factor)
+        if math.isfinite(shown) and math.isinf(value):  # beyond all numbers in SI: the largest there is
+            value = math.copysign(sys.float_info.max, shown)
         if far_too_large(self.declared, value):
             self.set(self.value)
             typed = f"{shown:.6g} {self.declared.unit}".rstrip()
