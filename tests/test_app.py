@@ -166,12 +166,12 @@ def press(panel, description):
 
 
 def downloaded(panel, description):
-    """What the button's message to the page holds."""
+    """What the button's message to the page holds; nothing if it sends none."""
     button = next(d for d in inside(panel, Download) if d.description == description)
     sent = []
     button.send = sent.append
     button._handle_custom_msg({"wanted": True}, [])
-    return sent[0]
+    return sent[0] if sent else {}
 
 
 def upload(panel, description, file):
@@ -238,6 +238,15 @@ def test_a_menu_changes_the_law(app):
     app.controls["motion_law"].menu.value = Poly345()
     assert app.design.motion_law == Poly345()
     assert app.design.replace(motion_law=Cycloidal()) == DoorHandleCam()
+
+
+@pytest.mark.parametrize("description", ["Save design", "Profile as CSV", "Profile as DXF"])
+def test_no_file_is_made_of_another_design_than_the_controls_show(app, description):
+    app.controls["relief_arm"].box.value = 20.0
+    assert downloaded(app, description) == {}
+    assert alert(app).startswith("Nothing is saved: this cannot be built: the relief roller has to rest")
+    app.controls["relief_arm"].box.value = 75.0
+    assert downloaded(app, description)["text"]
 
 
 @pytest.mark.parametrize(

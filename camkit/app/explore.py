@@ -133,16 +133,26 @@ class Explorer(Panel):
         reset.layout.width = "auto"
         reset.on_click(lambda _: self.load(self.start))
         name = type(self.design).__name__
-        save = Download(
-            "Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design), self._say
+        save = self._file("Save design", f"{name}.json", "application/json", lambda: export.to_json(self.design))
+        table = self._file(
+            "Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis)
         )
-        table = Download("Profile as CSV", f"{name}.csv", "text/csv", lambda: profile_files.profile_csv(self.analysis))
-        drawing = Download(
+        drawing = self._file(
             "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profile_files.profile_dxf(self.analysis)
         )
         load = Upload("Load design", self.load_json)
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
+
+    def _file(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> Download:
+        """A download of the design that the controls show; none where they show what cannot be built."""
+
+        def shown() -> str:
+            if self._impossible:
+                raise ValueError(self._impossible[0].lower() + self._impossible[1:-1])
+            return content()
+
+        return Download(description, filename, mime, shown, self._say)
 
     def _say(self, sentence: str) -> None:
         tell(self._banner, sentence)
