@@ -71,7 +71,7 @@ def status(address: str) -> tuple[int, str]:
 
 
 def test_visitors_neither_see_nor_wait_for_each_other(folder: Path, visitor: Callable[[str], Page]) -> None:
-    with voila_server(folder, REPOSITORY, "--PublishedKernels.most=2", "--PublishedKernels.closed_for=1") as address:
+    with voila_server(folder, REPOSITORY, "--PublishedKernels.most=2", "--PublishedKernels.closed_for=10") as address:
         ann = visitor(address)
         ann.get_by_role("button", name="Optimise").click()
         expect(ann.locator(".camkit-status")).to_contain_text("generation ")
@@ -94,7 +94,7 @@ def test_visitors_neither_see_nor_wait_for_each_other(folder: Path, visitor: Cal
         assert "all 2 places are taken, please come back in a few minutes" in page
         assert len(kernels(folder, address)) == 2
         bob.close()  # in the midst of a search, and without a word to the server
-        eventually(lambda: len(kernels(folder, address)) == 1, seconds=30)
+        eventually(lambda: len(kernels(folder, address)) == 1, seconds=60)
         expect(ann.locator(".camkit-status")).to_contain_text(" left")
         assert status(f"{address}/voila/render/sum.ipynb")[0] == 200
 
