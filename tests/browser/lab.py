@@ -263,10 +263,12 @@ def kernel_value(page: Page, expression: str, timeout: float = 30) -> Any:
 def table_of_measures(
     measures: Iterable[Any], now: Any, first: Any, at_most: Mapping[Any, float], at_least: Mapping[Any, float]
 ) -> list[str]:
-    """The rows that an explorer's table must show for the analyses ``now`` and ``first``, their cells run together."""
+    """Rows that an explorer's table must show for ``now`` and ``first``; none where a measure is twice infinite."""
     rows = []
     for measure in measures:
         value, start, verdict = float(measure(now)), float(measure(first)), ""
+        if math.isinf(value) and math.isinf(start):
+            continue
         for sign, sense, limits in (("≤", 1, at_most), ("≥", -1, at_least)):
             if measure in limits:
                 limit = limits[measure]
