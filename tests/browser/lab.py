@@ -28,6 +28,8 @@ from typing import Any
 from playwright.sync_api import Locator, Page
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
+from camkit.study import keeps
+
 CHROMIUM_FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
@@ -272,7 +274,7 @@ def table_of_measures(
         for sign, sense, limits in (("≤", 1, at_most), ("≥", -1, at_least)):
             if measure in limits:
                 limit = limits[measure]
-                verdict = f"{sign} {measure.text(limit)}" + ("met" if sense * (value - limit) <= 0 else "not met")
+                verdict = f"{sign} {measure.text(limit)}" + ("met" if keeps(value, limit, sense) else "not met")
         change = f"{100 * (value - start) / abs(start):+.1f} %" if start and math.isfinite(start - value) else ""
         rows.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
     return rows
