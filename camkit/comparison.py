@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .kinds import refuse_kinds
 from .markup import html, table
 
 
@@ -24,6 +25,11 @@ class Table:
     rows: Sequence[Sequence[object]]
     title: str = ""
     digits: int = 5
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        if other := {len(row) for row in self.rows} - {len(self.head)}:
+            raise ValueError(f"the table has {len(self.head)} headings and a row of {max(other)}; they must be as many")
 
     def _cells(self) -> list[list[str]]:
         shown = [[self._text(cell) for cell in row] for row in self.rows]

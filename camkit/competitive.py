@@ -10,6 +10,8 @@ from pymoo.core.population import Population
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
+from .kinds import refuse_arguments
+
 
 class CompetitiveAlgorithm(Algorithm):
     """Candidates move to where their supporters are; the best of everybody stand in the next cycle.
@@ -57,6 +59,7 @@ class CompetitiveAlgorithm(Algorithm):
         narrowing: float = 1.0,
         **kwargs: Any,
     ) -> None:
+        refuse_arguments(CompetitiveAlgorithm.__init__, {**locals(), "kwargs": {}})
         super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
         for name, count, least in (
             ("candidates", candidates, 1),

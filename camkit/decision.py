@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from .kinds import numbers, shown
+from .kinds import numbers, refuse_arguments, shown
 from .quantities import counted
 from .typed import typed_number
 
@@ -201,6 +201,7 @@ def typed_judgement(words: str) -> float:
 
     Raises ``ValueError`` for anything else.
     """
+    refuse_arguments(typed_judgement, locals())
     if words.strip() in ("", "?"):
         return math.nan
     above, fraction, below = words.partition("/")

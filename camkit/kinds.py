@@ -10,7 +10,8 @@ import dataclasses
 import inspect
 import types
 import typing
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence, Sized
+from contextlib import contextmanager
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -179,19 +180,44 @@ def refuse_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> 
         ...
     ValueError: the argument times is 'twice'; it must be a whole number
     """
-    for name, kind in _argument_kinds(function):
-        if not kind.holds(given[name]):
-            raise ValueError(f"the argument {name} is {shown(given[name])}; it must be {kind.said}")
+    for parameter, kind in _argument_kinds(function):
+        for name, value in _each(parameter, given[parameter.name]):
+            if not kind.holds(value):
+                raise ValueError(f"{name} is {shown(value)}; it must be {kind.said}")
+
+
+def _each(parameter: inspect.Parameter, value: Any) -> list[tuple[str, Any]]:
+    """What is given for a parameter, with its name; several if it gathers arguments."""
+    if parameter.kind is inspect.Parameter.VAR_POSITIONAL:
+        return [(f"one of the {parameter.name}", each) for each in value]
+    if parameter.kind is inspect.Parameter.VAR_KEYWORD:
+        return [(f"the argument {name}", each) for name, each in value.items()]
+    return [(f"the argument {parameter.name}", value)]
 
 
 @cache
-def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[str, Kind], ...]:
-    """The arguments of a function that can be checked; those that gather others are not."""
+def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[inspect.Parameter, Kind], ...]:
+    """The arguments of a function that can be checked."""
     hints = typing.get_type_hints(function)
-    gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
-    named = (p.name for p in inspect.signature(function).parameters.values() if p.kind not in gathered)
-    kinds = ((name, _kind(hints[name])) for name in named if name in hints)
-    return tuple((name, kind) for name, kind in kinds if kind is not None)
+    parameters = inspect.signature(function).parameters.values()
+    kinds = ((p, _kind(hints[p.name])) for p in parameters if p.name in hints)
+    return tuple((parameter, kind) for parameter, kind in kinds if kind is not None)
+
+
+@contextmanager
+def applied(what: str, thing: Any) -> Iterator[None]:
+    """A context in which ``what`` asks ``thing`` for its parts: ``ValueError`` in a sentence where it lacks one."""
+    try:
+        yield
+    except AttributeError as lacking:
+        why = f", which has no {lacking.name.replace('_', ' ')}" if lacking.name else ""
+        raise ValueError(f"{what} does not apply to {shown(thing)}{why}") from lacking
+
+
+def refuse_empty(given: Sized, what: str) -> None:
+    """``ValueError`` in a sentence if there is nothing in ``given``."""
+    if not len(given):
+        raise ValueError(f"there are no {what}; name one or more")
 
 
 def refuse_lengths(thing: Any) -> None:
@@ -247,6 +273,7 @@ SIMPLE: dict[Any, Kind] = {
     bool: Kind(lambda v: isinstance(v, (bool, np.bool_)), "True or False"),
     str: Kind(lambda v: isinstance(v, str), "a text"),
     types.NoneType: Kind(lambda v: v is None, "None"),
+    np.ndarray: Kind(lambda v: isinstance(v, np.ndarray), "an array"),
 }
 
 
@@ -265,15 +292,28 @@ def _kind(hint: Any) -> Kind | None:
         return Kind(lambda v: any(k.holds(v) for k in known), " or ".join(k.said for k in known))
     if origin is Callable:
         return Kind(lambda v: callable(v) and not isinstance(v, type), "a function")
+    if origin is tuple and parts[-1] is not ... and float not in parts:
+        return _places([_kind(part) for part in parts])
     if origin is tuple:
         return _sequence(_kind(parts[0]) if isinstance(parts[0], type) and parts[0] is not float else None)
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return _mapping(_kind(parts[1]) if parts[1] is not float else None)
     if origin is Sequence:
         return _sequence(_kind(parts[0]) if parts[0] is not float else None)
+    if getattr(hint, "_is_protocol", False):
+        said = str(inspect.getdoc(hint)).partition("\n")[0].rstrip(".")
+        return Kind(lambda v: isinstance(v, hint) and not isinstance(v, type), said[0].lower() + said[1:])
     if isinstance(hint, type):
         return Kind(lambda v: isinstance(v, hint), f"{_article(hint.__name__)} {hint.__name__}")
     return None
+
+
+def _places(kinds: Sequence[Kind | None]) -> Kind:
+    def holds(value: Any) -> bool:
+        fits = isinstance(value, (tuple, list)) and len(value) == len(kinds)
+        return fits and all(kind is None or kind.holds(v) for kind, v in zip(kinds, value, strict=True))
+
+    return Kind(holds, f"a tuple of {', '.join('something' if k is None else k.said for k in kinds)}")
 
 
 def _sequence(kind: Kind | None) -> Kind:

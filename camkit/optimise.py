@@ -19,7 +19,7 @@ from pymoo.indicators.hv import HV
 from scipy.stats import qmc
 
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, taken_up, versions, why
-from .kinds import numbers, refuse_arguments, shown, whole
+from .kinds import applied, numbers, refuse_arguments, refuse_kinds, shown, whole
 from .quantities import counted
 from .study import Evaluation, Study
 
@@ -31,14 +31,10 @@ class StudyProblem(Problem):
     """A `Study` as pymoo sees it: one call evaluates a whole generation."""
 
     def __init__(self, study: Study) -> None:
-        low, high = study.bounds
-        super().__init__(
-            n_var=len(study.free),
-            n_obj=len(study.minimise),
-            n_ieq_constr=len(study.limits),
-            xl=low,
-            xu=high,
-        )
+        with applied("a search", study):
+            low, high = study.bounds
+            counts = {"n_obj": len(study.minimise), "n_ieq_constr": len(study.limits)}
+        super().__init__(n_var=len(study.free), xl=low, xu=high, **counts)
         self.study = study
 
     def _evaluate(self, x: np.ndarray, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
@@ -78,6 +74,15 @@ class Front:
     f: np.ndarray
     message: str = ""
     record: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for name, table, columns in (("x", self.x, self.study.free), ("f", self.f, self.study.minimise)):
+            if table.shape != (len(self.x), len(columns)):
+                raise ValueError(
+                    f"the front's {name} has the shape {table.shape}; it must have a row for each design "
+                    f"and a column for each of {len(columns)}"
+                )
 
     def __len__(self) -> int:
         return len(self.x)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .epigraph import Epigraph
-from .kinds import numbers, refuse_arguments, shown
+from .kinds import applied, numbers, refuse_arguments, shown
 from .quantities import Measure, PeakMeasure
 from .study import KEPT, Evaluation, Study, WeightedSum
 
@@ -33,7 +33,8 @@ class SumOfResiduals(Measure):
 
     def sides(self, analysis: Any) -> np.ndarray:
         """Both numbers of which the larger one counts for each residual, ``(..., m, 2)``."""
-        r = self.function(analysis)
+        with applied(f"the {self.name}", analysis):
+            r = self.function(analysis)
         return np.stack([r, 0 * r if self.above_only else -r], axis=-1)
 
     def __call__(self, analysis: Any) -> Any:

@@ -30,11 +30,11 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
-from .kinds import number, refuse_kinds, refuse_lengths, shown, whole
+from .kinds import applied, number, refuse_kinds, refuse_lengths, shown, whole
 from .markup import Html, html, table
 from .units import factor, in_unit
 
@@ -243,9 +243,20 @@ def quantities(design: Any, names: Iterable[Any] = ()) -> dict[str, Quantity]:
     return declared
 
 
+@runtime_checkable
+class Analysable(Protocol):
+    """A design that can be analysed, such as a cam."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def analyse(self) -> Any:
+        """Everything that follows from the design."""
+        ...
+
+
 def can_be_analysed(design: Any) -> bool:
     """Whether this is a design, and no class of designs or something else."""
-    return dataclasses.is_dataclass(design) and not isinstance(design, type) and hasattr(design, "analyse")
+    return isinstance(design, Analysable) and not isinstance(design, type)
 
 
 def fails(ok: Any) -> bool:
@@ -386,7 +397,8 @@ class Measure:
             raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
 
     def __call__(self, analysis: Any) -> Any:
-        return self.sign * self.function(analysis)
+        with applied(f"the {self.name}", analysis):
+            return self.sign * self.function(analysis)
 
     def __neg__(self) -> Measure:
         return dataclasses.replace(self, sign=-self.sign)
@@ -421,4 +433,5 @@ class PeakMeasure(Measure):
         return self.function(analysis)
 
     def __call__(self, analysis: Any) -> Any:
-        return self.sign * self.function(analysis).max(-1)
+        with applied(f"the {self.name}", analysis):
+            return self.sign * self.function(analysis).max(-1)

@@ -6,6 +6,7 @@ paper sizes outer diameter ``D`` and inner diameter ``d`` of the tube for the le
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 from typing import Any
@@ -386,10 +387,19 @@ def standard_tubes(series: str = "EN 10210-2") -> np.ndarray:
     >>> len(standard_tubes()), (standard_tubes()[0] / mm).round(1).tolist()
     (75, [88.9, 82.5])
     """
+    refuse_arguments(standard_tubes, locals())
     if series not in TUBE_FILES:
         raise ValueError(f"the series {series!r} is not known; there are {', '.join(TUBE_FILES)}")
     walls = load(TUBE_FILES[series])["walls_by_outer_diameter"]
     return np.array([(float(D), round(float(D) - 2 * t, 6)) for D, row in walls.items() for t in row]) * mm
+
+
+def _refuse_tubes(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+    """``ValueError`` for tubes that are no array of two diameters each, and for another argument of a wrong kind."""
+    refuse_arguments(function, given)
+    shape = given["tubes"].shape
+    if len(shape) != 2 or shape[1] != 2 or given["tubes"].dtype.kind not in "iuf":
+        raise ValueError(f"the tubes are {shown(given['tubes'])}; they must be an array of both diameters, (n, 2)")
 
 
 def tubes_that_hold(shaft: UniversalJointShaft, tubes: np.ndarray) -> np.ndarray:
@@ -398,6 +408,7 @@ def tubes_that_hold(shaft: UniversalJointShaft, tubes: np.ndarray) -> np.ndarray
     >>> len(tubes_that_hold(UniversalJointShaft(), standard_tubes()))
     52
     """
+    _refuse_tubes(tubes_that_hold, locals())
     analysis = shaft.replace(outer_diameter=tubes[:, :1], inner_diameter=tubes[:, 1:]).analyse()
     return tubes[np.max(list(analysis.utilisation.values()), axis=0)[:, 0] <= 1]
 
@@ -428,6 +439,7 @@ def lightest_tube(study: Study, tubes: np.ndarray) -> UniversalJointShaft:
 
     Raises ``ValueError`` if there is none.
     """
+    _refuse_tubes(lightest_tube, locals())
     low, high = study.bounds
     inside = tubes[((tubes >= low) & (tubes <= high)).all(-1)]
     evaluation = study.evaluate(inside) if len(inside) else None

@@ -5,9 +5,10 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -80,13 +81,50 @@ def _number(value: Any) -> bool:
     return known is not None and np.ndim(known) == 0
 
 
-def _numbers(measure: Measure, analysis: Any, p: int, kind: str) -> Any:
-    """A measure of ``p`` designs of a kind, ``(p,)``."""
+def refuse_bounds(declared: Mapping[str, Quantity], space: Mapping[str, Any]) -> None:
+    """``ValueError`` in a sentence for bounds that are no two possible numbers, the first below the second."""
+    for name, bounds in space.items():
+        if not hasattr(bounds, "__len__") or len(bounds) != 2 or not all(map(_number, bounds)):
+            raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
+        _check_bounds(name, declared[name], *bounds)
+
+
+def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> None:
+    told = f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}"
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise ValueError(f"{told}; they must be finite, the first below the second")
+    if not (declared.allows(low) and declared.allows(high)):
+        possible = declared.possible if declared.allows(high) else declared.possible_for(high)
+        raise ValueError(f"{told}; each must be {possible}")
+    declared.remark(name, float(low))
+    declared.remark(name, float(high))
+
+
+def refuse_limits(*limits: Mapping[Any, Any]) -> None:
+    """``ValueError`` in a sentence for limits that are no finite number for a measure."""
+    for measure, limit in (item for each in limits for item in each.items()):
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
+        if not _number(limit) or not finite(limit):
+            raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
+
+
+def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
+    """The study that ``make(*given, **named)`` gives; ``ValueError`` where it cannot, or gives something else."""
+    name = getattr(make, "__name__", "that is given")
     try:
-        value = measure(analysis)
-    except AttributeError as lacking:
-        why = f", whose analysis has no {words(lacking.name)}" if lacking.name else ""
-        raise ValueError(f"the {measure.name} does not apply to the {kind}{why}") from lacking
+        signature(make).bind(*given, **named)
+    except TypeError as unfit:
+        raise ValueError(f"the function {name} cannot make a study for this panel: {unfit}") from None
+    study = make(*given, **named)
+    if not isinstance(study, Study):
+        raise ValueError(f"the function {name} makes {shown(study)}; it must make a Study")
+    return study
+
+
+def _numbers(measure: Measure, analysis: Any, p: int) -> Any:
+    """A measure of ``p`` designs, ``(p,)``."""
+    value = measure(analysis)
     try:
         return np.broadcast_to(value, p)
     except ValueError:
@@ -161,31 +199,11 @@ class Study:
         refuse_kinds(self, but=("minimise", "angles"))
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
-        for name, bounds in self.free.items():
-            if not hasattr(bounds, "__len__") or len(bounds) != 2 or not all(map(_number, bounds)):
-                raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
-            self._check_bounds(name, declared[name], *bounds)
-        limits = (*self.at_most.items(), *self.at_least.items())  # type: ignore[union-attr]
-        for measure in (*self.minimise, *(measure for measure, _ in limits)):
+        refuse_bounds(declared, self.free)
+        for measure in self.minimise:
             if not isinstance(measure, Measure):
                 raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
-        for measure, limit in limits:
-            if not _number(limit) or not finite(limit):
-                raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
-
-    def _check_bounds(self, name: str, declared: Quantity, low: float, high: float) -> None:
-        if not (np.isfinite([low, high]).all() and low < high):
-            raise ValueError(
-                f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}; "
-                "they must be finite, the first below the second"
-            )
-        if not (declared.allows(low) and declared.allows(high)):
-            raise ValueError(
-                f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}; "
-                f"each must be {declared.possible if declared.allows(high) else declared.possible_for(high)}"
-            )
-        declared.remark(name, float(low))
-        declared.remark(name, float(high))
+        refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
 
     @property
     def bounds(self) -> np.ndarray:
@@ -242,9 +260,8 @@ class Study:
 
     def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
-        kind = type(self.start).__name__
-        f = self._columns([_numbers(measure, analysis, len(x), kind) for measure in self.minimise], len(x))
-        limits = [(_numbers(m, analysis, len(x), kind), v, sense) for m, v, sense in self.limits]
+        f = self._columns([_numbers(measure, analysis, len(x)) for measure in self.minimise], len(x))
+        limits = [(_numbers(m, analysis, len(x)), v, sense) for m, v, sense in self.limits]
         g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
         return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
 

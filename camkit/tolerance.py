@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
-from .kinds import number, numbers, refuse_arguments, refuse_kinds, shown
+from .kinds import number, numbers, one_number, refuse_arguments, refuse_kinds, shown
 from .quantities import Measure, Quantity, counted, declarations, quantities, words
 from .study import Evaluation, Study
-from .units import deg, mm
+from .units import deg, factor, mm
 
 SPREADS = ("uniform", "normal")
 ANGLES = ("cam_angle", "crank_angle")
@@ -42,6 +42,7 @@ def general_tolerance(declared: Quantity, value: float) -> float:
     >>> 1e3 * general_tolerance(declared["lift_arm"], 0.05), 1e3 * general_tolerance(declared["lift_arm"], 0.2)
     (0.3, 0.5)
     """
+    refuse_arguments(general_tolerance, locals())
     if declared.unit in ("deg", "rad"):
         return ISO_ANGLE
     if declared.unit in ("mm", "cm", "m"):
@@ -49,7 +50,8 @@ def general_tolerance(declared: Quantity, value: float) -> float:
     return OTHERWISE * abs(value)
 
 
-class Curve(NamedTuple):
+@dataclass(frozen=True)
+class Curve:
     """A curve of an analysis, by the name of its attribute: ``Curve("lift.pressure_angle", "deg", "pressure angle")``.
 
     ``limits`` are values (SI) that it should not cross.
@@ -59,6 +61,12 @@ class Curve(NamedTuple):
     unit: str
     label: str
     limits: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        factor(self.unit)
+        for limit in self.limits:
+            one_number(limit, f"a limit of the {self.label}")
 
     def values(self, analysis: Any) -> np.ndarray:
         """The curve, ``(m,)`` or for a population ``(p, m)``, SI."""

@@ -15,6 +15,7 @@ from pymoo.core.population import Population
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
+from .kinds import numbers, refuse_arguments
 from .quantities import counted
 
 
@@ -26,6 +27,9 @@ def selection_chances(count: int, best: float) -> np.ndarray:
     >>> selection_chances(3, 0.5).round(4).tolist()
     [0.5714, 0.2857, 0.1429]
     """
+    refuse_arguments(selection_chances, locals())
+    counted(count, "places", 1)
+    _refuse_best(best)
     falling = (1 - best) ** np.arange(count)
     return np.asarray(best / (1 - (1 - best) ** count) * falling)
 
@@ -36,6 +40,7 @@ def crossed(first: Any, second: Any, share: Any) -> tuple[Any, Any]:
     >>> crossed(0.0, 10.0, 0.2)
     (8.0, 2.0)
     """
+    first, second, share = map(numbers, (first, second, share), ("the first", "the second", "the share"))
     return share * first + (1 - share) * second, (1 - share) * first + share * second
 
 
@@ -47,7 +52,14 @@ def shrinking_step(room: Any, draw: Any, done: float, shape: float) -> Any:
     >>> shrinking_step(8.0, 0.5, 0.0, 3), shrinking_step(8.0, 0.5, 1.0, 3)
     (1.0, 0.0)
     """
+    refuse_arguments(shrinking_step, locals())
+    room, draw = numbers(room, "the room"), numbers(draw, "the draw")
     return room * (draw * (1 - done)) ** shape
+
+
+def _refuse_best(best: float) -> None:
+    if not 0 < best < 1:
+        raise ValueError(f"the chance of the best is {best:g}; it must be above 0 and below 1")
 
 
 class ToolboxGenetic(Algorithm):
@@ -88,12 +100,12 @@ class ToolboxGenetic(Algorithm):
         shape: float = 3.0,
         **kwargs: Any,
     ) -> None:
+        refuse_arguments(ToolboxGenetic.__init__, {**locals(), "kwargs": {}})
         super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
         self.population, self.generations = counted(population, "designs"), counted(generations, "generations")
         self.crossovers = counted(crossovers, "crossovers", 0)
         self.mutations = counted(mutations, "mutations", 1)
-        if not 0 < best < 1:
-            raise ValueError(f"the chance of the best is {best:g}; it must be above 0 and below 1")
+        _refuse_best(best)
         if not (np.isfinite(shape) and shape > 0):
             raise ValueError(f"the shape of the mutation is {shape:g}; it must be a finite number above 0")
         self.best, self.shape = best, shape

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .kinds import refuse_arguments
+from .kinds import numbers, refuse_arguments
 from .minimum import Minimum, minimise
 from .optimise import Front, Generation
 from .quantities import counted
@@ -86,11 +86,16 @@ def dominated_shares(fronts: Mapping[str, Front], worst: Any) -> dict[str, float
     >>> [round(share, 3) for share in dominated_shares(few, study.evaluate(study.x0).f[0]).values()]
     [0.757, 0.924]
     """
+    refuse_arguments(dominated_shares, locals())
+    worst = numbers(worst, "the worst objectives")
+    if others := {front.f.shape[1:] for front in fronts.values()} - {worst.shape}:
+        told = " x ".join(map(str, worst.shape)) or "one"
+        raise ValueError(f"there are {told} worst objectives for fronts of {max(others)[0]}; they must be as many")
     found = [front.f for front in fronts.values() if len(front)]
     if not found:
         return dict.fromkeys(fronts, 0.0)
     best = np.concatenate(found).min(0)
-    size = np.asarray(worst, dtype=float) - best
+    size = worst - best
     if not (size > 0).all():
         return dict.fromkeys(fronts, np.nan)
     return {n: replace(front, f=(front.f - best) / size).hypervolume(np.ones(len(best))) for n, front in fronts.items()}

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.stats import binomtest, mannwhitneyu
 
 from .comparison import Table
+from .kinds import refuse_arguments, refuse_empty
 from .reference import load
 
 
@@ -73,6 +74,7 @@ def sooner(first: Trials, second: Trials, target: float) -> tuple[float, float]:
     >>> share, round(p, 3)
     (1.0, 0.1)
     """
+    refuse_arguments(sooner, locals())
     a, b = first.to(target), second.to(target)
     share = float(np.mean((a[:, None] < b) + 0.5 * (a[:, None] == b)))
     if len(np.unique(np.concatenate([a, b]))) == 1:
@@ -87,6 +89,7 @@ def measured_trials(problem: str) -> tuple[Trials, ...]:
 
     Raises ``ValueError`` for a problem that was not measured, naming those that were.
     """
+    refuse_arguments(measured_trials, locals())
     data = load("optimiser_comparison")
     if problem not in data["evaluations"]:
         raise ValueError(f"there are no trials of {problem!r}; there are {', '.join(data['evaluations'])}")
@@ -106,6 +109,8 @@ def trial_table(trials: Sequence[Trials], targets: Sequence[float] = (0.01, 0.00
     For each target: how many runs arrived, between which shares the true rate lies (95 %), the median of the
     evaluations over all runs, and the evaluations for each success.
     """
+    refuse_arguments(trial_table, locals())
+    refuse_empty(trials, "trials")
     words = ("arrived", "rate, 95 %", "median", "for each")
     head = ("method", *(f"to {100 * target:g} %: {word}" for target in targets for word in words))
     rows = [(t.method, *(cell for target in targets for cell in _cells(t, target))) for t in trials]

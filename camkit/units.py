@@ -80,7 +80,7 @@ FACTORS = {
 
 def factor(unit: str) -> float:
     """The SI value of one ``unit``; a ``ValueError`` names the units there are."""
-    if unit not in FACTORS:
+    if not isinstance(unit, str) or unit not in FACTORS:
         raise ValueError(f"the unit {unit!r} is not known; there are {', '.join(filter(None, FACTORS))}")
     return FACTORS[unit]
 

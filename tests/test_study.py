@@ -178,7 +178,7 @@ def test_measures_of_another_mechanism_are_refused() -> None:
     joint, free = DoubleUniversalJoint(), ("second_angle",)
     with pytest.raises(
         ValueError,
-        match=r"^the output swing does not apply to the DoubleUniversalJoint, whose analysis has no rocker angle$",
+        match=r"^the output swing does not apply to a DoubleUniversalJointAnalysis, which has no rocker angle$",
     ):
         Study(joint, free, (swing,)).evaluate([[0.1]])
     with pytest.raises(ValueError, match=r"^the output swing does not apply"):

@@ -288,7 +288,10 @@ def test_a_curve_is_drawn_over_the_angle_that_is_there():
 # ---------------------------------------------------------------- pictures
 
 LIFT = {"lift_arm": 1 * mm, "lift_start_angle": 1 * deg, "lift_centre_distance": 0.3 * mm}
-CURVES = (("lift.pressure_angle", "deg", "pressure angle", (44 * deg,)), ("lift.curvature", "1/mm", "curvature"))
+CURVES = (
+    Curve("lift.pressure_angle", "deg", "pressure angle", (44 * deg,)),
+    Curve("lift.curvature", "1/mm", "curvature"),
+)
 
 
 @pytest.fixture(scope="module")
@@ -298,7 +301,7 @@ def study():
 
 def test_the_views_show_the_numbers(study):
     made, front = Tolerances(study, LIFT, parts=256), nsga2(study, 12, 4, 1)
-    curve = Curve(*CURVES[0])
+    curve = CURVES[0]
     ax, bars, drawn, off = picture(made, cloud(front), sobol_bars, band(curve), deviation(curve)).axes
     kept = made.evaluation.feasible
     x, y = np.hstack([_find(ax, "kept").get_xydata().T, _find(ax, "missed").get_xydata().T])

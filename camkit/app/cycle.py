@@ -9,9 +9,10 @@ from typing import Any
 import ipywidgets as w
 
 from ..cycle_time import IntervalStep, shortest_interval
+from ..kinds import a_number, refuse_arguments
 from ..plot.progress import ShownIntervals, intervals_tried
 from ..quantities import Measure, Quantity
-from ..study import Study
+from ..study import Study, made_study
 from ..units import deg, in_unit
 from ..watch import Stopped, Watch, watched
 from .controls import Knob, tell
@@ -40,9 +41,12 @@ class CycleTime(JobPanel):
         longest: float,
         choices: Mapping[str, Mapping[str, Any]],
     ) -> None:
+        refuse_arguments(CycleTime.__init__, locals())
+        a_number(limit, "the limit", "be a finite number above 0", lambda most: most > 0)
         self.explorer, self.make = explorer, make
         self.choices = Choices(choices)
         self.measure: Measure = self._study().minimise[0]
+        shortest_interval(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
         self.limit = self._limit_knob(limit)
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
@@ -76,7 +80,7 @@ class CycleTime(JobPanel):
         return [*self.choices.menus.values(), *knobs, buttons, runner.status, runner.banner, self.verdict]
 
     def _study(self) -> Study:
-        return self.make(self.explorer.design, **self.choices.values)
+        return made_study(self.make, self.explorer.design, **self.choices.values)
 
     @property
     def step(self) -> IntervalStep | None:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import io
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import ipywidgets as w
 import numpy as np
 from PIL import Image
 
 from ..decision import JudgementRange
+from ..kinds import refuse_arguments
 from ..markup import Html, attribute, html, joined, table
 from ..plot.decision import (
     MARKS,
@@ -33,6 +34,23 @@ NO_FRONT = "There is no front to choose from yet: run a search."
 HINT = "Drag along an axis to keep a band of it; click into the band to drop it; click a line to load its design."
 
 
+@runtime_checkable
+class FrontPanel(Protocol):
+    """A panel with a front, such as `search` gives."""
+
+    front: Any
+    explorer: Any
+    importance: Any
+
+    def select(self, index: int | None) -> None:
+        """Load a design of the front."""
+        ...
+
+    def on_front(self, act: Callable[[], None]) -> None:
+        """Call ``act()`` after each new front."""
+        ...
+
+
 class Decide(Panel):
     """Every rule's winner of a front, where else each wins, and how far the judgements may move.
 
@@ -41,7 +59,8 @@ class Decide(Panel):
     ``measures`` are shown beside objectives and free quantities; by default those that have a limit.
     """
 
-    def __init__(self, source: Any, measures: Sequence[Measure] | None = None) -> None:
+    def __init__(self, source: FrontPanel, measures: Sequence[Measure] | None = None) -> None:
+        refuse_arguments(Decide.__init__, locals())
         self.source, self.measures = source, measures
         self.shown: ShownDecision | None = None
         self._key: Any = None
@@ -297,7 +316,7 @@ def _stacked(pictures: Sequence[bytes]) -> bytes:
     return out.getvalue()
 
 
-def decide(source: Any, measures: Sequence[Measure] | None = None) -> Decide:
+def decide(source: FrontPanel, measures: Sequence[Measure] | None = None) -> Decide:
     """The winners of ``source``'s front side by side, how sure they are, and bands to narrow it down (see `Decide`).
 
     ``source`` is a `Search` or another panel with a front.

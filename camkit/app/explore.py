@@ -12,10 +12,12 @@ import numpy as np
 
 from .. import export, profile_files
 from ..cam.undercut import undercut_in_words
+from ..kinds import refuse_arguments, shown
 from ..markup import html, table
 from ..plot.picture import View, below, positions_of, small_png, strip
-from ..quantities import Design, Measure, Quantity, declarations, unremarked
-from ..study import keeps
+from ..quantities import Analysable, Design, Measure, Quantity, declarations, unremarked, words
+from ..study import keeps, refuse_limits
+from ..tolerance import ANGLES
 from ..units import deg
 from .controls import Download, Knob, Menu, Upload, banner, control, tables_html, tell
 from .orbit import Orbit
@@ -62,7 +64,7 @@ class Explorer(Panel):
 
     def __init__(
         self,
-        design: Any,
+        design: Analysable,
         views: Sequence[View],
         free: Sequence[str] | None = None,
         measures: Sequence[Measure] = (),
@@ -70,9 +72,14 @@ class Explorer(Panel):
         at_least: Mapping[Measure, float] | None = None,
         width: float = 12.6,
         height: float = 7.0,
-        **position: float,
+        turn: float | None = None,
+        azimuth: float | None = None,
+        elevation: float | None = None,
     ) -> None:
-        self.start = self.design = design
+        refuse_arguments(Explorer.__init__, locals())
+        refuse_limits(at_most or {}, at_least or {})
+        self.start: Any = design
+        self.design: Any = design
         self.analysis = design.analyse()
         self.measures = tuple(measures)
         self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
@@ -86,7 +93,8 @@ class Explorer(Panel):
         self._impossible = ""
         self.controls = self._make_controls(free or tuple(declarations(design)))
         wanted = dict.fromkeys(name for view in views for name in positions_of(view))
-        self.positions = {name: self._position(name, position.get(name)) for name in wanted}
+        position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
+        self.positions = {name: self._position(name, position[name]) for name in wanted}
         if {"azimuth", "elevation"} <= self.positions.keys():
             self._orbit = Orbit(self.picture, self.positions, self._show)
         self._table = w.HTML()
@@ -118,7 +126,9 @@ class Explorer(Panel):
 
     def _turn_range(self) -> tuple[str, float, float]:
         """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
-        angle = next(a for a in ("cam_angle", "crank_angle") if hasattr(self.analysis, a))
+        angle = next((a for a in ANGLES if hasattr(self.analysis, a)), None)
+        if angle is None:
+            raise ValueError(f"the {type(self.start).__name__} has no {' or '.join(map(words, ANGLES))} to turn it by")
         values = getattr(self.analysis, "turn_range", getattr(self.analysis, angle))
         return angle, float(np.min(values)), float(np.max(values))
 
@@ -170,7 +180,10 @@ class Explorer(Panel):
                 tell(self._banner, remarked(found))
 
     def load(self, design: Any) -> None:
-        """Show ``design``: every slider moves to its value."""
+        """Show ``design``: every slider moves to its value; ``ValueError`` for what is no design of this kind."""
+        kind = type(self.start)
+        if not isinstance(design, kind):
+            raise ValueError(f"the design is {shown(design)}; it must be a {kind.__name__}, as this panel shows")
         for name, knob in self.controls.items():
             knob.set(attrgetter(name)(design))
         self._try(lambda: design)
@@ -293,7 +306,7 @@ class Explorer(Panel):
         return "\n".join(f"{m.name}: {m.text(now)}" for m, now, _ in self.rows())
 
 
-def explore(design: Any, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
+def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
     """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
 
     ``free`` may also name quantities of a design that it holds: ``"load.mass"``.

@@ -12,6 +12,7 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import SAATY_SCALE, ahp, judgement_matrix, typed_judgement
+from ..kinds import refuse_arguments
 from ..markup import Html, escaped, html, table
 from ..plot.front import weight_bars
 from .controls import banner, small_html, tables_html, tell
@@ -35,6 +36,7 @@ class Judgements(Panel):
     """
 
     def __init__(self, names: Sequence[str], judgements: Any, title: str = "") -> None:
+        refuse_arguments(Judgements.__init__, locals())
         self.names = tuple(names)
         self.start = judgement_matrix(judgements)
         if len(self.start) != len(self.names):

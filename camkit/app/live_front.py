@@ -13,12 +13,13 @@ import numpy as np
 
 from ..archive import quick_front, quick_front_rounds
 from ..decision import CHOOSERS
+from ..kinds import refuse_arguments, refuse_empty
 from ..markup import html, joined
 from ..optimise import Front
 from ..plot.front import shown_objectives
 from ..plot.live_front import LiveFront, live_pareto
-from ..quantities import declarations, words
-from ..study import Study
+from ..quantities import declarations, quantities, words
+from ..study import Study, made_study, refuse_bounds
 from .controls import banner, tell
 from .explore import Explorer
 from .judge import Judgements
@@ -48,6 +49,9 @@ class LiveFrontPanel(Panel):
         criteria: Judgements | None = None,
         importance: Judgements | None = None,
     ) -> None:
+        refuse_arguments(LiveFrontPanel.__init__, locals())
+        refuse_empty(studies, "studies")
+        refuse_bounds(quantities(explorer.start, space), space)
         self.explorer, self.studies, self.space = explorer, dict(studies), dict(space)
         self.criteria, self.importance = criteria, importance
         self.winner: int | None = None
@@ -106,7 +110,7 @@ class LiveFrontPanel(Panel):
         first = self.explorer.start
         start = self.explorer.design.replace(**{name: getattr(first, name) for name in self.space})
         weights = {"weights": self.criteria.weights} if self.criteria else {}
-        return self.studies[self.menu.value](start, reference=first, space=self.space, **weights)
+        return made_study(self.studies[self.menu.value], start, reference=first, space=self.space, **weights)
 
     def _changed(self) -> None:
         """Ask for another front, unless only free quantities have moved."""

@@ -8,11 +8,12 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..kinds import refuse_arguments, shown
 from ..markup import escaped
-from ..minimum import Minimum, minimise
+from ..minimum import METHODS, Minimum, minimise
 from ..plot.progress import ShownLooks, best_so_far
 from ..quantities import Measure
-from ..study import Study
+from ..study import Study, made_study
 from ..watch import Stopped, Watch, watched
 from .controls import tell
 from .explore import Explorer
@@ -36,6 +37,9 @@ class Improvement(JobPanel):
         choices: Mapping[str, Mapping[str, Any]],
         methods: Sequence[str],
     ) -> None:
+        refuse_arguments(Improvement.__init__, locals())
+        if not len(methods) or any(method not in METHODS for method in methods):
+            raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
         self.explorer, self.make = explorer, make
         self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
         layout, refused = w.Layout(width="190px"), staying("starts", self._refused, "stay")
@@ -68,7 +72,7 @@ class Improvement(JobPanel):
         self.starts.disabled = self.choices.values["method"] != "slsqp"
 
     def _study(self) -> Study:
-        return self.make(self.explorer.design, **self.choices.values)
+        return made_study(self.make, self.explorer.design, **self.choices.values)
 
     def _prepare(self) -> tuple[Study, Any, str, int]:
         study = self._study()

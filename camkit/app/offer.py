@@ -7,6 +7,7 @@ from typing import Any
 
 import ipywidgets as w
 
+from ..kinds import refuse_arguments
 from .controls import banner, tell
 from .explore import Explorer
 from .panel import IMPOSSIBLE, Panel
@@ -26,6 +27,7 @@ class Offers(Panel):
     def __init__(
         self, explorer: Explorer, menus: Mapping[str, Mapping[str, Change]], buttons: Mapping[str, Change]
     ) -> None:
+        refuse_arguments(Offers.__init__, locals())
         self.explorer, self.picture = explorer, explorer.picture
         self._silent = False
         self._banner = banner()
@@ -55,11 +57,9 @@ class Offers(Panel):
 
     def _make(self, change: Change) -> None:
         try:
-            design = change(self.explorer.design)
+            self.explorer.load(change(self.explorer.design))
         except IMPOSSIBLE as refusal:
             tell(self._banner, f"This cannot be offered: {refusal}.")
-        else:
-            self.explorer.load(design)
 
     def _follow(self, design: Any) -> None:
         """Every menu shows which of its options the design is."""
@@ -89,4 +89,4 @@ def offer(
     buttons: Mapping[str, Change] | None = None,
 ) -> Offers:
     """Menus and buttons above ``explorer`` that put other designs into its sliders (see `Offers`)."""
-    return Offers(explorer, menus or {}, buttons or {})
+    return Offers(explorer, {} if menus is None else menus, {} if buttons is None else buttons)

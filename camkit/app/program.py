@@ -8,6 +8,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..kinds import refuse_arguments
 from ..markup import Html, html, joined, table
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
 from ..plot.motion import PROGRAM_VIEWS, ShownProgram
@@ -87,6 +88,8 @@ class ProgramEditor(Panel):
     """
 
     def __init__(self, program: MotionProgram, unit: str = "mm") -> None:
+        refuse_arguments(ProgramEditor.__init__, locals())
+        factor(unit)
         self.start = self.program = program
         self.unit = unit
         self._followers: list[Callable[[MotionProgram], None]] = []

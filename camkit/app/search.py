@@ -18,11 +18,12 @@ import numpy as np
 from .. import export
 from ..checkpoint import fingerprint, taken_up, why
 from ..decision import CHOOSERS, ahp, judgement_matrix
+from ..kinds import refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
 from ..optimise import Front, Generation, front_of, nsga2_generations, reference_point
 from ..plot.front import ShownFront, pareto, shown_objectives
-from ..quantities import Measure, Quantity, declarations, words
-from ..study import Study, WeightedSum
+from ..quantities import Measure, Quantity, declarations, quantities, words
+from ..study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
 from .controls import Download, Upload, banner, label_html, small_html, tell
 from .explore import Explorer, changed, declared_in, remarked
@@ -108,8 +109,11 @@ class Search(Panel):
         population: int = 100,
         generations: int = 100,
     ) -> None:
+        refuse_arguments(Search.__init__, locals())
+        refuse_empty(studies, "studies")
         self.explorer, self.studies, self.criteria, self.importance = explorer, studies, criteria, importance
-        declared: Any = declarations(explorer.design)
+        declared = quantities(explorer.design, (*space, *free))
+        refuse_bounds(declared, space)
         self._silent = False
         self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
         self._make_widgets(population, generations)
@@ -167,10 +171,9 @@ class Search(Panel):
         self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
 
     def _count(self, name: str, value: int, low: int, high: int) -> WholeBox:
-        layout, refused = (
-            w.Layout(width="190px"),
-            staying(name, self._refuse, "stay" if name == "generations" else "stays"),
-        )
+        whole(value, f"the {name}", low, high)
+        layout = w.Layout(width="190px")
+        refused = staying(name, self._refuse, "stay" if name == "generations" else "stays")
         return WholeBox(value, low, high, refused, description=name, description_width="92px", layout=layout)
 
     def _refuse(self, sentence: str) -> None:
@@ -208,7 +211,7 @@ class Search(Panel):
         if not space:
             raise ValueError("no quantity is free; tick one or more")
         weights = {"weights": self.criteria.weights} if self.criteria else {}
-        return make(self.explorer.design, reference=self.explorer.start, space=space, **weights)
+        return made_study(make, self.explorer.design, reference=self.explorer.start, space=space, **weights)
 
     def run(self) -> None:
         """Start the search; returns at once."""
@@ -372,7 +375,8 @@ class Search(Panel):
         judged = {name: page["judgements"][name] for name in self._judges()}
         weighed = {name: ahp(upper or [[1]], method).weights for name, (upper, method) in judged.items()}
         weights = {"weights": weighed["criteria"]} if self.criteria else {}
-        return self.studies[page["search"]["mode"]](design, reference=self.explorer.start, space=space, **weights)
+        make = self.studies[page["search"]["mode"]]
+        return made_study(make, design, reference=self.explorer.start, space=space, **weights)
 
     def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
         for name, panel in self._judges().items():
@@ -574,7 +578,8 @@ class Search(Panel):
         start, measures = self.explorer.start, [*self.explorer.measures, *self.study.measures]
         for make in self.studies.values():
             with suppress(*IMPOSSIBLE):  # of free quantities that this problem does not have
-                measures += make(start, reference=start, space=dict(self.study.free), **weights).measures
+                study = made_study(make, start, reference=start, space=dict(self.study.free), **weights)
+                measures += study.measures
         return tuple(measures)
 
     def summary(self) -> str:

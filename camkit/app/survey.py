@@ -9,11 +9,12 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..kinds import a_number, refuse_arguments, refuse_empty
 from ..markup import html, joined
 from ..plane import Plane
 from ..plot.survey import ShownPlane, objective_plane
 from ..quantities import Measure, Quantity, words
-from ..study import Study, WeightedSum
+from ..study import Study, WeightedSum, made_study
 from ..units import factor
 from .controls import Knob, banner, tell
 from .explore import Explorer
@@ -56,6 +57,8 @@ class Survey(Panel):
     def __init__(
         self, explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], steps: int = 41
     ) -> None:
+        refuse_arguments(Survey.__init__, locals())
+        refuse_empty(studies, "studies")
         self.explorer, self.studies, self.steps = explorer, studies, steps
         self.menu = w.Dropdown(
             options=list(studies),
@@ -81,6 +84,7 @@ class Survey(Panel):
         explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
 
     def _knob(self, i: int, name: str, value: float) -> Knob:
+        a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)
         declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
         return Knob(name, declared, value, self._changed, lambda sentence: tell(self._banner, sentence))
 
@@ -107,8 +111,9 @@ class Survey(Panel):
     def study(self) -> Study:
         """The problem of the menu under these weights, around the design in the sliders."""
         make, first = self.studies[self.menu.value], self.explorer.start
-        free = make(first, weights=self.weights).free
-        return make(self.explorer.design.replace(**{n: getattr(first, n) for n in free}), weights=self.weights)
+        free = made_study(make, first, weights=self.weights).free
+        around = self.explorer.design.replace(**{n: getattr(first, n) for n in free})
+        return made_study(make, around, weights=self.weights)
 
     def _changed(self) -> None:
         """Another problem or other weights: shown at once, the optimum a moment later."""

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import ipywidgets as w
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_arguments
 from ..markup import Html, table
+from ..optimise import Front
 from ..plot.tolerance import cloud, deviation, sobol_bars
 from ..quantities import Quantity, declarations, words
 from ..study import Study
@@ -27,12 +29,19 @@ WIDEST = 5
 """How many times the general tolerance a slider offers."""
 
 
+@runtime_checkable
+class HasFront(Protocol):
+    """A panel or another thing with a front."""
+
+    front: Any
+
+
 class Tolerated(Panel):
     """What tolerances do to the design of an `Explorer`: yield, cloud of parts, bands on curves, Sobol indices.
 
     ``study`` says what is limited.  ``half_widths`` names the dimensions that spread, with their first tolerance (SI);
     without them these are the study's free quantities with general tolerances (ISO 2768-1, class m).  ``curves`` are
-    `Curve` or such triples.  ``front`` is anything with a ``.front`` that changes (a `Search`), or a front.
+    those whose bands are drawn.  ``front`` is anything with a ``.front`` that changes (a `Search`), or a front.
     ``tolerances`` is what is shown.
     """
 
@@ -41,10 +50,12 @@ class Tolerated(Panel):
         explorer: Explorer,
         study: Study,
         half_widths: Mapping[str, float] | None = None,
-        curves: Sequence[Any] = (),
-        front: Any = None,
+        curves: Sequence[Curve] = (),
+        front: HasFront | Front | None = None,
     ) -> None:
-        self.explorer, self.study, self._front = explorer, study, front
+        refuse_arguments(Tolerated.__init__, locals())
+        self.explorer, self.study = explorer, study
+        self._front: Any = front
         first = general_tolerances(study) if half_widths is None else dict(half_widths)
         self.tolerances = Tolerances(study.replace(start=explorer.design), first, parts=SETTLED)
         self.knobs = {name: self._knob(name, half) for name, half in first.items()}
@@ -55,13 +66,13 @@ class Tolerated(Panel):
         self.spread.observe(lambda _: self._moved(), "value")
         self._later, self._settling = Later(self.settle, SETTLE), threading.RLock()
         self._banner, self._table = banner(), w.HTML()
-        views = (self._cloud, sobol_bars, *(deviation(Curve(*curve)) for curve in curves))
+        views = (self._cloud, sobol_bars, *map(deviation, curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
         super().__init__([self._body()])
         self._show(self.tolerances)
         explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
-        if hasattr(front, "on_front"):
-            front.on_front(self._later.ask)
+        if follow := getattr(front, "on_front", None):
+            follow(self._later.ask)
 
     def _knob(self, name: str, half: float) -> Knob:
         nominal = self.tolerances.declared[name]
@@ -165,6 +176,7 @@ class Tolerated(Panel):
 
 def general_tolerances(study: Study) -> dict[str, float]:
     """The general tolerance of every free quantity of a study, SI."""
+    refuse_arguments(general_tolerances, locals())
     declared: Any = declarations(study.start)
     return {name: general_tolerance(declared[name], getattr(study.start, name)) for name in study.free}
 

@@ -10,10 +10,11 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
+from ..kinds import refuse_arguments
 from ..markup import Html, escaped, table
 from ..optimise import Front, Generation
 from ..plot.front import ShownFronts, fronts_overlaid, shown_objectives
-from ..study import Study
+from ..study import Study, made_study
 from ..trade_offs import dominated_shares
 from ..watch import Stopped, Watch, watched
 from .controls import tables_html
@@ -40,6 +41,7 @@ class Trade(JobPanel):
     def __init__(
         self, explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
     ) -> None:
+        refuse_arguments(Trade.__init__, locals())
         self.explorer, self.ways = explorer, dict(ways or {})
         self.fronts = self._empty_fronts(dict(given or {}))
         self._refuse_other_objectives()
@@ -58,7 +60,7 @@ class Trade(JobPanel):
         fronts = dict(given)
         for name, (make, _) in self.ways.items():
             if name not in fronts:
-                study = make(self.explorer.start)
+                study = made_study(make, self.explorer.start)
                 fronts[name] = Front(study, np.zeros((0, len(study.free))), np.zeros((0, len(study.minimise))))
         return fronts
 
@@ -97,7 +99,7 @@ class Trade(JobPanel):
         began = time.monotonic()
         try:
             for name, (make, search) in self.ways.items():
-                self._follow(name, make(design), search, watch)
+                self._follow(name, made_study(make, design), search, watch)
             self.runner.status.value = f"all fronts are there: {time.monotonic() - began:.1f} s elapsed"
         except Stopped:
             self.runner.status.value = "stopped"

@@ -7,8 +7,10 @@ from typing import Any
 
 import ipywidgets as w
 
+from ..kinds import refuse_arguments
 from ..plot.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
 from ..side_by_side import SideBySide, side_by_side
+from ..study import Study
 from .controls import Download, banner, bar_html, tables_html, tell
 from .explore import Explorer
 from .panel import Panel
@@ -27,7 +29,8 @@ class Tray(Panel):
     the best of a line can be marked.
     """
 
-    def __init__(self, explorer: Explorer, study: Any = None) -> None:
+    def __init__(self, explorer: Explorer, study: Study | None = None) -> None:
+        refuse_arguments(Tray.__init__, locals())
         self.explorer, self.study = explorer, study
         self.designs: dict[str, Any] = {}
         self._analyses: dict[str, Any] = {}
@@ -115,7 +118,7 @@ class Tray(Panel):
         return self.markdown() if self.designs else "no design is kept yet"
 
 
-def _measures(explorer: Explorer, study: Any) -> tuple[Any, ...]:
+def _measures(explorer: Explorer, study: Study | None) -> tuple[Any, ...]:
     """The study's objectives and limits, then the explorer's measures."""
     told = (*study.minimise, *(m for m, _, _ in study.limits)) if study else ()
     return tuple(dict.fromkeys(m if m.sign > 0 else -m for m in (*told, *explorer.measures)))
@@ -126,6 +129,6 @@ def _close(row: w.HBox) -> None:
         widget.close()
 
 
-def tray(explorer: Explorer, study: Any = None) -> Tray:
+def tray(explorer: Explorer, study: Study | None = None) -> Tray:
     """A tray for up to five designs of ``explorer``, compared in a table and a picture, saved as a file (`Tray`)."""
     return Tray(explorer, study)

@@ -7,6 +7,7 @@ from typing import Any
 
 import ipywidgets as w
 
+from ..kinds import refuse_arguments
 from .number import NumberBox
 
 KINDS = (
@@ -43,6 +44,7 @@ def try_everything(panel: w.Box) -> str:
 
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back.
     """
+    refuse_arguments(try_everything, locals())
     controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
     with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
         for control in controls:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..contact import LineContact, contact_modulus, hertz_line
+from ..kinds import applied, numbers, refuse_arguments, shown
 from ..quantities import Design, fails, quantity
 
 
@@ -100,6 +101,9 @@ def torque_balance(cam_angle: Any, torque: Any) -> TorqueBalance:
     >>> print(f"{balance.mean:.4f} N m, {balance.swing:.4f} J")
     5.0000 N m, 4.0000 J
     """
+    cam_angle, torque = numbers(cam_angle, "the cam angles"), numbers(torque, "the torque")
+    if cam_angle.shape[-1:] != torque.shape[-1:] or cam_angle.ndim > torque.ndim or not torque.size:
+        raise ValueError(f"the torque is {shown(torque)}, the cam angles are {shown(cam_angle)}; each needs the other")
     step, middle = np.diff(cam_angle, axis=-1), (torque[..., 1:] + torque[..., :-1]) / 2
     span = step.sum(-1)
     mean = (middle * step).sum(-1) / span
@@ -133,5 +137,7 @@ def contact_along(analysis: Any, pair: ContactPair) -> LineContact:
     >>> print(f"{contact_along(TranslatingRollerCam().analyse(), ContactPair()).pressure.max() / 1e6:.1f} MPa")
     230.8 MPa
     """
-    force = analysis.contact_force * analysis.loaded_flank
-    return hertz_line(force / pair.width, analysis.fit, pair.modulus)
+    refuse_arguments(contact_along, locals())
+    with applied("the contact along the cam", analysis):
+        force = analysis.contact_force * analysis.loaded_flank
+        return hertz_line(force / pair.width, analysis.fit, pair.modulus)

@@ -63,6 +63,7 @@ def in_paper_units(cam: ValveCam) -> ValveCam:
     >>> print(f"{cam.seating_slope * cam.half_angle / mm:.7f} mm")
     0.0657840 mm
     """
+    refuse_arguments(in_paper_units, locals())
     return cam.replace(seating_velocity=cam.seating_velocity * mm / deg)
 
 
@@ -128,6 +129,7 @@ def keeping_least_radius(cam: ValveCam, least: float = PAPER_LEAST_RADIUS) -> Va
     >>> print(f"{keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
     24.341 mm
     """
+    refuse_arguments(keeping_least_radius, locals())
     return cam.replace(base_radius=float(cam.analyse().base_radius_for(least)))
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..kinds import a_number, numbers, refuse_arguments
 from ..polish import SumOfResiduals
 from ..quantities import Measure, PeakMeasure
 from ..units import deg
@@ -22,7 +23,8 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
     The crank's come first, then the rocker's.  The paper's weights ``1 / f_j*`` divide by nothing where a position
     is perfect; without ``weights`` each counts 1.
     """
-    w = np.asarray(1.0 if weights is None else weights, dtype=float)
+    a_number(target, "the pressure angle that is aimed at")
+    w = numbers(1.0 if weights is None else weights, "the weights of the positions")
     if not (np.isfinite(w).all() and (w >= 0).all()):
         raise ValueError("the weights of the positions must be finite, none negative")
 
@@ -35,15 +37,15 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
 
 def departure(target: float = TARGET, weights: Any = None) -> Measure:
     """The paper's objective ``sum_j w_j (|alpha_1j - target| + |alpha_2j - target|)``."""
-    name = _name("pressure angles off", target, weights)
-    return SumOfResiduals(name, "deg", departures(target, weights), made=_made("departure", target, weights))
+    of, name = departures(target, weights), _name("pressure angles off", target, weights)
+    return SumOfResiduals(name, "deg", of, made=_made("departure", target, weights))
 
 
 def excess(target: float = TARGET, weights: Any = None) -> Measure:
     """The same sum over the pressure angles above ``target`` only: a smaller one is no fault."""
-    name = _name("pressure angles above", target, weights)
+    of, name = departures(target, weights), _name("pressure angles above", target, weights)
     made = _made("excess", target, weights)
-    return SumOfResiduals(name, "deg", departures(target, weights), above_only=True, made=made)
+    return SumOfResiduals(name, "deg", of, above_only=True, made=made)
 
 
 def largest_departure(target: float = TARGET, weights: Any = None) -> Measure:
@@ -63,12 +65,14 @@ def _name(what: str, target: float, weights: Any) -> str:
 
 def room_in(box: Box) -> Measure:
     """How far the centre lines of all links stay within a box, from the nearest wall; < 0 where one leaves it."""
+    refuse_arguments(room_in, locals())
     made = ("room in", tuple(box.low), tuple(box.high), box.name)
     return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)), made=made)
 
 
 def clearance_from(box: Box) -> Measure:
     """How far the centre lines of all links stay clear of a box; < 0 where one enters it."""
+    refuse_arguments(clearance_from, locals())
     made = ("clearance from", tuple(box.low), tuple(box.high), box.name)
 
     def clearance(analysis: Any) -> Any:

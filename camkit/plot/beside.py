@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..geometry import circle, rotated
+from ..kinds import refuse_empty, refuse_kinds
+from ..quantities import PeakMeasure
 from ..units import deg, factor, mm
 from .artists import BLUE, GREEN, GREY, INK, PALE, PURPLE, area, beside_title, colours, frame, line, new, text
 
@@ -24,7 +26,12 @@ class Beside:
     """Analyses of cams by name, and the peak whose curves are compared."""
 
     analyses: Mapping[str, Any]
-    peak: Any = None
+    peak: PeakMeasure | None = None
+    """Without one, only the cams can be drawn."""
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        refuse_empty(self.analyses, "analyses")
 
 
 def cams_beside(shown: Beside, ax: Axes, turn: float = 0.0) -> Axes:
@@ -68,6 +75,8 @@ def _cam(ax: Axes, name: str, analysis: Any, turn: float, x: float, colour: str)
 def curves_beside(shown: Beside, ax: Axes) -> Axes:
     """The curve whose largest value is the peak, for each cam over its turn; the largest value as a line."""
     peak, first = shown.peak, new(ax)
+    if peak is None or peak.angle is None:
+        raise ValueError("there is no peak, with an angle for its curve, whose curves could be compared")
     if first:
         frame(ax, peak.name[:1].upper() + peak.name[1:], "cam angle  [deg]", peak.label)
     for (name, analysis), colour in zip(shown.analyses.items(), colours(len(shown.analyses), SHADES), strict=True):

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_arguments, refuse_empty
+from ..optimise import Generation
 from ..units import in_unit
 from .artists import BLUE, GREY, beside_title, frame, line, new
 
 
-def convergence(generations: Sequence[Any], ax: Axes) -> Axes:
+def convergence(generations: Sequence[Generation], ax: Axes) -> Axes:
     """Best and mean of the first objective in every generation of a search, designs that cannot be built left out."""
+    refuse_arguments(convergence, locals())
+    refuse_empty(generations, "generations")
     measure = generations[0].study.minimise[0]
     built = [g.evaluation.f[np.isfinite(g.evaluation.f[:, 0]), 0] for g in generations]
     numbers = [g.number for g in generations]

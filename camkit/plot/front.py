@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import numbers, refuse_empty, refuse_kinds, shown
+from ..optimise import Front
 from ..units import factor
 from .artists import BLUE, GREY, INK, WARNING, colours, line, new, plain, text
 
@@ -17,11 +19,24 @@ from .artists import BLUE, GREY, INK, WARNING, colours, line, new, plain, text
 class ShownFront:
     """A front with what is marked on it: indices of the design in the sliders and of the winner."""
 
-    front: Any
+    front: Front
     selected: int | None = None
     winner: int | None = None
     start: Any = None
     """Objectives of the starting design, ``(k,)``."""
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for what, place in (("selected design", self.selected), ("winner", self.winner)):
+            if place is not None and not 0 <= place < len(self.front):
+                raise ValueError(f"the {what} is {place}; there are {len(self.front)} designs, counted from 0")
+        _refuse_objectives(self.start, "starting design", self.front)
+
+
+def _refuse_objectives(at: Any, what: str, front: Front) -> None:
+    """``ValueError`` for objectives of a design that are not a number for each of the front's."""
+    if at is not None and numbers(at, f"the objectives of the {what}").shape != (len(front.study.minimise),):
+        raise ValueError(f"the objectives of the {what} are {shown(at)}; there must be {len(front.study.minimise)}")
 
 
 def shown_objectives(front: Any) -> np.ndarray:
@@ -69,10 +84,17 @@ def _name_axes(ax: Axes, objectives: Any) -> None:
 class ShownFronts:
     """Fronts of the same objectives by name, and the objectives of two single designs, ``(k,)``."""
 
-    fronts: Mapping[str, Any]
+    fronts: Mapping[str, Front]
     start: Any = None
     here: Any = None
     """Of the design in the sliders."""
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        refuse_empty(self.fronts, "fronts")
+        for front in self.fronts.values():
+            _refuse_objectives(self.start, "starting design", front)
+            _refuse_objectives(self.here, "design in the sliders", front)
 
 
 MARKS: Any = (

@@ -12,6 +12,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..geometry import circle, rotated
+from ..kinds import refuse_arguments, refuse_empty
+from ..minimum import Minimum
 from ..units import deg, factor, mm
 from .artists import (
     BLUE,
@@ -240,8 +242,10 @@ CAM_LEVER_VIEWS = (
 """What a designer of a cam with lever wants to see at once."""
 
 
-def radius_sweep(found: Sequence[Any], ax: Axes) -> Axes:
+def radius_sweep(found: Sequence[Minimum], ax: Axes) -> Axes:
     """The least objective of several results of `minimise` over the largest radius that each was allowed."""
+    refuse_arguments(radius_sweep, locals())
+    refuse_empty(found, "results")
     measure = found[0].study.minimise[0]
     if new(ax):
         frame(ax, "What a larger cam buys", "largest radius allowed  [mm]", axis_label(measure))

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import numbers, refuse_arguments, shown
 from ..units import factor
 from .artists import COLOURS, GREY, beside_title, frame, line, new
 from .front import ShownFront, _name_axes, pareto, shown_objectives
@@ -46,6 +48,10 @@ def searches_compared(searches: Mapping[str, Any], ax: Axes) -> Axes:
 
     ``searches``: pairs of processor seconds and missing share of the hypervolume, ``(k, 2)``, by name.
     """
+    refuse_arguments(searches_compared, locals())
+    for name, points in searches.items():
+        if np.shape(numbers(points, f"the points of {name}"))[1:] != (2,):
+            raise ValueError(f"the points of {name} are {shown(points)}; they must be pairs of seconds and shares")
     first = new(ax)
     if first:
         frame(ax, "How fast a front is found", "processor time  [s]", "hypervolume still missing  [%]")

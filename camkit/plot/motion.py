@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_kinds
 from ..motion import Kinematics, Law, MotionProgram, residual_vibration
 from ..units import deg, factor
 from .artists import BLUE, COLOURS, GREEN, GREY, INK, ORANGE, PURPLE, WARNING, frame, line, new
@@ -130,6 +131,12 @@ class ShownVibration:
     laws: tuple[Law, ...]
     fastest: float = 0.5
     slowest: float = 12.0
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        if not 0 < self.fastest < self.slowest:
+            told = f"{self.fastest:g} to {self.slowest:g}"
+            raise ValueError(f"the period ratios go from {told}; both must be above 0, the first below the second")
 
     @cached_property
     def tau(self) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ..kinds import a_number, applied, refuse_arguments
+from ..study import refuse_limits
 from ..units import deg
 from .artists import STYLE
 
 View = Callable[..., Axes]
+LARGEST = 100
+"""No figure is wider or higher, inches."""
 
 
 class Picture(Figure):
@@ -56,6 +60,10 @@ def layout(
     views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100
 ) -> tuple[Picture, list[Axes]]:
     """A figure with one pair of axes for each view: the first large on the left, the others in two columns."""
+    if not views:
+        raise ValueError("the picture needs one or more views")
+    for name, size in (("width", width), ("height", height)):
+        a_number(size, f"the {name} of the picture", f"be from 0.1 to {LARGEST} inches", lambda s: 0.1 <= s <= LARGEST)
     with rc_context(STYLE):
         figure = Picture(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(figure)
@@ -87,16 +95,32 @@ def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: An
     with rc_context(STYLE):
         for view, ax in zip(views, axes, strict=True):
             takes = inspect.signature(view).parameters
-            view(analysis, ax, **{name: value for name, value in asked.items() if name in takes})
+            with applied(f"the view {_name(view)}", analysis):
+                view(analysis, ax, **{name: value for name, value in asked.items() if name in takes})
 
 
-def picture(shown: Any, *views: View, width: float = 12.6, height: float = 7.0, **asked: Any) -> Picture:
+def _name(view: View) -> str:
+    return getattr(view, "__name__", "that is given").replace("_", " ")
+
+
+def picture(
+    shown: Any,
+    *views: View,
+    width: float = 12.6,
+    height: float = 7.0,
+    turn: float | None = None,
+    azimuth: float | None = None,
+    elevation: float | None = None,
+    limits: Mapping[Any, float] | None = None,
+) -> Picture:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
 
-    ``asked`` is what the views ask for: ``turn``, ``azimuth``, ``elevation`` (rad), ``limits`` (see `draw`).
+    ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
     """
-    if not views:
-        raise ValueError("the picture needs one or more views")
+    refuse_arguments(picture, locals())
+    refuse_limits(limits or {})
+    given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
+    asked = {name: value for name, value in given.items() if value is not None}
     figure, axes = layout(views, width, height)
     draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **asked)
     return figure

@@ -12,6 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
+from ..kinds import refuse_arguments
+from ..plane import Plane
 from ..quantities import words
 from ..study import KEPT
 from ..units import factor
@@ -46,11 +48,12 @@ def _joined(pieces: Sequence[Any]) -> np.ndarray:
     return np.concatenate([row for piece in pieces for row in (piece, NOTHING.T)])[:-1].T
 
 
-def design_plane(plane: Any, ax: Axes, names: Sequence[str] | None = None) -> Axes:
+def design_plane(plane: Plane, ax: Axes, names: Sequence[str] | None = None) -> Axes:
     """A `Plane`: the objective's contours, a curve for each limit, the feasible region, bounds, the best design.
 
     ``names`` says what the limits' curves are called (default: their measures' names).
     """
+    refuse_arguments(design_plane, locals())
     units = np.array([q.factor for q in plane.declared])[:, None]
     x, y = plane.axes / units
     if new(ax):

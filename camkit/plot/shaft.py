@@ -10,7 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..geometry import circle
+from ..kinds import refuse_arguments
 from ..quantities import Measure, Quantity, declarations, words
+from ..shaft import UniversalJointShaft
 from ..units import factor, mm, percent, rpm
 from .artists import (
     BLUE,
@@ -82,8 +84,10 @@ def diameters(analysis: Any, ax: Axes) -> Axes:
     return ax
 
 
-def on_the_plane(tubes: Mapping[str, Any], window: Any) -> Callable[[Any, Axes], Axes]:
+def on_the_plane(tubes: Mapping[str, UniversalJointShaft], window: Any) -> Callable[[Any, Axes], Axes]:
     """A view of part of the plane of both diameters (``window``, ``(2, 2)`` m) with named tubes on it."""
+
+    refuse_arguments(on_the_plane, locals())
 
     def marked(analysis: Any, ax: Axes) -> Axes:
         design_plane(replace(analysis.sizes.plane, window=window), ax, _limit_names(analysis.shaft))
@@ -165,6 +169,8 @@ def candidates(name: str | None = None, optimum: float | None = None) -> Callabl
 
     ``name`` is a free quantity, or the objective if none is said; ``optimum`` (SI) is drawn if it is known.
     """
+
+    refuse_arguments(candidates, locals())
 
     def paths(search: Any, ax: Axes) -> Axes:
         study, (x, f) = search.problem.study, search.paths

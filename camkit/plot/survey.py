@@ -9,6 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
+from ..kinds import numbers, refuse_kinds, shown
+from ..plane import Plane
 from ..quantities import words
 from ..units import factor
 from .artists import BLUE, INK, WARNING, area, frame, line, new, plain, text
@@ -30,9 +32,15 @@ VALUE: Any = {
 class ShownPlane:
     """A `Plane` with what is marked on it: free values of the design in the sliders and of the optimum, SI."""
 
-    plane: Any
+    plane: Plane
     here: Any = None
     best: Any = None
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for name, at in (("design in the sliders", self.here), ("optimum", self.best)):
+            if at is not None and numbers(at, f"the {name}").shape != (2,):
+                raise ValueError(f"the {name} is {shown(at)}; it must be two numbers, or None")
 
 
 def objective_plane(shown: ShownPlane, ax: Axes) -> Axes:

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_arguments
 from ..quantities import words
-from ..study import Study
+from ..study import Study, made_study
 from ..sweep import Sweep
 from .artists import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, area, colours, frame, line, new, text
 
@@ -54,7 +55,9 @@ def _bands(x: np.ndarray, kept: np.ndarray) -> np.ndarray:
 def sweep_view(make: Callable[[Any], Study]) -> Callable[..., Axes]:
     """A view for a live panel: the sweep of ``make(cam)``, a study with one free quantity around the design shown."""
 
+    refuse_arguments(sweep_view, locals())
+
     def view(analysis: Any, ax: Axes) -> Axes:
-        return limit_sweep(Sweep(make(analysis.cam)), ax)
+        return limit_sweep(Sweep(made_study(make, analysis.cam)), ax)
 
     return view

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_arguments
+from ..optimise import Front
 from ..quantities import Measure, words
 from ..tolerance import Curve, Tolerances
 from ..units import deg, factor
@@ -18,11 +20,13 @@ from .picture import View
 
 def band(curve: Curve) -> View:
     """A view of ``curve`` as it was drawn, and of where the curves of 95 % and of half of the parts lie."""
+    refuse_arguments(band, locals())
     return lambda tolerances, ax: _band(tolerances, ax, curve, 0.0)
 
 
 def deviation(curve: Curve) -> View:
     """A view of how far the parts' curves lie from ``curve`` as it was drawn."""
+    refuse_arguments(deviation, locals())
     return lambda tolerances, ax: _band(tolerances, ax, curve, curve.values(tolerances.nominal))
 
 
@@ -53,11 +57,12 @@ def _between(x: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
     return np.array([np.append(x, x[::-1]), np.append(low, high[::-1])])
 
 
-def cloud(front: Any = None) -> View:
+def cloud(front: Front | None = None) -> View:
     """A view of every part in the first two objectives, beside ``front``; what misses a limit is vermilion.
 
     With one objective: which share of the parts stays below each of its values.
     """
+    refuse_arguments(cloud, locals())
     return lambda tolerances, ax: _cloud(tolerances, ax, front)
 
 

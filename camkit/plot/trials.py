@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..kinds import refuse_arguments, refuse_empty
+from ..trials import Trials
 from .artists import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, line, new, plain, text
 
 STYLES: Any = (
@@ -31,11 +33,13 @@ def _percent(target: float) -> str:
     return f"{100 * target:g} %"
 
 
-def evaluations_needed(trials: Sequence[Any], ax: Axes) -> Axes:
+def evaluations_needed(trials: Sequence[Trials], ax: Axes) -> Axes:
     """Trials of several methods on one problem: every run a dot, the quartiles of all runs a box, the median a bar.
 
     Filled dots: to 1 %; hollow ones: to 0.1 %.  Runs that did not arrive count as beyond the budget.
     """
+    refuse_arguments(evaluations_needed, locals())
+    refuse_empty(trials, "trials")
     budget = trials[0].budget
     if new(ax):
         ax.set_title(plain(trials[0].problem) + ": to 1 % (filled) and to 0.1 % (hollow)")
@@ -76,10 +80,12 @@ def _box(ax: Axes, key: str, y: float, trials: Any, target: float, colour: str, 
     )
 
 
-def solved_within(target: float, problem: str | None = None) -> Callable[[Sequence[Any], Axes], Axes]:
+def solved_within(target: float, problem: str | None = None) -> Callable[[Sequence[Trials], Axes], Axes]:
     """A view of trials: the share of a method's runs that arrived, over evaluations; of all problems or of one."""
 
-    def shares(trials: Sequence[Any], ax: Axes) -> Axes:
+    refuse_arguments(solved_within, locals())
+
+    def shares(trials: Sequence[Trials], ax: Axes) -> Axes:
         first, budget = new(ax), trials[0].budget
         methods = dict.fromkeys(t.method for t in trials)
         for method, style in zip(methods, STYLES[: len(methods)], strict=True):

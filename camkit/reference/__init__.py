@@ -29,6 +29,6 @@ def as_printed(name: str) -> Any:
 
 def _text(name: str) -> str:
     there = {file.name[:-5]: file for file in files(__package__).iterdir() if file.name.endswith(".json")}
-    if name not in there:
+    if not isinstance(name, str) or name not in there:
         raise ValueError(f"there is no reference {name!r}; there are {', '.join(sorted(there))}")
     return there[name].read_text(encoding="utf-8")
