@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from . import kinds
 from .decision import METHODS, judgement_matrix, typed_judgement
 from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number, key
 from .json_file import MOST_BYTES, content_of, digest_remarks, shown, signed, text_of
@@ -84,7 +85,9 @@ def save(thing: Any, path: str | Path) -> None:
 
 def _path(path: Any) -> Path:
     if not isinstance(path, (str, os.PathLike)) or not Path(path).name:
-        raise ValueError(f"the path of the file is {shown(path)}; it must be a text such as 'design.json', or a Path")
+        raise ValueError(
+            f"the path of the file is {kinds.shown(path)}; it must be a text such as 'design.json', or a Path"
+        )
     return Path(path)
 
 
@@ -99,6 +102,7 @@ def load(
     ``kind`` and ``measures`` are those of `read`.
     """
     path = _path(path)
+    kinds.refuse_arguments(load, locals())
     with path.open("rb") as file:
         found = read(file.read(MOST_BYTES + 1), kind, measures)
     for remark in found.remarks:
@@ -131,7 +135,7 @@ def _content(thing: Any) -> dict[str, Any]:
         return {"work": _work_entry(thing)}
     if _is_front(thing):
         return {"front": _front_entry(thing)}
-    raise ValueError(f"this is a {type(thing).__name__}; a design, a front or a Work can be saved")
+    raise ValueError(f"this is {kinds.shown(thing)}; a design, a front or a Work can be saved")
 
 
 def from_json(file: str | bytes, kind: type | None = None, measures: Iterable[Measure] = ()) -> Any:

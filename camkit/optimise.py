@@ -163,6 +163,7 @@ def reference_point(study: Study, n: int = 256) -> np.ndarray:
 
     It depends on the study alone, so hypervolumes of different searches can be compared.
     """
+    refuse_arguments(reference_point, locals())
     unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
     evaluation = study.evaluate(qmc.scale(unit, *study.bounds))
     usable = evaluation.feasible if evaluation.feasible.any() else np.isfinite(evaluation.f).all(-1)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from .cam.flank import flanks
-from .kinds import shown
+from .kinds import refuse_arguments, shown
 from .markup import csv_cell
 from .units import in_unit
 
@@ -20,7 +20,7 @@ TEXT = 2.5
 """Height of the sentence on that layer, mm."""
 
 
-def table_csv(columns: Mapping[str, Any]) -> str:
+def table_csv(columns: Mapping[str, Sequence[Any]]) -> str:
     """Columns of numbers (in the units that their headings name) or words as CSV text, numbers with six decimals.
 
     >>> print(table_csv({"cam angle [deg]": [0, 1], "lift [mm]": [0.0, 1 / 3]}), end="")
@@ -28,6 +28,12 @@ def table_csv(columns: Mapping[str, Any]) -> str:
     0.000000,0.000000
     1.000000,0.333333
     """
+    refuse_arguments(table_csv, locals())
+    lengths = {len(column) for column in columns.values()}
+    if len(lengths) != 1:
+        raise ValueError(
+            f"the columns have {' and '.join(map(str, sorted(lengths))) or 'no'} rows; they need as many each"
+        )
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(map(csv_cell, columns))

@@ -54,6 +54,8 @@ def shrinking_step(room: Any, draw: Any, done: float, shape: float) -> Any:
     """
     refuse_arguments(shrinking_step, locals())
     room, draw = numbers(room, "the room"), numbers(draw, "the draw")
+    if not (0 <= done <= 1 and ((draw >= 0) & (draw <= 1)).all()):
+        raise ValueError("the draw and the share of the generations that are over must be from 0 to 1")
     return room * (draw * (1 - done)) ** shape
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import binomtest, mannwhitneyu
 
 from .comparison import Table
-from .kinds import refuse_arguments, refuse_empty
+from .kinds import listed, one_number, refuse_arguments, refuse_empty
 from .reference import load
 
 
@@ -111,6 +111,8 @@ def trial_table(trials: Sequence[Trials], targets: Sequence[float] = (0.01, 0.00
     """
     refuse_arguments(trial_table, locals())
     refuse_empty(trials, "trials")
+    for target in listed(targets, "the targets"):
+        one_number(target, "a target")
     words = ("arrived", "rate, 95 %", "median", "for each")
     head = ("method", *(f"to {100 * target:g} %: {word}" for target in targets for word in words))
     rows = [(t.method, *(cell for target in targets for cell in _cells(t, target))) for t in trials]

@@ -80,12 +80,18 @@ FACTORS = {
 
 def factor(unit: str) -> float:
     """The SI value of one ``unit``; a ``ValueError`` names the units there are."""
-    if not isinstance(unit, str) or unit not in FACTORS:
+    if not isinstance(unit, str):
+        raise ValueError(f"the unit must be a text; there are {', '.join(filter(None, FACTORS))}")
+    if unit not in FACTORS:
         raise ValueError(f"the unit {unit!r} is not known; there are {', '.join(filter(None, FACTORS))}")
     return FACTORS[unit]
 
 
 def in_unit(value: Any, unit: str) -> Any:
     """``value`` (SI, number or array) expressed in ``unit``, free of the last digit's noise for a number."""
-    shown = value / factor(unit)
+    si = factor(unit)
+    try:
+        shown = value / si
+    except (TypeError, OverflowError):
+        raise ValueError(f"what is to be shown in {unit} is no number that a computer can hold") from None
     return float(f"{shown:.15g}") if isinstance(shown, float) else shown

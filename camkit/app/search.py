@@ -665,6 +665,12 @@ def _short(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
-def search(explorer: Explorer, studies: Mapping[str, MakeStudy], **options: Any) -> Search:
+def search(
+    explorer: Explorer,
+    studies: Mapping[str, MakeStudy],
+    space: Mapping[str, tuple[float, float]],
+    free: Sequence[str],
+    **options: Any,
+) -> Search:
     """A panel that searches around the design in ``explorer`` and helps to choose from the front (see `Search`)."""
-    return Search(explorer, studies, **options)
+    return Search(explorer, studies, space, free, **options)

@@ -6,6 +6,8 @@ import json
 from importlib.resources import files
 from typing import Any
 
+from ..kinds import shown
+
 
 def load(name: str) -> Any:
     """The data file ``name``, for instance ``"door_handle"``.
@@ -30,5 +32,5 @@ def as_printed(name: str) -> Any:
 def _text(name: str) -> str:
     there = {file.name[:-5]: file for file in files(__package__).iterdir() if file.name.endswith(".json")}
     if not isinstance(name, str) or name not in there:
-        raise ValueError(f"there is no reference {name!r}; there are {', '.join(sorted(there))}")
+        raise ValueError(f"there is no reference {shown(name)}; there are {', '.join(sorted(there))}")
     return there[name].read_text(encoding="utf-8")

@@ -1,0 +1,328 @@
+"""Every public name, panels and pictures too, by every argument: it works, or refuses a wrong kind in a sentence.
+
+The names are found: what ``camkit`` lists, what a notebook imports, and all that the modules in `WINGS` have.  A new
+one is called with its defaults and with what `GOOD` has for an argument of its name.
+"""
+
+import ast
+import inspect
+import json
+from functools import cache, partial
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_kinds import BAD, CLASSES, FUNCTIONS, NOT_MADE_BY_HAND, outcome
+
+import camkit
+from camkit import Box, Curve, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
+from camkit.optimise import front_of, nsga2_generations
+from camkit.plot.beside import Beside
+from camkit.plot.cam import pressure_angle
+from camkit.shaft import standard_tubes
+from camkit.trials import measured_trials
+
+NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
+WINGS = [
+    "app",
+    "competitive",
+    "cycle_time",
+    "decision",
+    "optimise",
+    "plane",
+    "plot.picture",
+    "polish",
+    "shaft",
+    "side_by_side",
+    "sweep",
+    "tolerance",
+    "toolbox_genetic",
+    "trade_offs",
+    "trials",
+]
+RESULTS = NOT_MADE_BY_HAND | {
+    *("Evaluation", "Generation", "IntervalStep", "Judgement", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
+    *("Polished", "Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
+} - {"Front"}  # fmt: skip
+"""What functions give, and nobody makes."""
+INSIDE = {
+    "few_colours",
+    "pixels",
+    "encoded",
+    "small_png",
+    "below",
+    "strip",
+    "layout",
+    "draw",
+    "positions_of",
+    "on_grid",
+}
+"""How a picture is put together, and a search."""
+RUBBISH = {
+    name: BAD[name]
+    for name in (
+        *("nan", "-1", "2.5", "1e160", "10**400", "True", "None", "text", "no list", "list"),
+        *("tuple of text", "mapping", "object", "class", "function", "shape (2, 3)", "array of objects"),
+    )
+}  # fmt: skip
+
+
+def _imported():
+    """Where a notebook imports a name from, and the name."""
+    for notebook in NOTEBOOKS:
+        for cell in json.loads(notebook.read_text(encoding="utf-8"))["cells"]:
+            if cell["cell_type"] == "code":
+                for node in ast.walk(ast.parse("".join(cell["source"]))):
+                    if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("camkit"):
+                        yield from ((node.module, alias.name) for alias in node.names)
+
+
+def _public():
+    """Every public callable by its name."""
+    found = {("camkit", name) for name in camkit.__all__} | set(_imported())
+    for module in (import_module(f"camkit.{wing}") for wing in WINGS):
+        own = getattr(module, "__all__", None) or [
+            name for name, thing in vars(module).items() if getattr(thing, "__module__", "") == module.__name__
+        ]
+        found |= {(module.__name__, name) for name in own if name[0] != "_"}
+    every = ((getattr(import_module(module), name, None), name) for module, name in sorted(found))
+    things = {thing: name for thing, name in every if callable(thing)}
+    tested = {thing.__qualname__ for thing in (*CLASSES, *FUNCTIONS)}
+    return {
+        f"{thing.__module__.removeprefix('camkit.')}.{name}": thing
+        for thing, name in things.items()
+        if getattr(thing, "__qualname__", None) not in tested and name not in RESULTS | INSIDE and _arguments(thing)
+    }
+
+
+def _arguments(thing):
+    """The arguments of a function that can be refused; of a view what it shows, the rest being the picture's."""
+    try:
+        parameters = inspect.signature(thing).parameters.values()
+    except ValueError:  # of a class of exceptions
+        return {}
+    own = {p.name: p for p in parameters if p.kind is not p.VAR_KEYWORD}
+    return dict(list(own.items())[:1]) if "ax" in own else own
+
+
+CAM = TranslatingRollerCam()
+height = Measure("height", "mm", lambda analysis: analysis.pitch_radius.max(-1))
+slope = PeakMeasure("slope", "deg", lambda analysis: abs(analysis.pressure_angle), angle=lambda a: a.cam_angle)
+STUDY = Study(CAM, ["base_radius"], [height], at_most={slope: 60 * deg}, angles=31)
+TWO = STUDY.replace(minimise=(height, slope), at_most={})
+FRONT = front_of(TWO.evaluate([[0.03], [0.04], [0.05]]), TWO)
+BOX = Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+SPACE = {"base_radius": (0.02, 0.05)}
+LEVER = partial(camkit.cam_lever_study, free_laws=False, angles=31)
+SHAFT = camkit.shaft_study()
+TUBES = standard_tubes()
+TRIALS = measured_trials("tension spring")
+
+
+def two(start, reference=None, space=SPACE):
+    return TWO.replace(start=start, free=space)
+
+
+def one(start, method="slsqp"):
+    return STUDY.replace(start=start)
+
+
+def plain_lever(start, **_):
+    return LEVER(start)
+
+
+def over_two(start, weights):
+    """One objective over two quantities."""
+    return STUDY.replace(start=start, free={**SPACE, "roller_radius": (0.005, 0.01)})
+
+
+@cache
+def app(name="roller"):
+    """An explorer."""
+    kind = {"roller": TranslatingRollerCam, "lever": camkit.CamLever}[name]
+    return explore(kind(), pressure_angle, free=["roller_radius"], width=4, height=3)
+
+
+@cache
+def search():
+    """A panel with a front, which nobody has searched yet."""
+    return camkit.search(app(), {"two": two}, space=SPACE, free=("base_radius",))
+
+
+@cache
+def generation():
+    """The first step of a search."""
+    return next(nsga2_generations(TWO, 4, 1, 1))
+
+
+GOOD = {
+    "analyses": lambda: {"one": CAM.analyse(31)},
+    "analysis": lambda: CAM.analyse(31),
+    "at_least": dict,
+    "at_most": lambda: {height: 0.06},
+    "best": lambda: 0.5,
+    "box": lambda: BOX,
+    "cam": camkit.ValveCam,
+    "cam_angle": lambda: np.linspace(0, 2 * np.pi, 31),
+    "choices": dict,
+    "columns": lambda: {"angle": [0.0, 1.0]},
+    "count": lambda: 3,
+    "curve": lambda: Curve("pressure_angle", "deg", "pressure angle"),
+    "declared": lambda: camkit.quantities.declarations(CAM)["base_radius"],
+    "design": lambda: CAM,
+    "done": lambda: 0.5,
+    "draw": lambda: 0.5,
+    "explorer": app,
+    "f": lambda: [[0.0, 1.0], [1.0, 0.0]],
+    "first": lambda: TRIALS[0],
+    "free": lambda: ("base_radius",),
+    "found": lambda: [camkit.minimise(LEVER())],
+    "front": lambda: FRONT,
+    "fronts": lambda: {"one": FRONT},
+    "generations": lambda: 1,
+    "half_widths": lambda: {"base_radius": 0.0002},
+    "head": lambda: ("law", "Cv"),
+    "judgements": lambda: [3],
+    "k": lambda: 2,
+    "laws": lambda: (camkit.Cycloidal(),),
+    "limit": lambda: 1e6,
+    "longest": lambda: 1.0,
+    "make": lambda: one,
+    "matrices": lambda: [[1, 3], [1 / 3, 1]],
+    "names": lambda: ("a", "b"),
+    "pair": camkit.ContactPair,
+    "panel": app,
+    "peak": lambda: slope,
+    "plane": lambda: camkit.Plane(SHAFT, n=5),
+    "population": lambda: 4,
+    "problem": lambda: "tension spring",
+    "program": lambda: CAM.motion,
+    "room": lambda: 8.0,
+    "rows": lambda: [("cycloidal", 2.0)],
+    "searches": lambda: {"one": [(0.1, 0.2), (0.2, 0.1)]},
+    "second": lambda: TRIALS[1],
+    "seed": lambda: 1,
+    "series": lambda: "EN 10210-2",
+    "shaft": camkit.UniversalJointShaft,
+    "shape": lambda: 3.0,
+    "share": lambda: 0.5,
+    "shares": lambda: [0.1],
+    "shortest": lambda: 0.9,
+    "source": search,
+    "space": lambda: SPACE,
+    "steps": lambda: 2,
+    "studies": lambda: {"two": two},
+    "study": lambda: TWO,
+    "target": lambda: 0.01,
+    "on_the_plane.tubes": lambda: {"a tube": camkit.UniversalJointShaft()},
+    "tolerances": lambda: camkit.Tolerances(STUDY, {"base_radius": 0.001}, parts=64),
+    "torque": lambda: np.ones(31),
+    "trials": lambda: TRIALS[:2],
+    "tubes": lambda: TUBES,
+    "unit": lambda: "mm",
+    "value": lambda: 0.03,
+    "views": lambda: (pressure_angle,),
+    "weights": lambda: None,
+    "words": lambda: "1/3",
+    "methods": lambda: ("slsqp",),
+    "path": lambda: "a design.json",
+    "shown": lambda: CAM,
+    "start": lambda: None,
+    "thing": lambda: CAM,
+    "ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
+    "worst": lambda: (0.1, 2.0),
+    # where an argument of the same name is something else
+    "Curve.name": lambda: "pressure_angle",
+    "Curve.label": lambda: "pressure angle",
+    "CycleTime.explorer": lambda: app("lever"),
+    "CycleTime.make": lambda: plain_lever,
+    "Front.f": lambda: FRONT.f,
+    "Front.x": lambda: FRONT.x,
+    "Survey.studies": lambda: {"one": over_two},
+    "Survey.weights": lambda: {"height": 1.0},
+    "Trade.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "reference.load.name": lambda: "door_handle",
+    "improve.explorer": app,
+    "shorten.explorer": lambda: app("lever"),
+    "shorten.make": lambda: plain_lever,
+    "shortest_interval.study": lambda: LEVER(),
+    "survey.studies": lambda: {"one": over_two},
+    "survey.weights": lambda: {"height": 1.0},
+    "trade.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "Tolerated.study": lambda: STUDY,
+    "Work.search": dict,
+    "Work.judgements": dict,
+    "lightest_tube.study": lambda: camkit.shaft_study(space={name: (0.05, 0.2) for name in SHAFT.free}),
+    "crossed.first": lambda: 0.0,
+    "crossed.second": lambda: 10.0,
+    "convergence.generations": lambda: [generation()],
+    "cams_beside.shown": lambda: Beside({"one": camkit.HighSpeedCam().analyse()}, slope),
+    "curves_beside.shown": lambda: Beside({"one": CAM.analyse(31)}, slope),
+    "departure.target": lambda: 0.5,
+}
+"""Right values by the name of an argument, or of a function and its argument."""
+
+
+def good(name, parameter):
+    """What is right for an argument."""
+    for key in (f"{name}.{parameter.name}", f"{name.rpartition('.')[2]}.{parameter.name}", parameter.name):
+        if key in GOOD and (parameter.default is parameter.empty or "." in key):
+            return GOOD[key]()
+    assert parameter.default is not parameter.empty, f"GOOD says nothing of {name}.{parameter.name}"
+    return parameter.default
+
+
+def call(thing, given):
+    """``thing(**given)``, a view through a picture, a generator to its first step."""
+    parameters = inspect.signature(thing).parameters
+    if "ax" in parameters:
+        return camkit.picture(*given.values(), thing, width=3, height=2)
+    gathered = [name for name, p in parameters.items() if p.kind is p.VAR_POSITIONAL]
+    before = [name for name in given if gathered and name in list(parameters)[: list(parameters).index(gathered[0])]]
+    named = {name: value for name, value in given.items() if name not in (*before, *gathered)}
+    made = thing(*(given[name] for name in before), *(v for name in gathered for v in given[name]), **named)
+    return next(made, None) if inspect.isgenerator(made) else made
+
+
+PUBLIC = _public()
+MADE = {f"{thing.__module__}.{thing.__name__}" for thing in PUBLIC.values() if inspect.isclass(thing)}
+
+
+def _only_makes_a_panel(thing):
+    """A function that hands all that it is given to the class of a panel, which is tried itself."""
+    made = f"{thing.__module__}.{inspect.signature(thing).return_annotation}"
+    return thing.__module__.startswith(f"camkit.{WINGS[0]}.") and made in MADE
+
+
+CALLS = [
+    (n, argument) for n, thing in PUBLIC.items() if not _only_makes_a_panel(thing) for argument in _arguments(thing)
+]
+
+
+def given(name):
+    """Every argument of a public name that is not left to its default."""
+    return {n: good(name, p) for n, p in _arguments(PUBLIC[name]).items()}
+
+
+OTHERS = [name for name, thing in PUBLIC.items() if "ax" not in inspect.signature(thing).parameters]
+"""All but views, which take what another mechanism does not have; as measures do."""
+
+
+@pytest.mark.parametrize("name", [name for name in OTHERS if not isinstance(PUBLIC[name], Measure)])
+def test_every_argument_is_good_before_one_is_bad(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    camkit.save(CAM, "a design.json")
+    call(PUBLIC[name], given(name))
+
+
+@pytest.mark.parametrize(("name", "argument"), CALLS, ids=map(".".join, CALLS))
+def test_a_public_name_works_or_refuses_in_a_sentence(name, argument, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for file in ("a design.json", RUBBISH["text"]):
+        camkit.save(CAM, file)
+    right, gathers = given(name), _arguments(PUBLIC[name])[argument].kind is inspect.Parameter.VAR_POSITIONAL
+    tried = {bad: (value,) if gathers else value for bad, value in RUBBISH.items()}
+    failed = {bad: outcome(lambda v=value: call(PUBLIC[name], right | {argument: v})) for bad, value in tried.items()}
+    assert {bad: said for bad, said in failed.items() if said} == {}
