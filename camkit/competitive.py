@@ -10,7 +10,8 @@ from pymoo.core.population import Population
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
-from .kinds import refuse_arguments
+from .kinds import one_number
+from .quantities import counted
 
 
 class CompetitiveAlgorithm(Algorithm):
@@ -59,20 +60,13 @@ class CompetitiveAlgorithm(Algorithm):
         narrowing: float = 1.0,
         **kwargs: Any,
     ) -> None:
-        refuse_arguments(CompetitiveAlgorithm.__init__, {**locals(), "kwargs": {}})
         super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
-        for name, count, least in (
-            ("candidates", candidates, 1),
-            ("local voters", local_voters, 1),
-            ("global voters", global_voters, 0),
-        ):
-            if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < least:
-                raise ValueError(f"the number of {name} is {count!r}; it must be a whole number of at least {least}")
+        counted(candidates, "candidates", 1)
+        counted(local_voters, "local voters", 1)
+        counted(global_voters, "global voters", 0)
         for name, value in (("variance", variance), ("reach", reach), ("penalty", penalty)):
-            if not (np.isfinite(value) and value > 0):
-                raise ValueError(f"the {name} is {value:g}; it must be a finite number above 0")
-        if not 0 < narrowing <= 1:
-            raise ValueError(f"the narrowing is {narrowing:g}; it must be above 0 and at most 1")
+            one_number(value, f"the {name}", "be a finite number above 0", lambda v: 0 < v < np.inf)
+        one_number(narrowing, "the narrowing", "be above 0 and at most 1", lambda v: 0 < v <= 1)
         self.candidates, self.local_voters, self.global_voters = candidates, local_voters, global_voters
         self.variance, self.reach, self.penalty, self.narrowing = variance, reach, penalty, narrowing
         self._path: list[tuple[np.ndarray, np.ndarray]] = []

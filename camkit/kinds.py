@@ -70,10 +70,12 @@ def a_number(value: Any, what: str, must: str = "be a finite number", holds: Cal
     raise ValueError(f"{what} is {shown(value)}; it must {must}")
 
 
-def one_number(value: Any, what: str, must: str = "be a finite number") -> float:
-    """``value`` as a float, finite or not; ``ValueError`` for what is no single number."""
+def one_number(
+    value: Any, what: str, must: str = "be a finite number", holds: Callable[[float], bool] | None = None
+) -> float:
+    """``value`` as a float, finite or not; ``ValueError`` for what is no single number or not as ``holds`` asks."""
     known = number(value)
-    if known is None or np.ndim(known):
+    if known is None or np.ndim(known) or (holds and not holds(known)):
         raise ValueError(f"{what} is {shown(value)}; it must {must}")
     return float(known)
 

@@ -15,7 +15,7 @@ from pymoo.core.population import Population
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
-from .kinds import numbers, refuse_arguments
+from .kinds import numbers, one_number, refuse_arguments
 from .quantities import counted
 
 
@@ -37,8 +37,8 @@ def selection_chances(count: int, best: float) -> np.ndarray:
 def crossed(first: Any, second: Any, share: Any) -> tuple[Any, Any]:
     """Arithmetic crossover: two points of the straight line between the parents, as far from either end.
 
-    >>> crossed(0.0, 10.0, 0.2)
-    (8.0, 2.0)
+    >>> print(*crossed(0.0, 10.0, 0.2))
+    8.0 2.0
     """
     first, second, share = map(numbers, (first, second, share), ("the first", "the second", "the share"))
     return share * first + (1 - share) * second, (1 - share) * first + share * second
@@ -49,8 +49,8 @@ def shrinking_step(room: Any, draw: Any, done: float, shape: float) -> Any:
 
     ``done`` is the share of the generations that are over; at the end nothing moves any more.
 
-    >>> shrinking_step(8.0, 0.5, 0.0, 3), shrinking_step(8.0, 0.5, 1.0, 3)
-    (1.0, 0.0)
+    >>> print(shrinking_step(8.0, 0.5, 0.0, 3), shrinking_step(8.0, 0.5, 1.0, 3))
+    1.0 0.0
     """
     refuse_arguments(shrinking_step, locals())
     room, draw = numbers(room, "the room"), numbers(draw, "the draw")
@@ -60,8 +60,7 @@ def shrinking_step(room: Any, draw: Any, done: float, shape: float) -> Any:
 
 
 def _refuse_best(best: float) -> None:
-    if not 0 < best < 1:
-        raise ValueError(f"the chance of the best is {best:g}; it must be above 0 and below 1")
+    one_number(best, "the chance of the best", "be above 0 and below 1", lambda q: 0 < q < 1)
 
 
 class ToolboxGenetic(Algorithm):
@@ -102,14 +101,12 @@ class ToolboxGenetic(Algorithm):
         shape: float = 3.0,
         **kwargs: Any,
     ) -> None:
-        refuse_arguments(ToolboxGenetic.__init__, {**locals(), "kwargs": {}})
         super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
         self.population, self.generations = counted(population, "designs"), counted(generations, "generations")
         self.crossovers = counted(crossovers, "crossovers", 0)
         self.mutations = counted(mutations, "mutations", 1)
         _refuse_best(best)
-        if not (np.isfinite(shape) and shape > 0):
-            raise ValueError(f"the shape of the mutation is {shape:g}; it must be a finite number above 0")
+        one_number(shape, "the shape of the mutation", "be a finite number above 0", lambda v: 0 < v < np.inf)
         self.best, self.shape = best, shape
         self.opt: Any = None
 
