@@ -10,6 +10,9 @@ PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check 
 # JupyterLab refuses to run as root unless told so.
 AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 
+# Two processes, each with a file of tests at a time: what a file's tests share is made once.
+PYTEST := $(BIN)/python -m pytest -n 2 --dist loadscope
+
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
 
@@ -38,11 +41,11 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(BIN)/python -m pytest -n 2 --dist loadscope -m "not browser" --cov --cov-report=term-missing:skip-covered
+	$(PYTEST) -m "not browser" --cov --cov-report=term-missing:skip-covered
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
-	$(BIN)/python -m pytest -n 2 --dist loadscope $(NBVAL) notebooks
+	$(PYTEST) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
-	$(BIN)/python -m pytest -m browser tests/browser
+	$(PYTEST) -m browser tests/browser
 
 lint: $(VENV)/.test
 	@echo "== errors and habits (ruff check)"

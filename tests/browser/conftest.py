@@ -1,16 +1,15 @@
-"""One JupyterLab and one Chromium for all browser tests; a fresh page for each."""
+"""One JupyterLab and one Chromium for all browser tests of a process; a fresh page for each."""
 
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
-from lab import CHROMIUM_FLAGS, LabServer, find_chromium, lab_server, screenshot
+from lab import CHROMIUM_FLAGS, LabServer, copy_notebooks, find_chromium, lab_server, screenshot
 
 HERE = Path(__file__).parent
 REPOSITORY = HERE.parents[1]
@@ -43,7 +42,7 @@ def server(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     """JupyterLab over a copy of the notebooks (it starts after the browser: no browser, no server)."""
     folder = tmp_path_factory.mktemp("lab")
     root = folder / "notebooks"
-    shutil.copytree(REPOSITORY / "notebooks", root, ignore=shutil.ignore_patterns(".ipynb_checkpoints", ".camkit"))
+    copy_notebooks(REPOSITORY / "notebooks", root)
     with lab_server(folder, root, REPOSITORY) as running:
         yield running
 

@@ -51,6 +51,14 @@ def find_chromium() -> str | None:
     return os.environ.get("CAMKIT_CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
 
 
+def copy_notebooks(source: Path, target: Path) -> None:
+    """The notebooks for a server of tests: nbval moves every control of every notebook, here one notebook does."""
+    shutil.copytree(source, target, ignore=shutil.ignore_patterns(".*"))
+    for path in target.glob("*.ipynb"):
+        if path.name != "17_tolerances.ipynb":
+            path.write_text(path.read_text(encoding="utf-8").replace("try_everything(", "id("), encoding="utf-8")
+
+
 @dataclass(frozen=True)
 class LabServer:
     """A running JupyterLab; ``root`` is the folder whose notebooks it serves."""

@@ -25,13 +25,6 @@ def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
     """The notebook opened and run once."""
     page = context.new_page()
     open_notebook(page, "16_decision.ipynb")
-    # The cells that move every control have tests of their own, and take long.
-    page.evaluate(
-        """() => window.jupyterapp.shell.currentWidget.content.widgets.forEach(cell => {
-            const source = cell.model.sharedModel;
-            if (source.getSource().includes('try_everything(')) source.setSource('');
-        })"""
-    )
     run_all(page)
     yield page
     page.close()

@@ -1,7 +1,7 @@
 """The live notebooks as pages without code, served by Voilà: `make app`."""
 
-import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import nbformat
@@ -12,7 +12,7 @@ from camkit import DoorHandleCam
 from camkit.cam.door_handle import WORSE_CURVE
 from camkit.quantities import declarations
 from camkit.units import factor
-from lab import screenshot, voila_server
+from lab import copy_notebooks, screenshot, voila_server
 
 REPOSITORY = Path(__file__).parents[2]
 DOOR_HANDLE = "01_door_handle_cam.ipynb"
@@ -32,26 +32,30 @@ ERRORS = "[data-mime-type='application/vnd.jupyter.error'], [data-mime-type='app
 
 
 @pytest.fixture(scope="module")
-def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Page]]:
-    """Every notebook's page, asked for at once so that they run beside each other."""
+def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], Page]]:
+    """The page of a notebook, which is asked for once."""
     folder = tmp_path_factory.mktemp("voila")
-    shutil.copytree(REPOSITORY / "notebooks", folder / "notebooks", ignore=shutil.ignore_patterns(".*"))
+    copy_notebooks(REPOSITORY / "notebooks", folder / "notebooks")
     context = browser.new_context(viewport={"width": 1280, "height": 720})
     with voila_server(folder, REPOSITORY) as address:
-        opened = {name: context.new_page() for name in (DOOR_HANDLE, *OTHERS)}
-        for name, page in opened.items():
-            page.goto(f"{address}/voila/render/{name}", wait_until="commit", timeout=90_000)
-        yield opened
+
+        @cache
+        def page_of(name: str) -> Page:
+            page = context.new_page()
+            page.goto(f"{address}/voila/render/{name}", wait_until="commit", timeout=120_000)
+            return page
+
+        yield page_of
         context.close()
 
 
 @pytest.mark.parametrize("name", [DOOR_HANDLE, *OTHERS])
-def test_a_live_notebook_is_a_page_with_its_panels_and_its_prose(pages: dict[str, Page], name: str) -> None:
-    page = pages[name]
+def test_a_live_notebook_is_a_page_with_its_panels_and_its_prose(opened: Callable[[str], Page], name: str) -> None:
+    page = opened(name)
     notebook = nbformat.read(REPOSITORY / "notebooks" / name, as_version=4)
     shown = sum("widget-view" in str(cell.get("outputs")) for cell in notebook.cells)
     try:
-        expect(page.locator(".camkit-panel img.camkit-image")).to_have_count(shown, timeout=80_000)
+        expect(page.locator(".camkit-panel img.camkit-image")).to_have_count(shown, timeout=120_000)
         expect(page.locator("h1").first).to_contain_text(notebook.cells[0].source.splitlines()[0].lstrip("# "))
         expect(page.locator(ERRORS)).to_have_count(0)
         expect(page.get_by_text("There was an error")).to_have_count(0)
@@ -61,8 +65,8 @@ def test_a_live_notebook_is_a_page_with_its_panels_and_its_prose(pages: dict[str
         raise
 
 
-def test_a_slider_of_the_page_moves_picture_and_numbers(pages: dict[str, Page]) -> None:
-    page = pages[DOOR_HANDLE]
+def test_a_slider_of_the_page_moves_picture_and_numbers(opened: Callable[[str], Page]) -> None:
+    page = opened(DOOR_HANDLE)
     arm = page.get_by_role("slider", name="lift arm, mm")
     panel = page.locator(".camkit-panel").filter(has=arm)
     picture = panel.locator("img.camkit-image")
