@@ -890,6 +890,14 @@ def test_a_cell_that_was_changed_and_is_run_again_ends_the_search_that_runs(find
     assert not other.run_button.disabled
 
 
+def test_what_is_free_may_be_said_by_names_or_by_their_box():
+    by_names, by_box = (
+        search(an_explorer(), STUDIES, space=EXPANDED_SPACE, free=free)
+        for free in (list(DOOR_HANDLE_SPACE), DOOR_HANDLE_SPACE)
+    )
+    assert list(by_box.study.free) == list(by_names.study.free) == list(DOOR_HANDLE_SPACE)
+
+
 def test_two_searches_of_one_run_of_a_cell_run_beside_each_other(finder, monkeypatch):
     monkeypatch.setattr(finder, "_place", Place("cell", "first"))
     monkeypatch.setattr(sys.modules["camkit.app.search"], "here", lambda: Place("cell", "first"))

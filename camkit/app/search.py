@@ -103,7 +103,7 @@ class Search(Panel):
         explorer: Explorer,
         studies: Mapping[str, MakeStudy],
         space: Mapping[str, tuple[float, float]],
-        free: Sequence[str],
+        free: Sequence[str] | Mapping[str, tuple[float, float]],
         criteria: Judgements | None = None,
         importance: Judgements | None = None,
         population: int = 100,
@@ -669,7 +669,7 @@ def search(
     explorer: Explorer,
     studies: Mapping[str, MakeStudy],
     space: Mapping[str, tuple[float, float]],
-    free: Sequence[str],
+    free: Sequence[str] | Mapping[str, tuple[float, float]],
     **options: Any,
 ) -> Search:
     """A panel that searches around the design in ``explorer`` and helps to choose from the front (see `Search`)."""
