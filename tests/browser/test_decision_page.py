@@ -13,7 +13,7 @@ from camkit import DoorHandleCam, ahp, door_handle_study
 from camkit.cam.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.decision import CHOOSERS, judgement_ranges
 from camkit.side_by_side import side_by_side
-from lab import LabServer, kernel_value, open_notebook, run_all, screenshot
+from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
 PAPER, SPACE = DoorHandleCam(door_torque=10), DOOR_HANDLE_SPACE
@@ -161,5 +161,4 @@ def test_the_tray_exports_what_it_shows(page: Page) -> None:
     assert "http" not in text
 
     tray.get_by_role("button", name="Load").nth(0).click()
-    page.wait_for_timeout(300)
-    assert kernel_value(page, "app.design == kept.designs['A']")
+    eventually(lambda: kernel_value(page, "app.design == kept.designs['A']"))
