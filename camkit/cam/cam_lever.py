@@ -151,16 +151,17 @@ class CamLeverAnalysis(HighSpeedAnalysis):
 
     @cached_property
     def closing(self) -> np.ndarray:
-        """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight.
-
-        Peaks are raised to what they are between the angles.
-        """
-        press, slowing = self.press, self.tops(lambda part: -part.acceleration)
+        """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight."""
+        press, slowing = self.press, self.moving.tops(_slowing)
         return press.inertia_speed2 * slowing / (press.weight * press.lever)
 
 
-lever_stress = peak("contact stress F_sigma", "N^0.5 cm^-0.5", lambda a: a.along("stress_between"))
-lever_wear = peak("wear F_wear", "N^1.5 cm^-0.5", lambda a: a.along("wear_between"))
+def _slowing(part: Any) -> Any:
+    return -part.acceleration
+
+
+lever_stress = peak("contact stress F_sigma", "N^0.5 cm^-0.5", lambda a: a.stress)
+lever_wear = peak("wear F_wear", "N^1.5 cm^-0.5", lambda a: a.wear)
 closing_share = peak("inertia / closing weight", "", lambda a: a.closing)
 reach = Measure("arm and roller l + r", "mm", lambda a: number(a.cam.arm_length + a.cam.roller_radius))
 

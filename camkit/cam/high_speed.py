@@ -13,8 +13,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property, reduce
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from operator import attrgetter
 from typing import Any, ClassVar
 
 import numpy as np
@@ -23,19 +24,22 @@ from ..contact import contact_modulus, hertz_line
 from ..geometry import angle_opposite
 from ..kinds import shown
 from ..motion import LAWS, Dwell, Kinematics, Law, MotionProgram, Poly345, Return, Rise
-from ..motion.resolution import STEPS, Resolution, resolve
+from ..motion.resolution import STEPS, Resolution, between, resolve
 from ..motion.shaped import DEGREE9, FAMILIES, ShapedLaw
-from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities import Design, choice, counted, fails, members, quantity
 from ..units import deg, mm
 from .high_speed_load import ConstantTorque, InertialSpringLoad
 from .load import Friction
 from .oscillating_roller import OscillatingRollerAnalysis
-from .peaks import raised
+from .peaks import raised, with_tops
 
 HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
-AT_REST = 1e-9
+AT_REST = 1e-6
 """Share of the swing below which the arm counts as not having moved."""
+
+
+_SPRING = attrgetter("spring_needed")
 
 
 def joined(*stretches: Any) -> Any:
@@ -213,9 +217,9 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     cam: Any
 
     @property
-    def inner(self) -> Any:
-        """Which angles have a neighbour at an even step on both sides (the ends of all have not)."""
-        return True
+    @abstractmethod
+    def rounding(self) -> Any:
+        """A force that is rounding, N."""
 
     @property
     @abstractmethod
@@ -271,13 +275,8 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     def ease(self) -> np.ndarray:
         """``r q / N = 1 / F_sigma^2``, m/N: smooth where ``F_sigma`` has a pole; ``nan`` without contact."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            touching = np.where(self.normal_force >= -self._nothing, abs(self.normal_force), np.nan)
+            touching = np.where(self.normal_force >= -self.rounding, abs(self.normal_force), np.nan)
             return self.cam.roller_radius * self.margin / touching
-
-    @property
-    def _nothing(self) -> Any:
-        """A force that is rounding."""
-        return 1e-9 * abs(self.normal_force).max(-1, keepdims=True)
 
     @cached_property
     def stress_coefficient(self) -> np.ndarray:
@@ -290,40 +289,19 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         return self.normal_force * self.stress_coefficient
 
     @cached_property
-    def stress_between(self) -> np.ndarray:
-        """``F_sigma`` in SI, each peak raised to what it is between the angles."""
-        return inverse_root(-raised(-self.ease, self.inner))
-
-    @cached_property
-    def wear_between(self) -> np.ndarray:
-        """``F_wear`` in SI, each peak raised to what it is between the angles."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return inverse_root(-raised(-self.ease / self.normal_force**2, self.inner))
-
-    @cached_property
-    def margin_between(self) -> np.ndarray:
-        """``q``, each valley lowered to what it is between the angles."""
-        return -raised(-self.margin, self.inner)
-
-    @cached_property
     def spring_needed(self) -> np.ndarray:
-        """``-psi''/psi``: ``K`` of the spring that holds the arm's inertia at the rated speed; peaks as above.
+        """``-psi''/psi``: ``K`` of the spring that holds the arm's inertia at the rated speed.
 
         Very negative, and of no account, where the arm has not moved.
         """
         psi = self.motion.s
         at_rest = psi <= AT_REST * self.cam.swing
-        return raised(np.where(at_rest, -1e12, -self.motion.a / np.where(at_rest, 1, psi)), self.inner)
+        return np.where(at_rest, -1e12, -self.motion.a / np.where(at_rest, 1, psi))
 
     @cached_property
     def hertz_pressure(self) -> np.ndarray:
         """``p_0 = sqrt(N E* / (pi b rho_pr))``: largest pressure between cam and roller, Pa."""
         return self._pressure(self.normal_force, 1 / self.reduced_radius)
-
-    @cached_property
-    def pressure_between(self) -> np.ndarray:
-        """``p_0``, each peak raised to what it is between the angles, Pa: only ``N / rho_pr = F_sigma^2`` counts."""
-        return self._pressure(1.0, self.stress_between**2)
 
     def _pressure(self, force: Any, curvature: Any) -> np.ndarray:
         modulus = contact_modulus(self.cam.cam_modulus, self.cam.roller_modulus)
@@ -336,26 +314,95 @@ def inverse_root(ease: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Interval(HighSpeedContact):
-    """The part of a turn in which the arm swings one way."""
+class Glimpse(HighSpeedContact):
+    """Some members of a population at a few cam angles each, ``(k, m)``."""
 
     whole: HighSpeedAnalysis
-    even: Any = True
+    rows: np.ndarray
 
     @property
-    def inner(self) -> Any:
-        """As given."""
-        return self.even
+    def spring_rate(self) -> Any:
+        """``K`` of each."""
+        return members(self.whole.spring_rate, self.rows)
 
     @property
-    def resolved(self) -> HighSpeedAnalysis:
-        """That of the whole cam."""
-        return self.whole.resolved
+    def rounding(self) -> Any:
+        """That of each."""
+        return members(self.whole.rounding, self.rows)
+
+    @property
+    def buildable(self) -> Any:
+        """Whether each can be built."""
+        return members(self.whole.buildable, self.rows)
+
+
+@dataclass(frozen=True)
+class Interval(HighSpeedContact):
+    """A part of a turn in which the arm swings: away, back, or both."""
+
+    whole: HighSpeedAnalysis
+    segments: tuple[int, ...]
+    """Those of the motion, by their numbers."""
 
     @property
     def spring_rate(self) -> Any:
         """``K`` of the whole cam."""
         return self.whole.spring_rate
+
+    @cached_property
+    def resolution(self) -> Resolution:
+        """The cam angles of the whole cam's that lie in this part."""
+        return self.whole.resolution.of(self.segments)
+
+    @cached_property
+    def resolved(self) -> Interval:
+        """This part at the cam angles of its `resolution`."""
+        other, here = replace(self, cam_angle=self.resolution.angle), self.whole.resolution.within(self.segments)
+        motion = Kinematics(*(x[..., here] for x in self.whole.resolved.motion))
+        other.__dict__.update(resolved=other, resolution=self.resolution, motion=motion)
+        return other
+
+    @property
+    def buildable(self) -> Any:
+        """That of the whole cam."""
+        return self.whole.buildable
+
+    @property
+    def rounding(self) -> Any:
+        """That of the whole cam."""
+        return self.whole.rounding
+
+    @cached_property
+    def _tops(self) -> dict[Callable[[Any], Any], np.ndarray]:
+        """What `tops` has found."""
+        return {}
+
+    def tops(self, curve: Callable[[Any], Any], but: Any = False) -> np.ndarray:
+        """``curve(part)`` at the cam angles of the `resolution`, each peak that counts raised to its top.
+
+        Not so exactly of those members of a population for which ``but`` holds.
+        """
+        if curve not in self._tops:
+            values, inner = curve(self.resolved) + 0.0 * self.resolution.angle, self.resolution.inner
+            look = partial(self._look, curve)
+            self._tops[curve] = raised(values, inner) if self.rough else with_tops(values, inner, look, but)
+        return self._tops[curve]
+
+    def _look(self, curve: Callable[[Any], Any], at: Any, x: Any) -> Any:
+        """``curve`` at ``x`` steps, ``(k, m)``, beside the cam angles of the `resolution` of flat index ``at``."""
+        row, column = np.divmod(at, self.resolution.angle.shape[-1])
+        left = column[:, None] - ((x <= 0) & (x < 0).any(-1, keepdims=True))
+        pairs = [self.resolution.angle, *self.resolved.motion]
+        (start, *first), (end, *second) = ([_picked(values, row, left + k) for values in pairs] for k in (0, 1))
+        share = x + column[:, None] - left
+        seen = Glimpse(members(self.cam, row), start + share * (end - start), self.whole, row)
+        seen.__dict__["motion"] = between(Kinematics(*first), Kinematics(*second), end - start, share)
+        return curve(seen) + 0.0 * share
+
+
+def _picked(values: Any, row: Any, column: Any) -> Any:
+    """Of each row the values in some columns, ``(k, m)``."""
+    return values[column] if values.ndim == 1 else values[row[:, None] % len(values), column]
 
 
 @dataclass(frozen=True)
@@ -371,42 +418,46 @@ class HighSpeedAnalysis(HighSpeedContact):
     @cached_property
     def rise(self) -> Interval:
         """The interval in which the arm swings away."""
-        return Interval(self.cam, self.rise_at, self)
+        return Interval(self.cam, self.rise_at, self, (0,), rough=self.rough)
 
     @cached_property
     def fall(self) -> Interval:
         """The interval in which the arm swings back."""
-        return Interval(self.cam, self.fall_at, self)
+        return Interval(self.cam, self.fall_at, self, (2,), rough=self.rough)
+
+    @cached_property
+    def moving(self) -> Interval:
+        """Rise and fall together."""
+        return Interval(self.cam, joined(self.rise_at, self.fall_at), self, (0, 2), rough=self.rough)
+
+    def at(self, cam_angle: Any) -> Any:
+        """The same cam at other cam angles."""
+        other = super().at(cam_angle)
+        other.__dict__["moving"] = self.moving
+        return other
+
+    @cached_property
+    def resolved(self) -> Any:
+        """The same cam at the cam angles of its `resolution`."""
+        other = super().resolved
+        other.__dict__["moving"] = self.moving
+        return other
+
+    @cached_property
+    def rounding(self) -> Any:
+        """A force that is rounding, N."""
+        return 1e-9 * abs(self.moving.resolved.normal_force).max(-1, keepdims=True)
 
     @cached_property
     def resolution(self) -> Resolution:
-        """As many steps in each interval as the analysis has, or more."""
-        return resolve(self.cam.motion, max(STEPS, self.rise_at.shape[-1] - 1))
-
-    @cached_property
-    def seen(self) -> tuple[Interval, Interval]:
-        """Rise and fall at the cam angles that show them and the kinks of their laws, whatever those asked for."""
-        resolution, moves = self.resolution, self.resolution.moves
-        away, back, end = np.flatnonzero(np.diff(moves)) + 1
-        parts = []
-        for columns in (slice(0, away), slice(back, end)):
-            part = Interval(self.cam, resolution.angle[..., columns], self, resolution.inner[columns])
-            part.__dict__["motion"] = Kinematics(*(x[..., columns] for x in self.resolved.motion))
-            parts.append(part)
-        return parts[0], parts[1]
-
-    def along(self, name: str) -> np.ndarray:
-        """An array of rise and fall as `seen`, one behind the other."""
-        return joined(*(getattr(part, name) for part in self.seen))
-
-    def tops(self, curve: Callable[[Interval], Any]) -> np.ndarray:
-        """``curve`` of rise and fall as `seen`, each peak raised to what it is between the angles."""
-        return joined(*(raised(curve(part) + 0.0 * part.cam_angle, part.inner) for part in self.seen))
+        """Half as many steps in each interval as the analysis has angles there, if that is more than shows it."""
+        finer = self.rise_at.shape[-1] // 2
+        return resolve(self.cam.motion, finer) if finer > STEPS and not self.rough else super().resolution
 
     @property
     def moving_angle(self) -> np.ndarray:
-        """The cam angles of rise and fall, rad."""
-        return self.along("cam_angle")
+        """The cam angles of rise and fall that show their peaks, rad."""
+        return self.moving.resolution.angle
 
     @property
     def start_angle(self) -> Any:
@@ -424,40 +475,25 @@ class HighSpeedAnalysis(HighSpeedContact):
         return self.rise, self.fall
 
     @cached_property
-    def travel(self) -> np.ndarray:
-        """The arm's travel over rise and fall as a share of the swing."""
-        return joined(*(part.motion.s for part in self.seen)) / self.cam.swing
-
-    @cached_property
-    def lead(self) -> np.ndarray:
-        """Travel from the nearer end as a share of what a 3-4-5 polynomial makes of it, the ends left out.
-
-        Below 0 the arm is beyond that end.  It stays of a size near the ends, where the travel itself vanishes.
-        """
-        (away, back), cam = self.seen, self.cam
-        begun = cam.rise_angle + cam.dwell_angle
-        ways = (
-            (away.cam_angle / cam.rise_angle, away.motion.s / cam.swing, away.inner),
-            ((back.cam_angle - begun) / cam.return_angle, 1 - back.motion.s / cam.swing, back.inner),
-        )
-        return joined(*(_lead(share[..., inner], s[..., inner]) for share, s, inner in ways))
-
-    @cached_property
     def least_spring_factor(self) -> Any:
         """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia at the rated speed.
 
-        ``inf`` if the arm passes its start.
-
-        0/0 where the arm has not moved is left out.
+        ``inf`` if the arm passes its start.  0/0 where the arm has not moved is left out.
         """
-        return np.where(self.passes_start, np.inf, self.along("spring_needed").max(-1))[()]
+        return np.where(self.passes_start, np.inf, self.springs.max(-1))[()]
+
+    @property
+    def springs(self) -> np.ndarray:
+        """``-psi''/psi`` over rise and fall with its peaks; of no account if the arm passes its start."""
+        return self.moving.tops(_SPRING, self.passes_start)
 
     @cached_property
     def spring_rate(self) -> Any:
         """`spring_factor`, shaped to multiply arrays of angles."""
         given = self.cam.spring_factor
-        weakest = np.asarray(self.least_spring_factor)[..., None]
-        return np.where(given > 0, given, weakest)
+        if np.all(given > 0):
+            return given
+        return np.where(given > 0, given, np.asarray(self.least_spring_factor)[..., None])
 
     @property
     def spring_factor(self) -> Any:
@@ -466,19 +502,40 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     @cached_property
     def undercut_margin(self) -> Any:
-        """Least ``q = 1 - r kappa``, also between the angles; 0 or less: the profile is undercut.
-
-        ``-inf`` where the arm's speed drops at once.
-        """
-        return self.least_margins.min(-1)
+        """Least ``q = 1 - r kappa``; 0 or less: the profile is undercut; ``-inf`` if the arm's speed drops at once."""
+        return self.margins.min(-1)
 
     @cached_property
-    def least_margins(self) -> np.ndarray:
-        """``q`` of rise and fall as `seen`, each valley lowered; ``-inf`` at a drop of the arm's speed."""
-        margins, drop = self.along("margin_between"), self.corner(-1)
+    def margins(self) -> np.ndarray:
+        """``q`` over rise and fall, its valleys as deep as they are; ``-inf`` at a drop of the arm's speed."""
+        margins, drop = -self.moving.tops(_tightness), self.corner(-1)
         away = abs(self.moving_angle - np.expand_dims(drop.cam_angle, -1))
         nearest = away <= away.min(-1, keepdims=True)
         return np.where((np.expand_dims(drop.value, -1) > 0) & nearest, -np.inf, margins)
+
+    @cached_property
+    def forces(self) -> np.ndarray:
+        """``N`` over rise and fall, its valleys as deep as they are, N."""
+        return -self.moving.tops(_pull)
+
+    @cached_property
+    def stress(self) -> np.ndarray:
+        """``F_sigma`` over rise and fall with its peaks, SI; ``nan`` where undercut or without contact."""
+        return self._pressing(_strain)
+
+    @cached_property
+    def wear(self) -> np.ndarray:
+        """``F_wear`` over rise and fall with its peaks, SI; ``nan`` where undercut or without contact."""
+        return self._pressing(_attrition)
+
+    def _pressing(self, curve: Callable[[Any], Any]) -> np.ndarray:
+        """``curve ** -0.5`` of one that is below 0, with its peaks; ``nan`` throughout if the roller is pulled."""
+        return np.where(self._pulled, np.nan, inverse_root(-self.moving.tops(curve, self._pulled[..., 0])))
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """``p_0`` over rise and fall with its peaks, Pa: only ``N / rho_pr = F_sigma^2`` counts."""
+        return self._pressure(1.0, self.stress**2)
 
     @property
     def is_undercut(self) -> Any:
@@ -486,27 +543,39 @@ class HighSpeedAnalysis(HighSpeedContact):
         return self.undercut_margin <= 0
 
     @property
+    def _pulled(self) -> Any:
+        """Whether the roller would have to be pulled somewhere, ``N < 0``: ``(..., 1)``."""
+        return (self.forces < -self.rounding).any(-1, keepdims=True)
+
+    @property
     def loses_contact(self) -> Any:
         """Whether the roller would lift off somewhere: ``N < 0``, or the arm's speed drops at once."""
-        pulled = [(s.normal_force < -s._nothing).any(-1) for s in self.seen]
-        return reduce(np.logical_or, pulled, self.corner(-1).value > 0)
+        return self._pulled[..., 0] | (self.corner(-1).value > 0)
 
     @property
     def beyond(self) -> np.ndarray:
         """How far the arm is beyond the nearer end over rise and fall, as a share of the swing; 0 between the ends."""
-        before, after = self.tops(lambda part: -part.motion.s), self.tops(lambda part: part.motion.s)
-        over = np.maximum(before, after - self.cam.swing) / self.cam.swing
+        over = np.maximum(self.moving.tops(_before), self.moving.tops(_after))
         return np.where(over <= AT_REST, 0.0, over)
+
+    @property
+    def lead(self) -> np.ndarray:
+        """Travel from either end over rise and fall as a share of what a 3-4-5 polynomial makes of it (see `_lag`)."""
+        return -self.moving.tops(_lag)
 
     @property
     def passes_start(self) -> Any:
         """Whether the arm swings back beyond its start, ``a < 0``: no spring can then follow ``K``."""
-        return (self.travel < -AT_REST).any(-1)
+        return self._passes(_before)
 
     @property
     def passes_end(self) -> Any:
         """Whether the arm swings beyond its end, ``a > 1``: ``r_k2`` is then not the largest radius."""
-        return (self.travel > 1 + AT_REST).any(-1)
+        return self._passes(_after)
+
+    def _passes(self, end: Callable[[Any], Any]) -> Any:
+        part = self.moving.resolved
+        return (raised(end(part), part.resolution.inner) > AT_REST).any(-1)
 
     @property
     def flags(self) -> dict[str, Any]:
@@ -519,7 +588,59 @@ class HighSpeedAnalysis(HighSpeedContact):
         }
 
 
-def _lead(share: Any, travel: Any) -> Any:
-    """Travel from the nearer end at a share of the interval, over that of a 3-4-5 polynomial."""
-    plain = Poly345()(share).s
-    return np.where(plain < 0.5, travel / plain, (1 - travel) / (1 - plain))
+def _tightness(part: Any) -> Any:
+    return -part.margin
+
+
+def _pull(part: Any) -> Any:
+    return -part.normal_force
+
+
+def _strain(part: Any) -> Any:
+    """``-1 / F_sigma^2``."""
+    return -part.ease
+
+
+def _attrition(part: Any) -> Any:
+    """``-1 / F_wear^2``."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return -part.ease / part.normal_force**2
+
+
+def _before(part: Any) -> Any:
+    """How far the arm is before its start, as a share of the swing."""
+    return -part.motion.s / part.cam.swing
+
+
+def _after(part: Any) -> Any:
+    """How far the arm is beyond its end, as a share of the swing."""
+    return part.motion.s / part.cam.swing - 1
+
+
+def _lag(part: Any) -> Any:
+    """Travel from either end as a share of what a 3-4-5 polynomial makes of it, the smaller one, below 0.
+
+    Above 0 the arm is beyond an end.  It stays of a size near the ends, where the travel itself vanishes.
+    """
+    cam, (s, _, a, j) = part.cam, part.motion
+    begun = cam.rise_angle + cam.dwell_angle
+    back = part.cam_angle > begun - cam.dwell_angle / 2
+    angle, way = np.where(back, cam.return_angle, cam.rise_angle), np.where(back, -1, 1) / cam.swing
+    share, travel = (part.cam_angle - np.where(back, begun, 0.0)) / angle, back + way * s
+    a, j = way * a * angle**2, way * j * angle**3
+    return -np.minimum(_over_345(share, travel, a, j), _over_345(1 - share, 1 - travel, -a, j))
+
+
+def _over_345(u: Any, s: Any, a: Any, j: Any) -> Any:
+    """``s`` over that of a 3-4-5 polynomial at ``u`` from its beginning; next to that, by its derivatives ``a, j``.
+
+    There both are rounding.  ``s = u^2 a / 4 - u^3 j / 12`` where it is of the third to fifth power of ``u``.
+    """
+    plain = u * u * u * (10 + u * (6 * u - 15))
+    plain, u, s, a, j = np.broadcast_arrays(plain, u, s, a, j)
+    share = s / plain
+    lost = (u < 1e-4) & (abs(s) < 1e-11)
+    u, a, j = u[lost], a[lost], j[lost]
+    smooth = abs(a) <= 2 * u * abs(j) + 1e-6
+    share[lost] = np.where(u > 1e-7, (a / u - j / 3) / 40, np.where(smooth, j / 60, a / (20 * u)))
+    return share

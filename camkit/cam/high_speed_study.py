@@ -6,6 +6,7 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import attrgetter
 from typing import Any
 
 from ..kinds import refuse_arguments
@@ -22,18 +23,29 @@ def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
     return PeakMeasure(name, unit, curve, angle=lambda a: a.moving_angle)
 
 
-peak_stress = peak("contact stress F_sigma", "N^0.5 mm^-0.5", lambda a: a.along("stress_between"))
-peak_wear = peak("wear F_wear", "N^1.5 mm^-0.5", lambda a: a.along("wear_between"))
-steepest = peak("steepest pressure angle", "deg", lambda a: a.tops(lambda part: abs(part.pressure_angle)))
-peak_force = peak("peak normal force", "N", lambda a: a.tops(lambda part: part.normal_force))
-peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.along("pressure_between"))
-peak_torque = peak("peak cam torque", "N mm", lambda a: a.tops(lambda part: abs(part.cam_torque)))
-spring_use = peak("closing spring needed", "%", lambda a: a.cam.speed**2 * a.along("spring_needed") / a.spring_rate)
-least_force = -peak("least normal force", "N", lambda a: a.tops(lambda part: -part.normal_force))
+_force = attrgetter("normal_force")
+
+
+def _steepness(part: Any) -> Any:
+    return abs(part.pressure_angle)
+
+
+def _torque(part: Any) -> Any:
+    return abs(part.cam_torque)
+
+
+peak_stress = peak("contact stress F_sigma", "N^0.5 mm^-0.5", lambda a: a.stress)
+peak_wear = peak("wear F_wear", "N^1.5 mm^-0.5", lambda a: a.wear)
+steepest = peak("steepest pressure angle", "deg", lambda a: a.moving.tops(_steepness))
+peak_force = peak("peak normal force", "N", lambda a: a.moving.tops(_force))
+peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.pressure)
+peak_torque = peak("peak cam torque", "N mm", lambda a: a.moving.tops(_torque))
+spring_use = peak("closing spring needed", "%", lambda a: a.cam.speed**2 * a.springs / a.spring_rate)
+least_force = -peak("least normal force", "N", lambda a: -a.forces)
 lift_off = Measure("speed at which the roller lifts", "%", jump_speed)
 overrun = peak("arm beyond its ends / swing", "%", lambda a: a.beyond)
-least_lead = -PeakMeasure("least travel from the ends (3-4-5: 1)", "", lambda a: -a.lead)
-undercut_margin = -peak("undercut margin 1 - r kappa", "", lambda a: -a.least_margins)
+least_lead = -peak("least travel from the ends (3-4-5: 1)", "", lambda a: -a.lead)
+undercut_margin = -peak("undercut margin 1 - r kappa", "", lambda a: -a.margins)
 least_radius = Measure("smallest radius r_k1", "mm", lambda a: a.min_radius)
 gap = Measure("gap from roller to pivot", "mm", lambda a: number(a.cam.arm_length - a.cam.roller_radius))
 spring_factor = Measure("closing spring K", "", lambda a: a.spring_factor)

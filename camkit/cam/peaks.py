@@ -4,8 +4,9 @@ A program is looked at where its motion has something to say (see `camkit.motion
 analysis was asked for.  Every local maximum between those angles is raised to the top of the parabola through its
 neighbours; around the highest the curve is looked at once more, and if its top is not found there, by zooming in.
 
-The peaks of a high-speed cam's rise and fall, which its study sees as curves, are `raised` alone: within some 0.4 % of
-their size.  Linkages and joints are measured at the positions that an analysis was asked for.
+A curve of which a search sees every point has all its maxima raised, and looked at closely where the parabola is not
+sure of them (see `with_tops`): the largest is within 0.1 %.  Linkages and joints are measured at the positions that an
+analysis was asked for.
 """
 
 from __future__ import annotations
@@ -21,6 +22,11 @@ ZOOM, ZOOMS = 17, 3
 """Where the top is not found there: at how many angles between its neighbours, and how often, each time closer."""
 SMOOTH, SHARP = 4.0, 0.02
 """How much a curve may bend at its top, over the parabola (else it has a corner), and over its size (else a needle)."""
+ROUND, POINTED, NEAR = 0.5, 1.3, 1e-3
+"""A top is that of the quartic if its fourth difference is below this share of the second, if by the second share it
+is sharp, and if that is not farther above the parabola than this share of it."""
+NEEDLE = 100.0
+"""How high a needle may be, over how much it bends."""
 LEVEL = 1e-14
 """Values that differ by less than this share of their size are the same."""
 
@@ -41,7 +47,7 @@ def raised(values: Any, inner: Any = True) -> Any:
     >>> print(f"{1 - np.sin(x).max():.0e}, {1 - raised(np.sin(x)).max():.0e}")
     4e-04, 1e-06
     """
-    tops = np.array(values, dtype=float)
+    tops = np.array(values, dtype=float, order="C")
     flat, at = tops.reshape(-1), _maxima(values, inner)
     flat[at] += _summit(flat[at - 1], flat[at], flat[at + 1])[1]
     return tops
@@ -85,6 +91,95 @@ def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
         zoomed, there = _zoomed(f, low, high)
         value, place = np.where(found, value, zoomed), np.where(found, place, there)
     return Extreme(value[..., 0], place[..., 0])
+
+
+def with_tops(values: Any, inner: Any, look: Callable[[Any, Any], Any], but: Any = False) -> Any:
+    """A curve's ``values`` at even steps, each local maximum raised to its top: to 0.1 % where it may be the largest.
+
+    That of the quartic through five of them.  Where this is in doubt ``look(at, x)`` says how high the curve is ``x``
+    steps, ``(k, m)``, beside the places ``at``, indices of the flat array; not so in the rows ``but``.
+
+    >>> x = np.linspace(0, 9, 46)
+    >>> inner = np.isin(x, x[[0, -1]], invert=True)
+    >>> hills = with_tops(np.sin(x), inner, lambda at, steps: np.sin(x[at, None] + 0.2 * steps))
+    >>> print(f"{1 - hills[:20].max():.0e}, {1 - hills[30:].max():.0e}")
+    4e-08, 1e-07
+    """
+    tops = np.array(values, dtype=float, order="C")
+    flat, high, n = values.reshape(-1), tops.reshape(-1), values.shape[-1]
+    at = _maxima(values, inner)
+    high[at], room = _quartic_tops(flat, at, inner)
+    ends, way, more = _tops_by_ends(values, inner)
+    at, room = np.concatenate([at, ends]), np.concatenate([room, more])
+    side = np.concatenate([np.zeros(len(at) - len(ends), dtype=int), way])
+    reach, vain = tops.max(-1).reshape(-1)[at // n], np.broadcast_to(but, values.shape[:-1]).reshape(-1)[at // n]
+    doubt = (room > 0) & (high[at] + room >= reach) & ~vain
+    if doubt.any():
+        at, side = at[doubt], side[doubt]
+        high[at] = np.maximum(_zoomed_top(look, at, np.minimum(side - 1, 0), np.maximum(side + 1, 0), ZOOMS), flat[at])
+    return tops
+
+
+def _zoomed_top(look: Callable[[Any, Any], Any], at: Any, low: Any, high: Any, zooms: int) -> Any:
+    """How high a curve is between ``low`` and ``high`` steps beside each of the places ``at``."""
+    x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, ZOOM)
+    values, row = look(at, x), np.arange(len(at))
+    best = values.argmax(-1)
+    middle = np.clip(best, 1, ZOOM - 2)
+    top, room = _quartic_tops(values.reshape(-1), row * ZOOM + middle, np.arange(ZOOM) % (ZOOM - 1) > 0)
+    edge, known = best != middle, values[row, best]
+    steep = abs(known - values[row, middle])
+    top = np.where(edge, known, top)
+    more = np.where(edge, steep > NEAR * abs(known), room > 0)
+    if more.any() and zooms > 1:
+        low, high = (x[row, np.clip(best + k, 0, ZOOM - 1)][more] for k in (-1, 1))
+        top[more] = np.maximum(_zoomed_top(look, at[more], low, high, zooms - 1), known[more])
+    return top
+
+
+def _quartic_tops(flat: Any, at: Any, inner: Any) -> tuple[Any, Any]:
+    """The tops of the quartics through the local maxima ``at`` and four neighbours; by how much they may be too low.
+
+    0 where that is no matter.  A parabola's, where a piece ends next to the maximum.
+    """
+    far = (inner & np.roll(inner, 1) & np.roll(inner, -1))[at % len(inner)]
+    left, mid, right = flat[at - 1], flat[at], flat[at + 1]
+    parabola, bend = mid + _summit(left, mid, right)[1], 2 * mid - left - right
+    left2, right2 = flat[np.where(far, at - 2, at)], flat[np.where(far, at + 2, at)]
+    slopes = (
+        (left2 - 8 * left + 8 * right - right2) / 12,
+        (16 * (left + right) - 30 * mid - left2 - right2) / 12,
+        (right2 - 2 * right + 2 * left - left2) / 2,
+        left2 - 4 * left + 6 * mid - 4 * right + right2,
+    )
+    top = np.where(far, mid + _quartic_top(*slopes), parabola)
+    with np.errstate(invalid="ignore"):
+        resolved = far & (abs(slopes[3]) <= ROUND * bend) & (abs(top - parabola) <= NEAR * abs(top))
+        sure = resolved | (bend <= NEAR * abs(mid)) | ~np.isfinite(bend)
+        room = np.where(abs(slopes[3]) <= POINTED * bend, bend, NEEDLE * bend)
+    return np.where(np.isfinite(top), np.maximum(top, mid), mid), np.where(sure, 0.0, room)
+
+
+def _quartic_top(*slopes: Any) -> Any:
+    """How far the top of a quartic with those four derivatives at 0 lies above its value there, by Newton's method."""
+    a, b, c, d = slopes
+    x = 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(3):
+            x = np.clip(x - (a + x * (b + x * (c / 2 + x * d / 6))) / (b + x * (c + x * d / 2)), -1, 1)
+    return x * (a + x * (b / 2 + x * (c / 6 + x * d / 24)))
+
+
+def _tops_by_ends(values: Any, inner: Any) -> tuple[Any, Any, Any]:
+    """Where a piece's end is higher than its neighbour and yet the top lies between them, and how much it may be."""
+    ends = np.flatnonzero(~inner)
+    way = np.where(inner[(ends + 1) % len(inner)], 1, -1)
+    end, near, next_ = (values[..., ends + k * way] for k in range(3))
+    with np.errstate(invalid="ignore"):
+        bend = 2 * near - end - next_
+        between = (end >= near) & (near - end + bend / 2 > 0) & (bend > NEAR * abs(end))
+    at = np.arange(values.size).reshape(values.shape)[..., ends]
+    return at[between], np.broadcast_to(way, at.shape)[between], bend[between]
 
 
 def roughly_highest(angle: Any, values: Any, inner: Any) -> Extreme:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import perm
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+
+from .law import Kinematics
 
 if TYPE_CHECKING:
     from .program import MotionProgram, Segment
@@ -41,6 +44,17 @@ class Resolution(NamedTuple):
         inside = np.ones(self.angle.shape[-1], dtype=bool)
         inside[self.first] = inside[self.last] = False
         return inside
+
+    def within(self, segments: Sequence[int]) -> np.ndarray:
+        """Which angles belong to segments of those numbers, ``(n,)``."""
+        return np.repeat([i in segments for i, _ in self.shares], self.last - self.first + 1)
+
+    def of(self, segments: Sequence[int]) -> Resolution:
+        """The angles of some segments alone."""
+        here, shares = self.within(segments), tuple(piece for piece in self.shares if piece[0] in segments)
+        sizes = (self.last - self.first + 1)[here[self.first]]
+        ends = np.cumsum(sizes)
+        return Resolution(self.angle[..., here], ends - sizes, ends - 1, self.moves[here], shares)
 
 
 def resolve(
@@ -123,3 +137,25 @@ def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
 def _inside(low: Any, high: Any, steps: int) -> Any:
     hair = np.minimum(np.maximum(HAIR * (high - low), ROUNDING), (high - low) / 4)
     return low + hair + (high - low - 2 * hair) * np.linspace(0, 1, steps + 1)
+
+
+_HIGHER = np.array([[35, -15, 2.5, -1 / 6], [-84, 39, -7, 0.5], [70, -34, 6.5, -0.5], [-20, 10, -2, 1 / 6]])
+"""Coefficients of ``x^4 .. x^7`` from what position and three derivatives still lack at ``x = 1``."""
+
+
+def between(first: Kinematics, second: Kinematics, step: Any, x: Any) -> Kinematics:
+    """``s, v, a, j`` at a share ``x`` of a ``step`` between two angles where they are known, of one smooth piece.
+
+    Of the polynomial of degree 7 that has them at both.
+
+    >>> from camkit.motion import Cycloidal
+    >>> law = Cycloidal()
+    >>> float(abs(between(law(0.25), law(0.26), 0.01, 0.3).a - law(0.253).a)) < 1e-9
+    True
+    """
+    start, end = ([value * step**k for k, value in enumerate(motion)] for motion in (first, second))
+    low = [start[0], start[1], start[2] / 2, start[3] / 6]
+    lack = [end[k] - sum(perm(i, k) * low[i] for i in range(k, 4)) for k in range(4)]
+    c = [*low, *(sum(weight * lack[k] for k, weight in enumerate(row)) for row in _HIGHER)]
+    powers = [x**0, x, x**2, x**3, x**4, x**5, x**6, x**7]
+    return Kinematics(*(sum(perm(i, k) * c[i] * powers[i - k] for i in range(k, 8)) / step**k for k in range(4)))

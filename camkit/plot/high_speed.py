@@ -6,6 +6,7 @@ Blue is the interval in which the arm swings away, orange the one in which it sw
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,22 +70,25 @@ def motion_over_turn(analysis: Any, ax: Axes) -> Axes:
 
 
 class Curve(NamedTuple):
-    """What is drawn: title, letter, unit, and a function that gives it twice, SI: at the angles, peaks between them."""
+    """What is drawn: title, letter, unit, and the function that gives it, SI."""
 
     title: str
     letter: str
     unit: str
-    of: Callable[[Any], tuple[Any, Any]]
+    of: Callable[[Any], Any]
 
 
-STRESS = Curve(
-    "Contact stress",
-    r"$F_\sigma$",
-    "N^0.5 mm^-0.5",
-    lambda part: (part.stress_coefficient / mm**0.5, part.stress_between),
-)
-WEAR = Curve("Wear", r"$F_{wear}$", "N^1.5 mm^-0.5", lambda part: (part.wear_coefficient / mm**0.5, part.wear_between))
-HERTZ = Curve("Hertz pressure", "$p_0$", "MPa", lambda part: (part.hertz_pressure, part.pressure_between))
+def _stress(part: Any) -> Any:
+    return part.stress_coefficient / mm**0.5
+
+
+def _wear(part: Any) -> Any:
+    return part.wear_coefficient / mm**0.5
+
+
+STRESS = Curve("Contact stress", r"$F_\sigma$", "N^0.5 mm^-0.5", _stress)
+WEAR = Curve("Wear", r"$F_{wear}$", "N^1.5 mm^-0.5", _wear)
+HERTZ = Curve("Hertz pressure", "$p_0$", "MPa", attrgetter("hertz_pressure"))
 
 
 def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> Axes:
@@ -94,15 +98,14 @@ def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> A
     """
     if new(ax):
         frame(ax, curve.title, f"{along.name}  [{along.unit}]", Formula(f"{curve.letter}  [{unit_text(curve.unit)}]"))
-    x, y, _ = _values(analysis, curve, along)
+    x, y = _values(analysis, curve, along)
     line(ax, "dwell", x, y, color=GREY, linewidth=1.4)
     for (way, colour), part, middle in zip(AWAY_BACK, analysis.intervals, (0.25, 0.75), strict=True):
-        over, values, peaks = _values(part, curve, along)
-        line(ax, way, over, values, color=colour)
-        i = int(np.argmax(peaks))  # the first that is missing, if one is
-        line(ax, f"{way} peak", over[[i]], peaks[[i]], color=colour, marker="o", markersize=8, zorder=4)
-        there = np.isfinite(peaks[i])
-        told = f"{peaks[i]:.4g}\nat {over[i]:.1f}{along.sign}" if there else _why_none(part)
+        line(ax, way, *_values(part, curve, along), color=colour)
+        where, peak = _peak(part, curve, along)
+        line(ax, f"{way} peak", where, peak, color=colour, marker="o", markersize=8, zorder=4)
+        there = np.isfinite(peak[0])
+        told = f"{peak[0]:.4g}\nat {where[0]:.1f}{along.sign}" if there else _why_none(part)
         style: Any = {"ha": "center", "va": "top", "fontsize": 10, "linespacing": 1.05, "transform": ax.transAxes}
         text(ax, f"{way} value", middle, 0.985, f"{way} {told}", **style).set_color(INK if there else WARNING)
     line(ax, "none", x, gaps(0 * x, ~np.isfinite(y)), color=WARNING, linewidth=4.5, zorder=4)
@@ -110,9 +113,16 @@ def _with_peaks(analysis: Any, ax: Axes, curve: Curve, along: Along = TURN) -> A
     return ax
 
 
-def _values(part: Any, curve: Curve, along: Along) -> Any:
-    """Where, and what there is at the angles and with peaks between them, in the units of the axes."""
-    return along.of(part) / factor(along.unit), *(values / factor(curve.unit) for values in curve.of(part))
+def _values(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
+    """Where, and what there is, in the units of the axes."""
+    return along.of(part) / factor(along.unit), curve.of(part) / factor(curve.unit)
+
+
+def _peak(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
+    """Where an interval's peak is and how high, ``(1,)`` in the units of the axes."""
+    found = part.highest(curve.of)
+    where = along.of(part.at(np.atleast_1d(found.cam_angle)))
+    return where / factor(along.unit), np.atleast_1d(found.value) / factor(curve.unit)
 
 
 def _why_none(part: Any) -> str:

@@ -307,7 +307,7 @@ def test_the_preload_needed_at_a_speed_just_holds_the_roller(design):
     """A preload is ``J omega^2 alpha_s PS K``: another winding of the same spring."""
     analysis = design.analyse(801)
     at_rest = analysis.resisting_torque[-1]  # at the near dwell
-    assert float(analysis.preload[0]) == pytest.approx(at_rest, rel=1e-9)
+    assert float(np.ravel(analysis.preload)[0]) == pytest.approx(at_rest, rel=1e-9)
     needed = float(preload_needed(analysis, 1.6))
     closing = needed / (SPRING.inertia_speed2 * design.swing * float(analysis.spring_factor))
     held = design.replace(load=InertialSpringLoad(closing=closing), speed=1.6).analyse(4001)
@@ -447,7 +447,7 @@ def test_flags():
     r = np.array([[30.0], [30], [30], [112]]) * mm
     analysis = FIRST.replace(roller_radius=r, rise_c0=c).analyse(401)
     travel = analysis.rise.motion.s / FIRST.swing
-    margin = 1 - r * analysis.along("curvature")
+    margin = 1 - r * analysis.moving.resolved.curvature
     assert analysis.flags["the roller undercuts the profile"].tolist() == (margin.min(-1) < 0).tolist()
     assert analysis.flags["the arm passes its start"].tolist() == (travel.min(-1) < 0).tolist()
     assert analysis.flags["the arm passes its end"].tolist() == (travel.max(-1) > 1 + 1e-9).tolist()

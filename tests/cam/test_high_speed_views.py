@@ -96,20 +96,21 @@ def test_curves_over_the_turn_and_their_peaks(cam, view, measure, name, factor):
     assert_allclose(x, analysis.cam_angle / deg)
     assert_allclose(y, getattr(analysis, name) / factor, rtol=1e-12)
     heights = []
-    for way, interval in zip(("away", "back"), analysis.intervals, strict=True):
+    fine = cam.analyse(40_001).intervals
+    for way, interval, dense in zip(("away", "back"), analysis.intervals, fine, strict=True):
         x, y = xy(ax, way)
-        values = getattr(interval, name) / factor
         assert_allclose(x, interval.cam_angle / deg)
-        assert_allclose(y, values, rtol=1e-12)
+        assert_allclose(y, getattr(interval, name) / factor, rtol=1e-12)
         ((angle,), (top,)) = xy(ax, f"{way} peak")
-        assert top == pytest.approx(values.max(), rel=1e-3)
-        assert angle == pytest.approx(interval.cam_angle[values.argmax()] / deg, abs=1e-9)
+        values = getattr(dense, name) / factor
+        assert top == pytest.approx(values.max(), rel=1e-6)
+        assert angle == pytest.approx(dense.cam_angle[values.argmax()] / deg, abs=4e-3)
         label = _find(ax, f"{way} value")
         assert label.get_text() == f"{way} {top:.4g}\nat {angle:.1f}°"
         assert label.get_color() == INK
         heights.append(top)
     unit = {"N^0.5 mm^-0.5": mm**-0.5, "N^1.5 mm^-0.5": mm**-0.5, "MPa": MPa}[measure.unit]
-    assert max(heights) == pytest.approx(measure(analysis) / unit, rel=1e-12)
+    assert max(heights) == pytest.approx(measure(analysis) / unit, rel=1e-6)
     assert not np.isfinite(xy(ax, "none")[1]).any()
 
 
@@ -218,7 +219,7 @@ def test_stress_over_the_lift_in_the_papers_unit():
     ):
         ax = drawn(PRESS, view)
         tops = [xy(ax, f"{way} peak") for way in ("away", "back")]
-        assert max(top[1, 0] for top in tops) == pytest.approx(measure(analysis) * cm**0.5, rel=1e-12)
+        assert max(top[1, 0] for top in tops) == pytest.approx(measure(analysis) * cm**0.5, rel=1e-6)
         assert f"N$^{{{power}}}$ cm$^{{-0.5}}$" in ax.get_ylabel()
         x, _ = xy(ax, "away")
         assert_allclose(x, analysis.way[: len(x)] / mm, atol=1e-6)

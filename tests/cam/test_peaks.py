@@ -11,9 +11,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import DoorHandleCam, OscillatingRollerCam, door_handle_study, nsga2
 from camkit.cam import high_speed_study, valve_study
+from camkit.cam.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, lever_wear
 from camkit.cam.closing import ContactPair, contact_along, jump_speed
 from camkit.cam.follower_measures import least_force, least_profile_radius, peak_pressure
 from camkit.cam.high_speed import HighSpeedCam
+from camkit.cam.high_speed_load import ConstantTorque, InertialSpringLoad
 from camkit.cam.load import ArmLoad
 from camkit.cam.measures import (
     base_radius,
@@ -32,7 +34,21 @@ from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.cam.valve import ValveCam
 from camkit.cam.valve_train import FOLLOWERS
-from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly4567, Return, Rise, Skewed
+from camkit.motion import (
+    LAWS,
+    Cycloidal,
+    Degree9,
+    Dwell,
+    FreePolynomial,
+    MotionProgram,
+    Poly345,
+    Poly4567,
+    Return,
+    Rise,
+    Skewed,
+    SplineLaw,
+)
+from camkit.motion.shaped import FAMILIES
 from camkit.units import N, deg, kg, mm, rpm
 
 PAIR = ContactPair()
@@ -238,6 +254,164 @@ def test_peaks_of_a_high_speed_cam(law):
         assert measure(few) == pytest.approx(max(values), rel=3e-4), measure.name
     least = min(part.margin.min() for part in (rise, fall))
     assert high_speed_study.undercut_margin(few) == pytest.approx(least, abs=3e-4)
+
+
+def travel_of_345(u):
+    return u**3 * (10 - 15 * u + 6 * u**2)
+
+
+def least_share(cam, at):
+    """Travel from either end over that of a 3-4-5 polynomial; at the ends, by the jerk there if they are dwells."""
+    back = at.cam_angle > np.pi
+    angle, begun = np.where(back, cam.return_angle, cam.rise_angle), np.where(back, cam.rise_angle + cam.dwell_angle, 0)
+    u, s = (at.cam_angle - begun) / angle, np.where(back, 1 - at.motion.s / cam.swing, at.motion.s / cam.swing)
+    bend, jerk = (abs(x) * angle**k / cam.swing for k, x in ((2, at.acceleration), (3, at.jerk)))
+    share = np.minimum(s / travel_of_345(u), (1 - s) / travel_of_345(1 - u))
+    limit = np.where(back, -1, 1) * at.jerk * angle**3 / cam.swing / 60
+    near = np.minimum(u, 1 - u)
+    ends = np.where((near < 1e-6) & (bend < 3e-9 * jerk + 1e-6), limit, np.inf)
+    return np.where(near > 1e-3, share, ends)
+
+
+def curves_of(analysis):
+    """Every curve of a high-speed cam of which a measure is the largest value, from its definition."""
+    cam, spring = analysis.cam, float(np.ravel(analysis.spring_rate)[0])
+
+    def force(at):
+        return at.resisting_torque / (cam.arm_length * np.cos(at.pressure_angle))
+
+    def stress(at):
+        return np.sqrt(force(at) / (cam.roller_radius * (1 - cam.roller_radius * at.curvature)))
+
+    def wear(at):
+        return force(at) * stress(at)
+
+    def spring_use(at):
+        moved = at.motion.s > 1e-5 * cam.swing
+        return np.where(moved, -at.acceleration / np.where(moved, at.motion.s, 1), -np.inf) * cam.speed**2 / spring
+
+    curves = {
+        high_speed_study.steepest: lambda at: abs(at.pressure_angle),
+        high_speed_study.peak_force: force,
+        high_speed_study.peak_torque: lambda at: abs(at.resisting_torque * at.velocity),
+        -high_speed_study.undercut_margin: lambda at: cam.roller_radius * at.curvature - 1,
+        -high_speed_study.least_lead: lambda at: -least_share(cam, at),
+        high_speed_study.overrun: lambda at: np.maximum(-at.motion.s, at.motion.s - cam.swing) / cam.swing,
+    }
+    press = getattr(analysis, "press", None)
+    if press is None:
+        own = {high_speed_study.spring_use: spring_use, -high_speed_study.least_force: lambda at: -force(at)}
+        return curves | own | {high_speed_study.peak_stress: stress, high_speed_study.peak_wear: wear}
+    factor = press.inertia_speed2 / (press.weight * press.lever)
+    return curves | {closing_share: lambda at: -at.acceleration * factor, lever_stress: stress, lever_wear: wear}
+
+
+STRESSES = (high_speed_study.peak_stress, high_speed_study.peak_wear, lever_stress, lever_wear)
+
+
+def tops_of(analysis, curves, n=2001, hills=4, rounds=2):
+    """The largest value of each curve over rise and fall: of a fine table of each piece, then of its hills closer."""
+    program, tables = analysis.cam.motion, []
+    for i in (0, 2):
+        for low, high in pairwise((0.0, *program.segments[i].kinks, 1.0)):
+            share = low + (high - low) * np.linspace(1e-9, 1 - 1e-9, n)
+            tables.append(program.starts[i] + share * program.segments[i].angle)
+    seen = [analysis.at(table) for table in tables]
+    return {
+        measure: max(zoomed(analysis, curve, at, hills, rounds) for at in seen) for measure, curve in curves.items()
+    }
+
+
+def zoomed(analysis, curve, at, hills, rounds):
+    values, x = curve(at), at.cam_angle
+    padded = np.concatenate([[-np.inf], values, [-np.inf]])
+    tops = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
+    found = values.max()
+    for k in tops[np.argsort(values[tops])[-hills:]]:
+        low, high = x[max(k - 1, 0)], x[min(k + 1, len(x) - 1)]
+        for _ in range(rounds):
+            near = np.linspace(low, high, 101)
+            closer = curve(analysis.at(near))
+            best = int(closer.argmax())
+            low, high, found = near[max(best - 1, 0)], near[min(best + 1, 100)], max(found, closer[best])
+    return found
+
+
+def right_everywhere(analysis, measures):
+    """The measures of one high-speed cam against their curves: to 0.1 %."""
+    with np.errstate(all="ignore"):
+        tops = tops_of(analysis, curves_of(analysis))
+        (pull,) = tops_of(analysis, {"pull": lambda at: -at.resisting_torque}).values()
+    pressed = tops[-high_speed_study.undercut_margin] < 0 and pull < 0
+    assert set(tops) <= {*measures, *(-m for m in measures)}
+    for measure, top in tops.items():
+        value = measure(analysis)
+        if measure in STRESSES and not pressed:
+            assert np.isnan(value), measure.name
+        elif measure == -high_speed_study.undercut_margin and analysis.corner(-1).value > 0:
+            assert value == np.inf
+        elif measure == high_speed_study.overrun:
+            assert value == pytest.approx(top if top > 2e-6 else 0, rel=1e-3, abs=2e-6)
+        elif measure != high_speed_study.spring_use or not analysis.passes_start:  # else no spring holds the arm
+            assert value == pytest.approx(top, rel=1e-3, abs=1e-5), measure.name
+
+
+SOME = (0.2, 0.4, 0.6, 0.8)
+FREE = {
+    "3-4-5": Poly345(),
+    "degree 9": Degree9((0.5, -0.4, 0.3, -0.6)),
+    "B-spline": SplineLaw(SOME, (0.1, 0.4, 0.8, 0.93)),
+    "free polynomial": FreePolynomial(start=(0, 0, 0, 20), end=(1, 0, 0)),
+    "speed at an end": FreePolynomial(start=(0, 0), end=(1, 0.3)),
+}
+
+
+def random_designs(study, seed, rows, share=1.0):
+    """Coefficients and sizes over a share of their bounds, a few of them as they are at the start."""
+    rng, (low, high) = np.random.default_rng(seed), study.bounds
+    x = low + rng.random((rows, len(low))) * (high - low)
+    return study.x0 + share * np.where(rng.random(x.shape) < 0.2, 0, x - study.x0)
+
+
+CASES = (
+    (InertialSpringLoad(), 0.5, 9.0, 1.0),
+    (InertialSpringLoad(), 1.7, 3.0, 1.0),
+    (InertialSpringLoad(), 1.0, 0.0, 0.05),  # the weakest spring, which arms that pass their start do not have
+    (ConstantTorque(), 1.0, 1.0, 1.0),
+)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@pytest.mark.parametrize("law", FREE)
+def test_peaks_of_high_speed_cams_with_free_laws(family, law):
+    for k, (load, speed, spring, share) in enumerate(CASES):
+        cam = HighSpeedCam(family=family, load=load, speed=speed, spring_factor=spring, rise_law=FREE[law])
+        study = high_speed_study.high_speed_study(cam, free_laws=True, free_spring=False)
+        study = study.replace(start=cam)
+        checked(study, random_designs(study, 10 * list(FREE).index(law) + k, 4, share), HighSpeedCam.measures)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@pytest.mark.parametrize("law", FREE)
+def test_peaks_of_cams_with_a_lever_and_free_laws(family, law):
+    study = cam_lever_study(CamLever(rise_law=FREE[law], family=family, shaft_speed=80 * rpm))
+    checked(study, random_designs(study, list(FREE).index(law), 5), CamLever.measures)
+
+
+def checked(study, x, measures):
+    """Each of some designs, and all of them as one population."""
+    many = study.analyse(x)
+    for i, row in enumerate(x):
+        try:
+            one = study.design(row).analyse(5)
+        except ValueError:
+            assert np.isnan(many.undercut_margin[i])
+            continue
+        if np.isfinite(one.spring_factor):
+            right_everywhere(one, measures)
+        for measure in measures:
+            value = np.broadcast_to(measure(many), len(x))[i]
+            assert value == pytest.approx(measure(one), rel=1e-7, abs=1e-9, nan_ok=True), measure.name
 
 
 @pytest.mark.parametrize(("n", "m"), [(6, 16), (20, 20), (3, 1)])
