@@ -1,4 +1,4 @@
-"""Searches of the cabin-door linkage, measured: writes camkit/reference/cabin_door_searches.json anew.
+"""Searches of the cabin-door linkage, measured: writes camkit/data/cabin_door_searches.json anew.
 
     python benchmarks/cabin_door_searches.py
 
@@ -21,13 +21,13 @@ import pymoo
 import scipy
 
 from camkit import __version__
-from camkit.linkage.cabin_door import rssr_study
-from camkit.optimise import StudyProblem, nsga2_generations
-from camkit.reference import load
-from camkit.toolbox_genetic import ToolboxGenetic
+from camkit.data import load
+from camkit.machines.cabin_door import rssr_study
+from camkit.search.nsga2 import StudyProblem, nsga2_generations
+from camkit.search.toolbox_genetic import ToolboxGenetic
 from camkit.units import deg
 
-CACHE = Path(__file__).parents[1] / "camkit" / "reference" / "cabin_door_searches.json"
+CACHE = Path(__file__).parents[1] / "camkit" / "data" / "cabin_door_searches.json"
 SEEDS = 30
 PRINTED = load("cabin_door")["search"]
 STUDY = rssr_study()

@@ -1,4 +1,4 @@
-"""How many evaluations different optimisers need: measures camkit/reference/optimiser_comparison.json anew.
+"""How many evaluations different optimisers need: measures camkit/data/optimiser_comparison.json anew.
 
     python benchmarks/compare_optimisers.py
     python benchmarks/compare_optimisers.py --methods "GA (pymoo)"      measures these alone, the others stay
@@ -32,13 +32,13 @@ from pymoo.algorithms.soo.nonconvex.ga import GA
 from scipy.optimize import NonlinearConstraint, differential_evolution, minimize
 
 from camkit import __version__
-from camkit.competitive import CompetitiveAlgorithm
-from camkit.optimise import StudyProblem
-from camkit.reference.problems import KNOWN_PROBLEMS
-from camkit.shaft import lightest_shaft, shaft_study
-from camkit.study import Evaluation, Study
+from camkit.machines.shaft import lightest_shaft, shaft_study
+from camkit.papers.problems import KNOWN_PROBLEMS
+from camkit.search.competitive import CompetitiveAlgorithm
+from camkit.search.nsga2 import StudyProblem
+from camkit.study.study import Evaluation, Study
 
-CACHE = Path(__file__).parents[1] / "camkit" / "reference" / "optimiser_comparison.json"
+CACHE = Path(__file__).parents[1] / "camkit" / "data" / "optimiser_comparison.json"
 BUDGET = 10_000
 SEEDS = 30
 TARGETS = (0.1, 0.01, 0.001)

@@ -1,4 +1,4 @@
-"""The door-handle paper's search, 100 designs x 1000 generations: makes camkit/reference/door_handle_fronts.json anew.
+"""The door-handle paper's search, 100 designs x 1000 generations: makes camkit/data/door_handle_fronts.json anew.
 
     python benchmarks/door_handle_fronts.py
 
@@ -18,9 +18,9 @@ import pymoo
 import scipy
 
 from camkit import __version__, door_handle_paper_study, lift_curve_study, nsga2
-from camkit.study import Study
+from camkit.study.study import Study
 
-STORED = Path(__file__).parents[1] / "camkit" / "reference" / "door_handle_fronts.json"
+STORED = Path(__file__).parents[1] / "camkit" / "data" / "door_handle_fronts.json"
 POPULATION, GENERATIONS, SEED = 100, 1000, 1
 STUDIES = {"whole cam": door_handle_paper_study, "lift curve": lift_curve_study}
 

@@ -1,4 +1,4 @@
-"""Searches of the high-speed cam, measured: writes camkit/reference/high_speed_searches.json anew.
+"""Searches of the high-speed cam, measured: writes camkit/data/high_speed_searches.json anew.
 
     python benchmarks/high_speed_searches.py
 
@@ -24,17 +24,17 @@ import scipy
 from test_minimax import METHODS, PROBLEMS, ten_trials
 
 from camkit import __version__
-from camkit.cam.high_speed_paper import trade_off_studies
-from camkit.optimise import Generation, nsga2_generations
-from camkit.trade_offs import trade_off_steps
+from camkit.papers.high_speed_cam import trade_off_studies
+from camkit.search.epsilon_constraint import trade_off_steps
+from camkit.search.nsga2 import Generation, nsga2_generations
 from camkit.units import mm
 
-CACHE = Path(__file__).parents[1] / "camkit" / "reference" / "high_speed_searches.json"
+CACHE = Path(__file__).parents[1] / "camkit" / "data" / "high_speed_searches.json"
 POINTS, POPULATION, RECHECK = 33, 100, 4001
 GENERATIONS = {"sizes alone": 100, "laws free": 1000}
 
 
-def least_stress() -> dict[str, Any]:
+def min_stress() -> dict[str, Any]:
     """Stress reached [N^0.5 mm^-0.5; null: no design kept all limits], designs and seconds of every trial."""
     found: dict[str, Any] = {}
     for name in PROBLEMS:
@@ -84,7 +84,7 @@ def main() -> None:
             "pymoo": pymoo.__version__,
             "machine": platform.machine(),
         },
-        "least_stress": least_stress(),
+        "min_stress": min_stress(),
         "fronts": fronts(),
     }
     CACHE.write_text(_in_rows(json.dumps(data, indent=1)) + "\n", encoding="utf-8")

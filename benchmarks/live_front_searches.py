@@ -1,4 +1,4 @@
-"""How fast searches find a front: measures camkit/reference/live_front_searches.json anew.
+"""How fast searches find a front: measures camkit/data/live_front_searches.json anew.
 
     python benchmarks/live_front_searches.py
 
@@ -27,12 +27,12 @@ import pymoo
 import scipy
 
 from camkit import __version__, door_handle_study
-from camkit.archive import quick_front, quick_front_rounds
-from camkit.cam.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE
-from camkit.optimise import front_of, nsga2_generations, reference_point
-from camkit.study import Evaluation, Study
+from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE
+from camkit.search.fast_front import quick_front, quick_front_rounds
+from camkit.search.nsga2 import front_of, nsga2_generations, reference_point
+from camkit.study.study import Evaluation, Study
 
-CACHE = Path(__file__).parents[1] / "camkit" / "reference" / "live_front_searches.json"
+CACHE = Path(__file__).parents[1] / "camkit" / "data" / "live_front_searches.json"
 POPULATION, GENERATIONS, SEED, RUNS = 100, 1000, 1, 5
 MANY, POLISHED = 1000, 20
 FOUR = DOOR_HANDLE_SPACE | {"lift_centre_distance": EXPANDED_SPACE["lift_centre_distance"]}

@@ -28,8 +28,8 @@ PRESSES, DRAG_SECONDS, DRAGS, MOVES = 24, 6, 3, 200
 CELLS = [
     """
 from camkit import DoorHandleCam, deg, door_handle_study, explore
-from camkit.cam.door_handle import CURVE_TABLE, WORSE_CURVE
-from camkit.plot.cam import DOOR_HANDLE_VIEWS
+from camkit.machines.door_handle import CURVE_TABLE, WORSE_CURVE
+from camkit.render.cam import DOOR_HANDLE_VIEWS
 
 paper = DoorHandleCam(door_torque=10)
 study = door_handle_study(paper)
@@ -45,7 +45,7 @@ import matplotlib.pyplot as plt
 from ipywidgets import FloatSlider, interact
 from matplotlib import rc_context
 from camkit import mm
-from camkit.plot.artists import STYLE
+from camkit.render.artists import STYLE
 
 mechanism, *others = DOOR_HANDLE_VIEWS
 places = [ax.get_position() for ax in app.picture.axes]

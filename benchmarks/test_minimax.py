@@ -18,10 +18,10 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize as scipy_minimize
 
-from camkit.cam.high_speed_study import high_speed_study
-from camkit.epigraph import BAD, STEP
-from camkit.minimum import CROWD, EXACT, minimise
-from camkit.study import Evaluation, Study
+from camkit.machines.high_speed_study import high_speed_study
+from camkit.search.minimax import BAD, STEP
+from camkit.search.minimise import CROWD, EXACT, minimise
+from camkit.study.study import Evaluation, Study
 from camkit.units import mm
 
 Report = Callable[[str, str], None]

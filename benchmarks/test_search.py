@@ -15,8 +15,8 @@ import pytest
 from scipy.stats import qmc
 
 from camkit import door_handle_study, lift_curve_study, nsga2
-from camkit.optimise import StudyProblem
-from camkit.study import Study
+from camkit.search.nsga2 import StudyProblem
+from camkit.study.study import Study
 
 Report = Callable[[str, str], None]
 

@@ -13,8 +13,8 @@ STOPS = 9
 CELLS = [
     """
 from camkit import DoorHandleCam, lift_curve_study, explore, search
-from camkit.cam.door_handle import LIFT_SPACE
-from camkit.plot.cam import cam_mechanism
+from camkit.machines.door_handle import LIFT_SPACE
+from camkit.render.cam import cam_mechanism
 
 app = explore(DoorHandleCam(), cam_mechanism)
 search(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""

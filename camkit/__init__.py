@@ -9,67 +9,68 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from .cam.cam_lever import CamLever, cam_lever_study
-from .cam.closing import ContactPair
-from .cam.door_handle import DoorHandleCam, door_handle_paper_study, door_handle_study, lift_curve_study
-from .cam.high_speed import HighSpeedCam
-from .cam.high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
-from .cam.high_speed_study import high_speed_study
-from .cam.load import ArmLoad, Friction
+from .cam.force_closure import ContactPair
+from .cam.loads import ArmLoad, Friction
 from .cam.oscillating_flat import OscillatingFlatCam
 from .cam.oscillating_roller import OscillatingRollerCam
 from .cam.slide import SlideFriction, SlideLoad
 from .cam.translating_flat import TranslatingFlatCam
 from .cam.translating_roller import TranslatingRollerCam
-from .cam.valve import ValveCam
-from .cam.valve_study import corrected_valve_study, valve_front_study, valve_study
-from .contact import hertz_line
-from .decision import ahp, crowding, judgement_ranges, knee, topsis, weighted_sum, winner_map
-from .export import load, save
-from .linkage.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
+from .contact import line_contact
+from .decision.ahp import ahp, judgement_ranges, knee, most_isolated, topsis, weighted_sum, winner_map
+from .decision.summary import side_by_side
+from .files.designs import load, save
+from .files.profiles import profile_csv, profile_dxf
 from .linkage.load import RockerLoad
 from .linkage.rssr import RSSR
 from .linkage.space import Box
+from .linkage.universal_joint import DoubleUniversalJoint, UniversalJoint
+from .machines.cabin_door import CabinDoorLinkage, ninety_degree_study, rssr_study
+from .machines.cam_lever import CamLever, cam_lever_study
+from .machines.door_handle import DoorHandleCam, door_handle_paper_study, door_handle_study, lift_curve_study
+from .machines.high_speed_cam import HighSpeedCam
+from .machines.high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
+from .machines.high_speed_study import high_speed_study
+from .machines.shaft import UniversalJointShaft, lightest_shaft, shaft_study
+from .machines.valve_cam import ValveCam
+from .machines.valve_study import corrected_valve_study, valve_front_study, valve_study
 from .motion import *  # noqa: F403
 from .motion import __all__ as _motion_names
-from .plane import Plane
-from .polish import SumOfResiduals, polish
-from .profile_files import profile_csv, profile_dxf
 from .quantities import Measure, PeakMeasure, UnitRemark, quantity
-from .shaft import UniversalJointShaft, lightest_shaft, shaft_study
-from .side_by_side import side_by_side
-from .study import Study, weighted
-from .sweep import Sweep
-from .tolerance import Curve, Tolerances
+from .search.polish import polish
+from .study.design_map import DesignMap
+from .study.residuals import SumOfResiduals
+from .study.study import Study, weighted
+from .study.sweep import Sweep
+from .study.tolerances import AnalysisCurve, Tolerances
 from .units import GPa, MPa, N, cm, deg, kg, kN, kW, m, mm, rad, rpm
-from .universal_joint import DoubleUniversalJoint, UniversalJoint
 
 __version__ = "0.1.0"
 
 _LATER = {
-    "CompetitiveAlgorithm": "competitive",
-    "decide": "app",
-    "edit_program": "app",
-    "explore": "app",
-    "Front": "optimise",
-    "improve": "app",
-    "judge": "app",
-    "live_front": "app",
-    "minimise": "minimum",
-    "nsga2": "optimise",
-    "offer": "app",
-    "picture": "plot.picture",
-    "quick_front": "archive",
-    "search": "app",
-    "shorten": "app",
-    "shortest_interval": "cycle_time",
-    "survey": "app",
-    "tolerate": "app",
-    "trade": "app",
-    "trade_off": "trade_offs",
-    "trade_off_steps": "trade_offs",
-    "tray": "app",
-    "try_everything": "app",
+    "ahp_panel": "panels",
+    "choose_panel": "panels",
+    "compare_fronts": "panels",
+    "CompetitiveAlgorithm": "search.competitive",
+    "contour_panel": "panels",
+    "cycle_time_panel": "panels",
+    "edit_program": "panels",
+    "explore": "panels",
+    "Front": "search.nsga2",
+    "live_pareto_panel": "panels",
+    "minimise": "search.minimise",
+    "nsga2": "search.nsga2",
+    "optimise_panel": "panels",
+    "pareto_panel": "panels",
+    "picture": "render.picture",
+    "presets": "panels",
+    "quick_front": "search.fast_front",
+    "shortest_interval": "search.cycle_time",
+    "shortlist": "panels",
+    "tolerance_panel": "panels",
+    "trade_off": "search.epsilon_constraint",
+    "trade_off_steps": "search.epsilon_constraint",
+    "try_everything": "panels",
 }
 """Names whose modules need more than numpy and scipy, and where they live."""
 
@@ -93,7 +94,7 @@ __all__ = [
     "CamLever",
     "ConstantTorque",
     "ContactPair",
-    "Curve",
+    "AnalysisCurve",
     "DoorHandleCam",
     "DoubleUniversalJoint",
     "Friction",
@@ -106,7 +107,7 @@ __all__ = [
     "OscillatingFlatCam",
     "OscillatingRollerCam",
     "PeakMeasure",
-    "Plane",
+    "DesignMap",
     "RSSR",
     "RockerLoad",
     "SlideFriction",
@@ -126,11 +127,11 @@ __all__ = [
     "cam_lever_study",
     "cm",
     "corrected_valve_study",
-    "crowding",
+    "most_isolated",
     "deg",
     "door_handle_paper_study",
     "door_handle_study",
-    "hertz_line",
+    "line_contact",
     "high_speed_study",
     "judgement_ranges",
     "kN",

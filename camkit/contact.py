@@ -52,7 +52,7 @@ def contact_modulus(first: Any, second: Any, first_poisson: Any = 0.3, second_po
         return np.where(possible, 1 / compliance, np.nan)[()]
 
 
-def hertz_line(force_per_length: Any, curvature: Any, modulus: Any) -> LineContact:
+def line_contact(force_per_length: Any, curvature: Any, modulus: Any) -> LineContact:
     """Pressure and shear where two parallel cylinders are pressed together, element by element.
 
     ``force_per_length``: ``w``, N/m; ``curvature``: ``kappa``, the sum of both curvatures, 1/m (a flat face
@@ -64,7 +64,7 @@ def hertz_line(force_per_length: Any, curvature: Any, modulus: Any) -> LineConta
     with ``0.300 p_0``.  ``nan`` where the surfaces do not fit (``kappa <= 0``) or are pulled (``w < 0``).
 
     >>> w, kappa = 4e3, 1 / 0.005 + 1 / 0.020
-    >>> contact = hertz_line(w, kappa, contact_modulus(210e9, 210e9))
+    >>> contact = line_contact(w, kappa, contact_modulus(210e9, 210e9))
     >>> print(f"{contact.pressure / 1e6:.3f} MPa, {contact.half_width * 1e6:.3f} um")
     191.646 MPa, 13.287 um
     """

@@ -293,8 +293,9 @@ def members(value: Any, rows: Any) -> Any:
 
 
 def words(name: str) -> str:
-    """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.mass`` -> ``load mass``."""
-    return name.replace("_", " ").replace(".", " ")
+    """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.max_force`` -> ``load maximum force``."""
+    read = name.replace("_", " ").replace(".", " ").split()
+    return " ".join({"min": "minimum", "max": "maximum"}.get(word, word) for word in read)
 
 
 def _subject(name: str, declared: Quantity) -> str:

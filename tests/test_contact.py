@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit.contact import contact_modulus, hertz_line
+from camkit.contact import contact_modulus, line_contact
 from camkit.units import GPa, MPa, N, mm
 
 # slippy 0.5.2, solve_hertz_line: r1, r2 [mm], w [N/mm], E1, E2 [MPa], nu1, nu2 -> E* [GPa], half width [mm], p0 [MPa]
@@ -19,14 +19,14 @@ W, KAPPA, E = 40 * N / mm, 1 / (8 * mm), contact_modulus(210 * GPa, 170 * GPa)
 @pytest.mark.parametrize(("r1", "r2", "w", "E1", "E2", "nu1", "nu2", "modulus", "half_width", "p0"), SLIPPY)
 def test_published_contacts(r1, r2, w, E1, E2, nu1, nu2, modulus, half_width, p0):
     together = contact_modulus(E1 * MPa, E2 * MPa, nu1, nu2)
-    contact = hertz_line(w * N / mm, 1 / (r1 * mm) + 1 / (r2 * mm), together)
+    contact = line_contact(w * N / mm, 1 / (r1 * mm) + 1 / (r2 * mm), together)
     assert_allclose(together, modulus * GPa, rtol=1e-8)
     assert_allclose(contact.half_width, half_width * mm, rtol=5e-8)
     assert_allclose(contact.pressure, p0 * MPa, rtol=1e-8)
 
 
 def test_the_pressure_carries_the_load():
-    p0, a, *_ = hertz_line(W, KAPPA, E)
+    p0, a, *_ = line_contact(W, KAPPA, E)
     turn = (np.arange(2000) + 0.5) * np.pi / 2000
     load = np.sum(p0 * np.sin(turn) * a * np.sin(turn)) * np.pi / 2000  # x = a cos(turn)
     assert_allclose(load, W, rtol=1e-12)
@@ -34,7 +34,7 @@ def test_the_pressure_carries_the_load():
 
 def test_the_surfaces_close_the_gap():
     """Slope of both surfaces together under the pressure: ``-(2 / (pi E*)) int p(s) / (x - s) ds = -kappa x``."""
-    p0, a, *_ = hertz_line(W, KAPPA, E)
+    p0, a, *_ = line_contact(W, KAPPA, E)
     turn = (np.arange(4000) + 0.5) * np.pi / 4000
     s = a * np.cos(turn)
     p_ds = p0 * np.sin(turn) * a * np.sin(turn) * np.pi / 4000
@@ -45,7 +45,7 @@ def test_the_surfaces_close_the_gap():
 
 def test_shear_below_the_middle_is_the_half_space_summed_up():
     """Flamant: a line load P gives ``2 P z^3 / (pi r^4)`` down and ``2 P x^2 z / (pi r^4)`` across, at depth z."""
-    p0, a, shear, depth = hertz_line(W, KAPPA, E)
+    p0, a, shear, depth = line_contact(W, KAPPA, E)
     turn = (np.arange(2000) + 0.5) * np.pi / 2000
     x, P = a * np.cos(turn), p0 * np.sin(turn) * a * np.sin(turn) * np.pi / 2000
     z = np.linspace(0.5, 1.1, 6001)[:, None] * a
@@ -56,7 +56,7 @@ def test_shear_below_the_middle_is_the_half_space_summed_up():
 
 
 def test_limits():
-    p0, a, *_ = hertz_line(np.array([W, 4 * W, 0, -W, W]), np.array([KAPPA, KAPPA, KAPPA, KAPPA, -KAPPA]), E)
+    p0, a, *_ = line_contact(np.array([W, 4 * W, 0, -W, W]), np.array([KAPPA, KAPPA, KAPPA, KAPPA, -KAPPA]), E)
     assert_allclose(p0, [p0[0], 2 * p0[0], 0, np.nan, np.nan])
     assert_allclose(a, [a[0], 2 * a[0], 0, np.nan, np.nan])
     assert_allclose(contact_modulus(210 * GPa, 1e9 * GPa), 210 * GPa / (1 - 0.3**2), rtol=1e-6)  # on a rigid body
@@ -74,8 +74,8 @@ def test_a_population_is_its_members_and_a_bad_one_disturbs_nobody():
     together = contact_modulus(moduli, 210 * GPa)
     assert_allclose(together[:, 0], [contact_modulus(210e9, 210e9), np.nan, contact_modulus(70e9, 210e9)])
     forces = np.linspace(0, W, 5)
-    many = hertz_line(forces, KAPPA, together)
+    many = line_contact(forces, KAPPA, together)
     for row in (0, 2):
-        one = hertz_line(forces, KAPPA, together[row, 0])
+        one = line_contact(forces, KAPPA, together[row, 0])
         assert all(np.array_equal(a[row], b) for a, b in zip(many, one, strict=True))
     assert np.isnan(many.pressure[1]).all()

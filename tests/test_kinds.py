@@ -16,16 +16,16 @@ import pytest
 import camkit
 from camkit import (
     RSSR,
+    AnalysisCurve,
     Box,
     CamLever,
-    Curve,
     Cycloidal,
+    DesignMap,
     Dwell,
     FreePolynomial,
     Measure,
     MotionProgram,
     PeakMeasure,
-    Plane,
     Return,
     Rise,
     Skewed,
@@ -41,11 +41,11 @@ from camkit import (
     UniversalJointShaft,
     cam_lever_study,
 )
-from camkit.cam.high_speed_study import peak_stress
-from camkit.decision import random_index
-from camkit.optimise import dominated, front_of
+from camkit.decision.ahp import random_index
+from camkit.machines.high_speed_study import peak_stress
+from camkit.machines.shaft import shaft_study
 from camkit.quantities import Choice, Quantity
-from camkit.shaft import shaft_study
+from camkit.search.nsga2 import dominated, front_of
 
 BAD = {
     "nan": np.nan,
@@ -112,16 +112,16 @@ GIVEN = {
     SumOfResiduals: ("height", "mm", len),
     Study: (TranslatingRollerCam(), ["base_radius"], [HEIGHT]),
     Sweep: (STUDY,),
-    Plane: (shaft_study(),),
+    DesignMap: (shaft_study(),),
     Tolerances: (STUDY, {"base_radius": 0.001}),
     SliderLoad: (0.2, 100.0, abs, 1.0),
-    Curve: ("pressure_angle", "deg", "pressure angle"),
+    AnalysisCurve: ("pressure_angle", "deg", "pressure angle"),
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
     Choice: ("law", LAW, (LAW,), "the law"),
 }
 """What the constructors that have no defaults are given."""
 
-NOT_MADE_BY_HAND = {"Front", "Joint", "ProgramPeaks", "Kinematics", "Peaks", "Peak", "Law", "Segment"}
+NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Peak", "Law", "Segment"}
 PUBLIC = [getattr(camkit, name) for name in camkit.__all__ if name not in NOT_MADE_BY_HAND]
 CLASSES = [c for c in PUBLIC if inspect.isclass(c) and dataclasses.is_dataclass(c)]
 CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in dataclasses.fields(kind) if f.init]
@@ -161,7 +161,7 @@ def used(kind, name, value):
         made.evaluate(made.x0)
     elif isinstance(made, Sweep):
         made.evaluation  # noqa: B018
-    elif isinstance(made, Plane):
+    elif isinstance(made, DesignMap):
         made.objective  # noqa: B018
     elif isinstance(made, Tolerances):
         made.share  # noqa: B018
@@ -205,13 +205,13 @@ ROLLER, FLAT, ROCKER = TranslatingRollerCam(), camkit.TranslatingFlatCam(), camk
 
 FUNCTIONS = {
     camkit.ahp: {"judgements": [5, 3, 1], "method": "geometric"},
-    camkit.crowding: {"front": FRONT, "weights": (1, 1)},
+    camkit.most_isolated: {"front": FRONT, "weights": (1, 1)},
     camkit.knee: {"front": FRONT, "weights": (1, 1)},
     camkit.topsis: {"front": FRONT, "weights": (1, 1), "scale": "range"},
     camkit.weighted_sum: {"front": FRONT, "weights": (1, 1)},
     camkit.judgement_ranges: {"front": FRONT, "judgements": [3], "method": "geometric"},
     camkit.winner_map: {"front": FRONT},
-    camkit.hertz_line: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
+    camkit.line_contact: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
     camkit.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},
     camkit.program_between: {"pieces": PIECES, "start": 0.0},
     camkit.residual_vibration: {"law": LAW, "tau": 1.5, "damping": 0.1},
@@ -219,13 +219,13 @@ FUNCTIONS = {
     PROGRAM.__call__: {"cam_angle": 0.3},
     PROGRAM.in_time: {"cam_angle": 0.3, "speed": 10.0},
     LAW.__call__: {"u": 0.3},
-    ROLLER.base_radius_for: {"pressure_angle": 0.4, "least_radius": 0.001, "n": 31},
+    ROLLER.base_radius_for: {"pressure_angle": 0.4, "min_radius": 0.001, "n": 31},
     ROLLER.conjugate: {"distance": 0.1, "roller_radius": 0.005},
     ROLLER.replace: {"motion": PROGRAM, "base_radius": 0.03},
-    FLAT.base_radius_for: {"least_radius": 0.001, "n": 31},
+    FLAT.base_radius_for: {"min_radius": 0.001, "n": 31},
     FLAT.conjugate: {"distance": 0.1},
     ROCKER.conjugate: {"spread": 1.2, "arm_length": 0.06, "roller_radius": 0.005},
-    camkit.OscillatingFlatCam().face_offset_for: {"least_radius": 0.001, "n": 31},
+    camkit.OscillatingFlatCam().face_offset_for: {"min_radius": 0.001, "n": 31},
     camkit.OscillatingFlatCam().conjugate: {"spread": 1.0, "face_offset": 0.01},
     camkit.ValveCam().with_spring: {"preload_share": 0.4},
     camkit.ValveCam().motion: {"cam_angle": 0.3},
@@ -243,7 +243,7 @@ CAM = TranslatingRollerCam()
 CROSS = TWO.evaluate([[0.03], [0.04], [0.05]])
 FOUND = front_of(CROSS, TWO)
 SPREAD = Tolerances(STUDY, {"base_radius": 0.001}, parts=64)
-CURVE = Curve("pressure_angle", "deg", "pressure angle")
+CURVE = AnalysisCurve("pressure_angle", "deg", "pressure angle")
 FUNCTIONS |= {
     camkit.cam_lever_study: {
         "start": CamLever(), "objective": peak_stress, "max_radius": 0.11, "free_laws": False, "angles": 31
@@ -258,7 +258,7 @@ FUNCTIONS |= {
     camkit.lift_curve_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
     camkit.lightest_shaft: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
     camkit.rssr_study: {
-        "start": camkit.CabinDoorLinkage(), "objective": missed, "space": {"crank": (0.05, 0.1)}, "least_swing": 1.0,
+        "start": camkit.CabinDoorLinkage(), "objective": missed, "space": {"crank": (0.05, 0.1)}, "min_swing": 1.0,
         "inside": Box(*GIVEN[Box]), "outside": Box(*GIVEN[Box]), "positions": 5
     },
     camkit.shaft_study: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},

@@ -15,27 +15,27 @@ import pytest
 
 import camkit
 from camkit import Study
-from camkit.app import (
-    decide,
-    edit_program,
-    explore,
-    judge,
-    live_front,
-    offer,
-    search,
-    survey,
-    tolerate,
-    trade,
-    tray,
-)
-from camkit.comparison import Comparison, Row, Table
+from camkit.decision.summary import side_by_side
+from camkit.files.profiles import table_csv
 from camkit.markup import Html, attribute, csv_cell, escaped, html, joined, markdown, table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from camkit.optimise import nsga2
-from camkit.plot.picture import picture
-from camkit.profile_files import table_csv
+from camkit.panels import (
+    ahp_panel,
+    choose_panel,
+    compare_fronts,
+    contour_panel,
+    edit_program,
+    explore,
+    live_pareto_panel,
+    pareto_panel,
+    presets,
+    shortlist,
+    tolerance_panel,
+)
+from camkit.papers.published import Comparison, Row, Table
 from camkit.quantities import Design, Measure, quantity
-from camkit.side_by_side import side_by_side
+from camkit.render.picture import picture
+from camkit.search.nsga2 import nsga2
 from camkit.units import deg, mm
 
 EVIL = "<img src=x onerror='ran()'>\"</script>\n<b>$\\frac$ | `x` {0} &amp; $"
@@ -200,7 +200,7 @@ def study(start=None, weights=None, reference=None, space=None) -> Study:
 
 
 def evil_view(analysis, ax):
-    from camkit.plot.artists import frame, line, new
+    from camkit.render.artists import frame, line, new
 
     if new(ax):
         frame(ax, EVIL, EVIL, EVIL)
@@ -252,34 +252,34 @@ def test_the_explorer_and_what_belongs_to_it(explorer):
     explorer.controls["x"].box.value = -1
     assert_panel_harmless(explorer, 3)
     explorer.load(Evil())
-    kept = tray(explorer, study())
+    kept = shortlist(explorer, study())
     kept.keep()
     assert_panel_harmless(kept)
-    assert_panel_harmless(tolerate(explorer, study()), 3)
-    assert_panel_harmless(offer(explorer, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design}))
+    assert_panel_harmless(tolerance_panel(explorer, study()), 3)
+    assert_panel_harmless(presets(explorer, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design}))
 
 
 def test_judgements_and_fronts(explorer, front, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook
-    judged = judge([EVIL, "b"], [3], EVIL)
+    judged = ahp_panel([EVIL, "b"], [3], EVIL)
     assert_panel_harmless(judged, 3)
     judged.boxes[0, 1].value = EVIL
     assert_panel_harmless(judged, 4)
     space = {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}
-    found = search(explorer, {EVIL: study}, space=space, free=["x", "y"], population=24, generations=4)
+    found = pareto_panel(explorer, {EVIL: study}, space=space, free=["x", "y"], population=24, generations=4)
     found.run()
     found.wait(60)
     assert_panel_harmless(found, 3)
-    assert_panel_harmless(decide(found), 2)
-    assert_panel_harmless(live_front(explorer, {EVIL: study}, space))
-    assert_panel_harmless(trade(explorer, given={EVIL: front}))
+    assert_panel_harmless(choose_panel(found), 2)
+    assert_panel_harmless(live_pareto_panel(explorer, {EVIL: study}, space))
+    assert_panel_harmless(compare_fronts(explorer, given={EVIL: front}))
 
 
 def test_the_survey_and_the_program(explorer):
     def make(start, weights):
         return Study(start, {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}, (FIRST,), at_most={LIMITED: 5 * mm})
 
-    assert_panel_harmless(survey(explorer, {EVIL: make}, {"first": 1.0}, steps=7))
+    assert_panel_harmless(contour_panel(explorer, {EVIL: make}, {"first": 1.0}, steps=7))
     segments = (Rise(90 * deg, 10 * mm, EvilLaw()), Dwell(90 * deg), Return(180 * deg, 10 * mm, EvilLaw()))
     assert_panel_harmless(edit_program(MotionProgram(segments)), 0)
 

@@ -16,30 +16,30 @@ import pytest
 from test_kinds import BAD, CLASSES, FUNCTIONS, NOT_MADE_BY_HAND, outcome
 
 import camkit
-from camkit import Box, Curve, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
-from camkit.optimise import front_of, nsga2_generations
-from camkit.plot.beside import Beside
-from camkit.plot.cam import pressure_angle
-from camkit.shaft import standard_tubes
-from camkit.trials import measured_trials
+from camkit import AnalysisCurve, Box, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
+from camkit.machines.shaft import standard_tubes
+from camkit.papers.optimiser_trials import measured_trials
+from camkit.render.beside import Beside
+from camkit.render.cam import pressure_angle
+from camkit.search.nsga2 import front_of, nsga2_generations
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 WINGS = [
-    "app",
-    "competitive",
-    "cycle_time",
-    "decision",
-    "optimise",
-    "plane",
-    "plot.picture",
-    "polish",
-    "shaft",
-    "side_by_side",
-    "sweep",
-    "tolerance",
-    "toolbox_genetic",
-    "trade_offs",
-    "trials",
+    "panels",
+    "search.competitive",
+    "search.cycle_time",
+    "decision.ahp",
+    "search.nsga2",
+    "study.design_map",
+    "render.picture",
+    "search.polish",
+    "machines.shaft",
+    "decision.summary",
+    "study.sweep",
+    "study.tolerances",
+    "search.toolbox_genetic",
+    "search.epsilon_constraint",
+    "papers.optimiser_trials",
 ]
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Generation", "IntervalStep", "Judgement", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
@@ -147,7 +147,7 @@ def app(name="roller"):
 @cache
 def search():
     """A panel with a front, which nobody has searched yet."""
-    return camkit.search(app(), {"two": two}, space=SPACE, free=("base_radius",))
+    return camkit.pareto_panel(app(), {"two": two}, space=SPACE, free=("base_radius",))
 
 
 @cache
@@ -168,7 +168,7 @@ GOOD = {
     "choices": dict,
     "columns": lambda: {"angle": [0.0, 1.0]},
     "count": lambda: 3,
-    "curve": lambda: Curve("pressure_angle", "deg", "pressure angle"),
+    "curve": lambda: AnalysisCurve("pressure_angle", "deg", "pressure angle"),
     "declared": lambda: camkit.quantities.declarations(CAM)["base_radius"],
     "design": lambda: CAM,
     "done": lambda: 0.5,
@@ -194,7 +194,7 @@ GOOD = {
     "pair": camkit.ContactPair,
     "panel": app,
     "peak": lambda: slope,
-    "plane": lambda: camkit.Plane(SHAFT, n=5),
+    "plane": lambda: camkit.DesignMap(SHAFT, n=5),
     "population": lambda: 4,
     "problem": lambda: "tension spring",
     "program": lambda: CAM.motion,
@@ -234,24 +234,24 @@ GOOD = {
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
-    "Curve.name": lambda: "pressure_angle",
-    "Curve.label": lambda: "pressure angle",
-    "CycleTime.explorer": lambda: app("lever"),
-    "CycleTime.make": lambda: plain_lever,
+    "AnalysisCurve.name": lambda: "pressure_angle",
+    "AnalysisCurve.label": lambda: "pressure angle",
+    "CycleTimePanel.explorer": lambda: app("lever"),
+    "CycleTimePanel.make": lambda: plain_lever,
     "Front.f": lambda: FRONT.f,
     "Front.x": lambda: FRONT.x,
-    "Survey.studies": lambda: {"one": over_two},
-    "Survey.weights": lambda: {"height": 1.0},
-    "Trade.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
-    "reference.load.name": lambda: "door_handle",
-    "improve.explorer": app,
-    "shorten.explorer": lambda: app("lever"),
-    "shorten.make": lambda: plain_lever,
+    "ContourPanel.studies": lambda: {"one": over_two},
+    "ContourPanel.weights": lambda: {"height": 1.0},
+    "FrontsPanel.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "data.load.name": lambda: "door_handle",
+    "optimise_panel.explorer": app,
+    "cycle_time_panel.explorer": lambda: app("lever"),
+    "cycle_time_panel.make": lambda: plain_lever,
     "shortest_interval.study": lambda: LEVER(),
-    "survey.studies": lambda: {"one": over_two},
-    "survey.weights": lambda: {"height": 1.0},
-    "trade.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
-    "Tolerated.study": lambda: STUDY,
+    "contour_panel.studies": lambda: {"one": over_two},
+    "contour_panel.weights": lambda: {"height": 1.0},
+    "compare_fronts.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "TolerancePanel.study": lambda: STUDY,
     "Work.search": dict,
     "Work.judgements": dict,
     "lightest_tube.study": lambda: camkit.shaft_study(space={name: (0.05, 0.2) for name in SHAFT.free}),

@@ -335,7 +335,7 @@ class RollerAnalysis(CamAnalysis):
 
         The pitch curve has a corner where the follower's speed jumps: a convex one where it drops.
         """
-        found, corner = self.highest(_convex if side > 0 else _hollow), self.corner(-side)
+        found, corner = self.highest(_convex if side > 0 else _concave), self.corner(-side)
         jumps = (corner.value > 0) & ~np.isnan(found.value)
         value, angle = (np.where(jumps, *pair)[()] for pair in ((np.inf, found.value), (corner.cam_angle, found[1])))
         return Extreme(value, angle)
@@ -527,5 +527,5 @@ def _convex(analysis: Any) -> Any:
     return analysis.curvature
 
 
-def _hollow(analysis: Any) -> Any:
+def _concave(analysis: Any) -> Any:
     return -analysis.curvature

@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Measure
-from .closing import ContactPair, contact_along, jump_speed, torque_balance
-from .measures import CURVE, base_radius, groove_gap, mean_efficiency, peak, peak_force, peak_torque, steepest
+from .force_closure import ContactPair, contact_along, jump_speed, torque_balance
+from .measures import CURVE, base_radius, groove_gap, max_pressure_angle, mean_efficiency, peak, peak_force, peak_torque
 
 _force = attrgetter("contact_force")
 
-least_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
+min_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
 undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
-least_force = Measure("least contact force", "N", lambda a: a.lowest(_force).value)
+min_force = Measure("least contact force", "N", lambda a: a.lowest(_force).value)
 
 
 def _mean_torque(analysis: Any) -> Any:
@@ -42,13 +42,13 @@ def peak_pressure(pair: ContactPair) -> Measure:
     return Measure("peak contact pressure", "MPa", peak(lambda a: contact_along(a, pair).pressure))
 
 
-_CLOSING = (least_force, mean_torque, jump_margin)
-ROLLER_CURVE = (*CURVE, groove_gap, least_profile_radius, undercut_place, *_CLOSING)
+_CLOSING = (min_force, mean_torque, jump_margin)
+ROLLER_CURVE = (*CURVE, groove_gap, min_profile_radius, undercut_place, *_CLOSING)
 """What a table of a cam under a sliding roller shows."""
 FLAT_CURVE = (
-    steepest,
+    max_pressure_angle,
     base_radius,
-    least_profile_radius,
+    min_profile_radius,
     undercut_place,
     face_width,
     peak_force,

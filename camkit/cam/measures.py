@@ -19,7 +19,7 @@ def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda analysis: analysis.highest(f).value
 
 
-def _least_radius(side: int) -> Callable[[Any], Any]:
+def _min_radius(side: int) -> Callable[[Any], Any]:
     """The least radius of the pitch curve where it is convex (``side`` = 1) or hollow (-1); ``inf`` if nowhere."""
     return lambda analysis: radius_of(analysis.sharpest(side).value)
 
@@ -64,10 +64,10 @@ def work_ratio(analysis: Any) -> Any:
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
-steepest = Measure("steepest pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
+max_pressure_angle = Measure("steepest pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
-least_convex_radius = Measure("least convex radius (pitch)", "mm", _least_radius(1))
-least_concave_radius = Measure("least concave radius (pitch)", "mm", _least_radius(-1))
+min_convex_radius = Measure("least convex radius (pitch)", "mm", _min_radius(1))
+min_concave_radius = Measure("least concave radius (pitch)", "mm", _min_radius(-1))
 undercut_margin = Measure("undercut margin of the groove", "", _groove_margin)
 groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap)
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
@@ -89,10 +89,10 @@ MOTION = (
 """Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
 
 CURVE = (
-    steepest,
+    max_pressure_angle,
     base_radius,
-    least_convex_radius,
-    least_concave_radius,
+    min_convex_radius,
+    min_concave_radius,
     undercut_margin,
     peak_force,
     peak_torque,
@@ -105,7 +105,7 @@ ARM_CURVE = (*CURVE, published_mean_efficiency, groove_gap)
 
 
 def part(measure: Measure, name: str) -> Measure:
-    """``measure`` of one curve of a machine that has several: ``part(steepest, "lift")``."""
+    """``measure`` of one curve of a machine that has several: ``part(max_pressure_angle, "lift")``."""
     return Measure(f"{measure.name}, {name}", measure.unit, lambda a: measure(getattr(a, name)))
 
 

@@ -26,7 +26,7 @@ from ..units import deg, mm, rpm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .follower_measures import FLAT_CURVE
-from .load import ArmLoad, Friction
+from .loads import ArmLoad, Friction
 from .sizing import if_possible, refuse_radius
 from .statics import Pivot
 
@@ -91,20 +91,20 @@ class OscillatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def face_offset_for(self, *, least_radius: Any, n: int = 721) -> Any:
-        """Least offset of the face with which no radius of curvature is below ``least_radius``, m.
+    def face_offset_for(self, *, min_radius: Any, n: int = 721) -> Any:
+        """Least offset of the face with which no radius of curvature is below ``min_radius``, m.
 
         The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
         ``ValueError`` (``nan`` in a population) where the arm's speed drops at once: no offset keeps it there.
 
         >>> cam = OscillatingFlatCam()
-        >>> wide = cam.replace(face_offset=cam.face_offset_for(least_radius=18 * mm))
+        >>> wide = cam.replace(face_offset=cam.face_offset_for(min_radius=18 * mm))
         >>> print(f"{wide.face_offset / mm:.3f} mm, {wide.analyse().profile_margin.value / mm:.6f} mm")
         9.121 mm, 18.000000 mm
         """
-        refuse_radius(least_radius)
+        refuse_radius(min_radius)
         analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
-        size = least_radius - lowest(analysis, lambda at: at.offset_free_radius).value
+        size = min_radius - lowest(analysis, lambda at: at.offset_free_radius).value
         return if_possible(size, analysis.corner(-1))
 
     def conjugate(self, spread: Any, face_offset: Any = None) -> OscillatingFlatCam:

@@ -23,7 +23,7 @@ from ..quantities import Design, counted, quantity
 from ..units import deg, mm
 from .analysis import RollerAnalysis
 from .conjugate import opposite
-from .load import ArmLoad, Contact, Friction
+from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE
 from .statics import Pivot
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..kinds import one_number
 from ..quantities import fails
-from ..study import Study
+from ..study.study import Study
 from ..units import deg, mm
 
 STEPS, HALVINGS = 48, 40
@@ -50,13 +50,13 @@ def if_possible(size: Any, drop: Any, excepted: Any = False) -> Any:
     return np.where(possible, size, np.nan)[()]
 
 
-def least_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:
+def min_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:
     """The least size from which on up to ``ample`` every size keeps a limit, element by element.
 
     ``keeps`` says which sizes of an array do.  From ``ample`` downwards the largest that fails is found, then the
     place where that ends; 0 if none fails.
 
-    >>> round(float(least_from_which_on(lambda x: (x - 1) * (x - 2) >= 0, np.array(5.0))), 9)
+    >>> round(float(min_from_which_on(lambda x: (x - 1) * (x - 2) >= 0, np.array(5.0))), 9)
     2.0
     """
     low = 0.0 * ample
@@ -76,9 +76,10 @@ def feasible(study: Study, n: int = 241) -> np.ndarray:
     They are seen if they, and the gaps between them, are wider than the range over ``n``; their ends are then
     found to rounding.
 
-    >>> from camkit.cam.measures import steepest
+    >>> from camkit.cam.measures import max_pressure_angle
     >>> from camkit.cam.translating_roller import TranslatingRollerCam
-    >>> study = Study(TranslatingRollerCam(), ["base_radius"], [steepest], at_most={steepest: 20 * deg}, angles=721)
+    >>> cam, limit = TranslatingRollerCam(), {max_pressure_angle: 20 * deg}
+    >>> study = Study(cam, ["base_radius"], [max_pressure_angle], at_most=limit, angles=721)
     >>> (feasible(study) / mm).round(2).tolist()
     [[35.24, 100.0]]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Design, quantity
-from .load import Table, opposite_table, refuse_table, tabulated
+from .loads import Table, opposite_table, refuse_table, tabulated
 
 
 @dataclass(frozen=True)

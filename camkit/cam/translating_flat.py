@@ -67,18 +67,18 @@ class TranslatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, least_radius: Any, n: int = 721) -> Any:
-        """Least base radius with which no radius of curvature is below ``least_radius``: ``rho - s - w``, m.
+    def base_radius_for(self, *, min_radius: Any, n: int = 721) -> Any:
+        """Least base radius with which no radius of curvature is below ``min_radius``: ``rho - s - w``, m.
 
         ``ValueError`` (``nan`` in a population) where the follower's speed drops at once: none keeps it there.
 
         >>> cam = TranslatingFlatCam()
-        >>> cam.replace(base_radius=cam.base_radius_for(least_radius=4 * mm)).analyse().profile_margin.value.round(9)
+        >>> cam.replace(base_radius=cam.base_radius_for(min_radius=4 * mm)).analyse().profile_margin.value.round(9)
         np.float64(0.004)
         """
-        refuse_radius(least_radius)
+        refuse_radius(min_radius)
         analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
-        size = least_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
+        size = min_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
         return if_possible(size, analysis.corner(-1))
 
     def conjugate(self, distance: Any) -> TranslatingFlatCam:

@@ -23,7 +23,7 @@ from ..units import deg, mm
 from .analysis import RollerAnalysis, highest
 from .conjugate import opposite
 from .follower_measures import ROLLER_CURVE
-from .sizing import if_possible, least_from_which_on, refuse_pressure_angle, refuse_radius
+from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
 
@@ -98,14 +98,14 @@ class TranslatingRollerCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, pressure_angle: Any = None, least_radius: Any = None, n: int = 721) -> Any:
+    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None, n: int = 721) -> Any:
         """Least base radius from which on every larger one keeps the limits that are given, m.
 
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
-        ``least_radius``: of curvature of the profile where it is convex, m.  Everything else stays as it is.  Where
+        ``min_radius``: of curvature of the profile where it is convex, m.  Everything else stays as it is.  Where
         the limits leave that open, the least is where the roller just touches the cam axis; a cam must be larger.
         Where the follower's speed drops at once the profile has a corner, which only a knife edge can follow: there no
-        base radius keeps a ``least_radius``, which is a ``ValueError``, or ``nan`` in a population.
+        base radius keeps a ``min_radius``, which is a ``ValueError``, or ``nan`` in a population.
 
         >>> cam = TranslatingRollerCam()
         >>> wide = cam.replace(base_radius=cam.base_radius_for(pressure_angle=20 * deg))
@@ -114,12 +114,12 @@ class TranslatingRollerCam(Design):
         """
         if pressure_angle is not None:
             refuse_pressure_angle(pressure_angle)
-        if least_radius is not None:
-            refuse_radius(least_radius)
+        if min_radius is not None:
+            refuse_radius(min_radius)
 
         def start_height(at: TranslatingRollerAnalysis) -> Any:
             steep = 0.0 if pressure_angle is None else abs(at.across) / np.tan(pressure_angle)
-            tight = 0.0 if least_radius is None else at.height_for(least_radius)
+            tight = 0.0 if min_radius is None else at.height_for(min_radius)
             clear = np.sqrt(np.maximum(self.roller_radius**2 - self.offset**2, 0.0))
             return reduce(np.maximum, (steep, tight, clear)) - at.motion.s
 
@@ -127,9 +127,9 @@ class TranslatingRollerCam(Design):
         height = highest(analysis, start_height).value
         e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
         size = np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
-        if least_radius is None:
+        if min_radius is None:
             return size
-        return if_possible(size, analysis.corner(-1), (r == 0) & (np.asarray(least_radius) == 0))
+        return if_possible(size, analysis.corner(-1), (r == 0) & (np.asarray(min_radius) == 0))
 
     def conjugate(self, distance: Any, roller_radius: Any = None) -> TranslatingRollerCam:
         """The second cam of a pair: it carries a roller below the cam axis, ``distance`` from the first one's centre.
@@ -211,16 +211,16 @@ class TranslatingRollerAnalysis(RollerAnalysis):
         h, g = self.height, self.across
         return (h**2 - h * self.acceleration + g * (g + self.velocity)) / (h**2 + g**2) ** 1.5
 
-    def height_for(self, least_radius: Any) -> np.ndarray:
-        """Height ``h`` from which on the profile is nowhere more convex than ``least_radius``, angle by angle, m.
+    def height_for(self, min_radius: Any) -> np.ndarray:
+        """Height ``h`` from which on the profile is nowhere more convex than ``min_radius``, angle by angle, m.
 
         ``kappa <= (h^2 + h |w| + |c|) / h^3`` with ``c = (v - sigma e)(2 v - sigma e)``; from the ``ample`` height on
         each of the three is at most a third of what is allowed.
         """
-        g, w, rho = self.across, self.acceleration, least_radius + self.cam.roller_radius
+        g, w, rho = self.across, self.acceleration, min_radius + self.cam.roller_radius
         c = g * (g + self.velocity)
         ample = reduce(np.maximum, (3 * rho, np.sqrt(3 * abs(w) * rho), np.cbrt(3 * abs(c) * rho)))
-        return least_from_which_on(lambda h: rho * (h**2 - h * w + c) <= (h**2 + g**2) ** 1.5, ample)
+        return min_from_which_on(lambda h: rho * (h**2 - h * w + c) <= (h**2 + g**2) ** 1.5, ample)
 
     @cached_property
     def roller_centre(self) -> np.ndarray:

@@ -50,8 +50,8 @@ def _flanks(curve: Any, name: str) -> Iterator[str]:
 
 def _margins(curve: Any) -> dict[str, tuple[Any, Any]]:
     """Least convex radius (m) of each flank, and the cam angle at which it stands."""
-    if hasattr(curve, "least_radius_angle"):
-        return {"the profile": (curve.least_radius, curve.least_radius_angle)}
+    if hasattr(curve, "min_radius_angle"):
+        return {"the profile": (curve.min_radius, curve.min_radius_angle)}
     if not hasattr(curve, "profile_margin"):
         return {}
     if not getattr(curve, "groove", False):

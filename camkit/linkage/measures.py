@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..kinds import a_number, numbers, refuse_arguments
-from ..polish import SumOfResiduals
 from ..quantities import Measure, PeakMeasure
+from ..study.residuals import SumOfResiduals
 from ..units import deg
 from .space import Box
 
@@ -48,7 +48,7 @@ def excess(target: float = TARGET, weights: Any = None) -> Measure:
     return SumOfResiduals(name, "deg", of, above_only=True, made=made)
 
 
-def largest_departure(target: float = TARGET, weights: Any = None) -> Measure:
+def max_departure(target: float = TARGET, weights: Any = None) -> Measure:
     """The largest ``w_j |alpha - target|``: minimax."""
     of, name = departures(target, weights), _name("pressure angle farthest off", target, weights)
     made = _made("largest departure", target, weights)
@@ -84,33 +84,33 @@ def clearance_from(box: Box) -> Measure:
 MAKERS: dict[str, Callable[..., Measure]] = {
     "departure": departure,
     "excess": excess,
-    "largest departure": largest_departure,
+    "largest departure": max_departure,
     "room in": lambda low, high, name: room_in(Box(low, high, name)),
     "clearance from": lambda low, high, name: clearance_from(Box(low, high, name)),
 }
 """How files have such measures made again."""
 
 
-steepest_crank = PeakMeasure(
+max_crank_pressure_angle = PeakMeasure(
     "steepest pressure angle, crank", "deg", lambda a: a.crank_pressure_angle, angle=lambda a: a.crank_angle
 )
-steepest_rocker = PeakMeasure(
+max_rocker_pressure_angle = PeakMeasure(
     "steepest pressure angle, rocker", "deg", lambda a: a.rocker_pressure_angle, angle=lambda a: a.crank_angle
 )
-steepest = PeakMeasure(
+max_pressure_angle = PeakMeasure(
     "steepest pressure angle",
     "deg",
     lambda a: np.concatenate([a.crank_pressure_angle, a.rocker_pressure_angle], axis=-1),
     angle=lambda a: np.concatenate([a.crank_angle, a.crank_angle], axis=-1),
 )
-least_crank_transmission = -PeakMeasure(
+min_crank_transmission = -PeakMeasure(
     "least transmission angle, crank", "deg", lambda a: -a.crank_transmission_angle, angle=lambda a: a.crank_angle
 )
-least_rocker_transmission = -PeakMeasure(
+min_rocker_transmission = -PeakMeasure(
     "least transmission angle, rocker", "deg", lambda a: -a.rocker_transmission_angle, angle=lambda a: a.crank_angle
 )
 swing = Measure("output swing", "deg", lambda a: np.ptp(a.rocker_angle, axis=-1))
-assembly_margin = Measure("least discriminant of the sweep", "", lambda a: a.least_discriminant[..., 0])
+assembly_margin = Measure("least discriminant of the sweep", "", lambda a: a.min_discriminant[..., 0])
 possible_turn = Measure("possible turn of the crank", "deg", lambda a: a.possible_turn[..., 0])
 """From limit to limit; 360 deg: all the way round."""
 peak_coupler_force = Measure("peak coupler force", "N", lambda a: abs(a.coupler_force).max(-1))
@@ -131,10 +131,10 @@ largest_ratio = Measure("largest velocity ratio", "", lambda a: abs(a.ratio).max
 
 SWEEP = (
     departure(),
-    steepest_crank,
-    steepest_rocker,
-    least_crank_transmission,
-    least_rocker_transmission,
+    max_crank_pressure_angle,
+    max_rocker_pressure_angle,
+    min_crank_transmission,
+    min_rocker_transmission,
     swing,
     assembly_margin,
     possible_turn,

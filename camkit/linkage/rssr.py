@@ -343,7 +343,7 @@ class RSSRAnalysis:
         return np.where(extremes <= high, extremes, low)
 
     @cached_property
-    def least_discriminant(self) -> Any:
+    def min_discriminant(self) -> Any:
         """The least discriminant over the whole sweep, also between its crank angles, ``(..., 1)``.
 
         Above 0 both branches are continuous over the sweep and never meet.

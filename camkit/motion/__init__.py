@@ -1,16 +1,16 @@
 """Motion laws and motion programs: how a follower should move, before there is a cam."""
 
-from .constant_velocity import ConstantVelocity
-from .free import Degree9, FreePolynomial
-from .half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
-from .harmonic import Cycloidal, SimpleHarmonic
-from .joints import Joint, Peak, ProgramPeaks
+from .families.constant_velocity import ConstantVelocity
+from .families.free import Degree9, FreePolynomial
+from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
+from .families.harmonic import Cycloidal, SimpleHarmonic
+from .families.modified import ModifiedSine, ModifiedTrapezoid
+from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
+from .families.skewed import Skewed
+from .families.spline import SplineLaw, TableLaw
 from .law import Kinematics, Law, Peaks
-from .modified import ModifiedSine, ModifiedTrapezoid
-from .polynomial import Parabolic, Poly345, Poly4567, Poly56789
 from .program import Dwell, MotionProgram, Return, Rise, Segment, program_between
-from .skewed import Skewed
-from .spline import SplineLaw, TableLaw
+from .transitions import Peak, ProgramPeaks, Transition
 from .vibration import period_ratio, residual_vibration
 
 LAWS: tuple[Law, ...] = (
@@ -40,7 +40,6 @@ __all__ = [
     "HalfCycloidalStart",
     "HalfHarmonicEnd",
     "HalfHarmonicStart",
-    "Joint",
     "Kinematics",
     "Law",
     "ModifiedSine",
@@ -60,6 +59,7 @@ __all__ = [
     "Skewed",
     "SplineLaw",
     "TableLaw",
+    "Transition",
     "period_ratio",
     "program_between",
     "residual_vibration",

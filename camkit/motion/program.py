@@ -8,7 +8,7 @@
 array([0.01, 0.02, 0.  ])
 >>> round(program.peaks().velocity.value, 6)
 0.019099
->>> program.joints()[0].verdict
+>>> program.transitions()[0].verdict
 'at 120 deg the jerk jumps by -0.08594 follower units/rad^3: finite; acceptable'
 """
 
@@ -27,9 +27,9 @@ from numpy.typing import ArrayLike
 from ..kinds import a_number, finite, listed, number, numbers, one_number, refuse_lengths, shown
 from ..quantities import fails
 from ..units import deg, in_unit
-from .joints import Joint, ProgramPeaks, find_joints, find_peaks
 from .law import Kinematics, Law
 from .resolution import Resolution, resolve
+from .transitions import ProgramPeaks, Transition, find_peaks, find_transitions
 
 TURN = 2 * np.pi
 SAME_ANGLE = 1e-9
@@ -279,14 +279,14 @@ class MotionProgram:
             square, cube = speed**2, speed**3
         return Kinematics(s + 0 * speed, v * speed, a * square, j * cube)
 
-    def joints(self) -> list[Joint]:
+    def transitions(self) -> list[Transition]:
         """A record for each joint, in order; over 360 deg the joint of the last to the first segment comes last.
 
         ``ValueError`` for a population, whose members have joints of their own.
         """
         if np.ndim(self.possible):
             raise ValueError("the program is a population; joints are named for one program at a time")
-        return find_joints(self)
+        return find_transitions(self)
 
     def peaks(self) -> ProgramPeaks:
         """Peak |v|, |a|, |j| with the cam angle of each, found between samples and on both sides of joints.

@@ -28,7 +28,7 @@ from typing import Any
 from playwright.sync_api import Locator, Page
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
-from camkit.study import keeps
+from camkit.study.study import keeps
 
 CHROMIUM_FLAGS = [
     "--disable-background-networking",

@@ -15,15 +15,15 @@ from PIL import Image
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
-from camkit.cam.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.cam.measures import groove_gap
-from camkit.decision import CHOOSERS
-from camkit.export import from_json
+from camkit.decision.ahp import CHOOSERS
+from camkit.files.designs import from_json
 from camkit.geometry import rotated
+from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.motion import LAWS
-from camkit.plot.artists import BLUE, ORANGE
-from camkit.plot.cam import DOOR_HANDLE_VIEWS, cam_mechanism, pressure_angle
 from camkit.quantities import declarations
+from camkit.render.artists import BLUE, ORANGE
+from camkit.render.cam import DOOR_HANDLE_VIEWS, cam_mechanism, pressure_angle
 from camkit.units import in_unit
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 

@@ -12,11 +12,11 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import deg, mm
-from camkit.cam.cam_lever import CamLever, lever_stress
-from camkit.cam.high_speed import HighSpeedCam
-from camkit.cam.high_speed_load import ConstantTorque
-from camkit.cam.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
-from camkit.minimum import minimise
+from camkit.machines.cam_lever import CamLever, lever_stress
+from camkit.machines.high_speed_cam import HighSpeedCam
+from camkit.machines.high_speed_load import ConstantTorque
+from camkit.machines.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
+from camkit.search.minimise import minimise
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = HighSpeedCam()

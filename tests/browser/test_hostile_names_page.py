@@ -23,11 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 from camkit import *
 from camkit import survey, tolerate, trade, tray, decide, edit_program, offer
-from camkit.comparison import Comparison, Row, Table
+from camkit.papers.published import Comparison, Row, Table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from camkit.plot.artists import frame, line, new
+from camkit.render.artists import frame, line, new
 from camkit.quantities import Design, Measure, quantity
-from camkit.side_by_side import side_by_side
+from camkit.decision.summary import side_by_side
 
 @dataclass(frozen=True)
 class Evil(Design):

@@ -12,8 +12,8 @@ from lab import LabServer, cell_output, eventually, kernel_value, open_notebook,
 
 EXPLORER = """
 from camkit import DoorHandleCam, deg, door_handle_study, explore, judge
-from camkit.cam.door_handle import CURVE_TABLE
-from camkit.plot.cam import DOOR_HANDLE_VIEWS
+from camkit.machines.door_handle import CURVE_TABLE
+from camkit.render.cam import DOOR_HANDLE_VIEWS
 
 study = door_handle_study()
 app = explore(DoorHandleCam(), *DOOR_HANDLE_VIEWS, free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,

@@ -17,8 +17,8 @@ from lab import eventually, voila_server
 REPOSITORY = Path(__file__).parents[2]
 SEARCH = """
 from camkit import DoorHandleCam, door_handle_study, explore, search
-from camkit.cam.door_handle import PAPER_SPACE
-from camkit.plot.cam import pressure_angle
+from camkit.machines.door_handle import PAPER_SPACE
+from camkit.render.cam import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
 search(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)

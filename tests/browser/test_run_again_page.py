@@ -11,9 +11,9 @@ from lab import LabServer, cell, eventually, kernel_value, open_notebook, run_al
 NAME = "run_again.ipynb"
 EXPLORER = """
 from camkit import DoorHandleCam, door_handle_study, explore, search
-from camkit.app.running import RUNNING
-from camkit.cam.door_handle import PAPER_SPACE
-from camkit.plot.cam import pressure_angle
+from camkit.panels.kit.running import RUNNING
+from camkit.machines.door_handle import PAPER_SPACE
+from camkit.render.cam import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
 app

@@ -11,18 +11,18 @@ import pytest
 from PIL import Image
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from camkit.linkage.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study
-from camkit.linkage.measures import SWEEP, room_in, steepest
-from camkit.plot.artists import BLUE
-from camkit.plot.linkage import scene_of
+from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
+from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study
+from camkit.render.artists import BLUE
+from camkit.render.linkage import scene_of
 from camkit.units import deg, mm
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 STUDY = ninety_degree_study()
 START = STUDY.start
 PRACTICAL = STUDY.design(np.array([120, 120, 120, 99, 99]) * mm)
-MEASURES = (steepest, room_in(HOUSING), *SWEEP[1:])
-AT_MOST, AT_LEAST = {steepest: 50 * deg}, STUDY.at_least
+MEASURES = (max_pressure_angle, room_in(HOUSING), *SWEEP[1:])
+AT_MOST, AT_LEAST = {max_pressure_angle: 50 * deg}, STUDY.at_least
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import DoorHandleCam, deg, door_handle_study, mm
-from camkit.app.tolerance import SETTLED
-from camkit.tolerance import Tolerances
+from camkit.panels.tolerances import SETTLED
+from camkit.study.tolerances import Tolerances
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all
 
 CAM = DoorHandleCam(lift_arm=45 * mm, lift_start_angle=27 * deg, relief_cam_angle=45 * deg, door_torque=10)
@@ -56,8 +56,10 @@ def shows(panel: Locator, half_widths: dict[str, float], start: object = None) -
         low, high = made.percentiles(measure, (2.5, 97.5))
         expect(panel.locator("tr").nth(i).locator("td").nth(2)).to_have_text(measure.text(low))
         expect(panel.locator("tr").nth(i).locator("td").nth(3)).to_have_text(measure.text(high))
-    (steepest,) = study.at_most
-    expect(panel.locator("tr").nth(3).locator("td").nth(4)).to_have_text(f"{100 * made.missed[steepest]:.1f} %")
+    (max_pressure_angle,) = study.at_most
+    expect(panel.locator("tr").nth(3).locator("td").nth(4)).to_have_text(
+        f"{100 * made.missed[max_pressure_angle]:.1f} %"
+    )
 
 
 def test_a_typed_tolerance_and_a_key_on_the_slider_change_the_parts(panel: Locator) -> None:

@@ -14,7 +14,7 @@ CELLS = (
     """
 from camkit import *
 from camkit import edit_program
-from camkit.plot.cam import cam_mechanism
+from camkit.render.cam import cam_mechanism
 app = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=["base_radius", "roller_radius"])
 app""",
     """

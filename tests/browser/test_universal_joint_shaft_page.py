@@ -15,9 +15,9 @@ from PIL import Image
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import deg, kW, mm, rpm
-from camkit.plot.artists import BLUE
-from camkit.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft, shaft_study
-from camkit.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
+from camkit.linkage.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
+from camkit.machines.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft, shaft_study
+from camkit.render.artists import BLUE
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = UniversalJointShaft()

@@ -13,17 +13,17 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import deg, mm, profile_csv, rpm
-from camkit.cam.valve import ValveCam
-from camkit.cam.valve_study import (
-    PAPER_LEAST_RADIUS,
+from camkit.machines.valve_cam import ValveCam
+from camkit.machines.valve_study import (
+    PAPER_MIN_RADIUS,
     VALVE_MEASURES,
     keeping_least_radius,
-    least_radius,
+    min_radius,
     nose_radius,
     valve_study,
 )
-from camkit.cam.valve_train import ROLLER
-from camkit.minimum import minimise
+from camkit.machines.valve_train import ROLLER
+from camkit.search.minimise import minimise
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = ValveCam()
@@ -72,7 +72,7 @@ def shows(book: Workbook, cam: ValveCam) -> None:
     """Boxes and table show ``cam``, computed here."""
     for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("speed", cam.speed / rpm)):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{shown:.6g}")
-    limits = dict.fromkeys((nose_radius, least_radius), PAPER_LEAST_RADIUS)
+    limits = dict.fromkeys((nose_radius, min_radius), PAPER_MIN_RADIUS)
     expected = table_of_measures(VALVE_MEASURES, cam.analyse(), START.analyse(), {}, limits)
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
 

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from camkit import DoorHandleCam
-from camkit.cam.door_handle import WORSE_CURVE
+from camkit.machines.door_handle import WORSE_CURVE
 from camkit.quantities import declarations
 from camkit.units import factor
 from lab import copy_notebooks, screenshot, voila_server

@@ -5,17 +5,17 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import OscillatingRollerCam
-from camkit.cam.closing import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
-from camkit.cam.follower_measures import jump_margin, least_force, mean_torque, peak_pressure
-from camkit.cam.load import ArmLoad
-from camkit.cam.measures import least_concave_radius, least_convex_radius, undercut_margin
+from camkit.cam.follower_measures import jump_margin, mean_torque, min_force, peak_pressure
+from camkit.cam.force_closure import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
+from camkit.cam.loads import ArmLoad
+from camkit.cam.measures import min_concave_radius, min_convex_radius, undercut_margin
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
-from camkit.cam.valve import ValveCam
-from camkit.cam.valve_train import ValveTrain
-from camkit.contact import contact_modulus, hertz_line
+from camkit.contact import contact_modulus, line_contact
+from camkit.machines.valve_cam import ValveCam
+from camkit.machines.valve_train import ValveTrain
 from camkit.motion import (
     Cycloidal,
     Dwell,
@@ -96,8 +96,8 @@ def test_a_table_out_of_order_is_refused(kind):
 def test_a_follower_jumps_just_above_its_jump_speed(cam):
     """Contact force over a fine table: positive everywhere below that speed, negative somewhere above it."""
     fastest = jump_speed(cam.analyse())
-    assert least_force(at_speed(cam, fastest * 0.999)) > 0
-    assert least_force(at_speed(cam, fastest * 1.001)) < 0
+    assert min_force(at_speed(cam, fastest * 0.999)) > 0
+    assert min_force(at_speed(cam, fastest * 1.001)) < 0
     assert jump_margin(cam.analyse()) == pytest.approx(fastest / cam.load.speed - 1)
 
 
@@ -108,8 +108,8 @@ def test_the_least_preload_just_keeps_contact(cam, speed):
     closed = at_speed(cam, speed, preload=least)
     size = closed.contact_force.max()
     assert least > 0
-    assert_allclose(least_force(closed), 0, atol=1e-5 * size)
-    assert least_force(at_speed(cam, speed, preload=1.01 * least)) > 0
+    assert_allclose(min_force(closed), 0, atol=1e-5 * size)
+    assert min_force(at_speed(cam, speed, preload=1.01 * least)) > 0
     assert jump_speed(closed) == pytest.approx(speed, rel=1e-5)
 
 
@@ -275,7 +275,7 @@ def test_the_flank_that_gives_the_force_bears_it():
     assert 50 < pulls.sum() < 400
     p = contact_along(analysis, PAIR).pressure
     hollow = 1 / cam.roller_radius - analysis.outer_profile_curvature
-    outer = hertz_line(-analysis.contact_force / PAIR.width, hollow, contact_modulus(210e9, 70e9, 0.3, 0.33)).pressure
+    outer = line_contact(-analysis.contact_force / PAIR.width, hollow, contact_modulus(210e9, 70e9, 0.3, 0.33)).pressure
     assert_allclose(p[pulls], outer[pulls], rtol=1e-12)
 
 
@@ -348,8 +348,8 @@ def test_a_jump_of_the_speed_cuts_the_corner_off_a_flank(kind, sigma):
         assert margin[kept].value > 0
         assert cut_by(flank[kept], fine.pitch, r) < 1e-4 * r
         assert undercut_margin(fine) == -np.inf
-        assert (least_convex_radius(fine) == 0) == (cut == "inner")
-        assert (least_concave_radius(fine) == 0) == (cut == "outer")
+        assert (min_convex_radius(fine) == 0) == (cut == "inner")
+        assert (min_concave_radius(fine) == 0) == (cut == "outer")
     plate = rise.replace(groove=False)
     assert undercut_margin(plate.analyse()) > 0
     edge = drop.replace(roller_radius=0)

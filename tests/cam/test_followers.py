@@ -13,19 +13,19 @@ from numpy.testing import assert_allclose, assert_array_equal
 from camkit import OscillatingRollerCam, Study
 from camkit.cam.analysis import FlatAnalysis
 from camkit.cam.conjugate import opposite, pair_forces
-from camkit.cam.load import ArmLoad, Friction
-from camkit.cam.measures import mean_efficiency, peak_force, steepest
+from camkit.cam.loads import ArmLoad, Friction
+from camkit.cam.measures import max_pressure_angle, mean_efficiency, peak_force
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
-from camkit.export import from_json, to_json
+from camkit.files.designs import from_json, to_json
+from camkit.files.profiles import profile_csv
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
-from camkit.plot import cam as views
-from camkit.plot.picture import picture
-from camkit.profile_files import profile_csv
 from camkit.quantities import unremarked
+from camkit.render import cam as views
+from camkit.render.picture import picture
 from camkit.units import N, deg, kg, m, mm, rpm
 
 SPAN = np.array([120, 60, 130, 50]) * deg
@@ -430,7 +430,7 @@ def test_base_circle_of_a_published_case():
 def test_flat_follower_of_a_published_case():
     """Case V3: flat face, harmonic motion, least radius 1."""
     cam = TranslatingFlatCam(two_rises(SimpleHarmonic()), 10 * mm)
-    assert cam.base_radius_for(least_radius=1 * mm) / mm == pytest.approx(8, rel=1e-12)
+    assert cam.base_radius_for(min_radius=1 * mm) / mm == pytest.approx(8, rel=1e-12)
     assert cam.analyse().face_width / mm == pytest.approx(6, rel=1e-12)
 
 
@@ -459,7 +459,7 @@ def test_the_base_circle_for_a_pressure_angle(limit, offset, sigma):
 def test_the_base_circle_for_a_least_radius(roller, least, rise, offset, sigma):
     motion = program(30 * mm, np.array([rise, 60, 100, 50]) * deg)
     cam = TranslatingRollerCam(motion, 60 * mm, roller * mm, offset * mm, sigma)
-    needed = cam.base_radius_for(least_radius=least * mm)
+    needed = cam.base_radius_for(min_radius=least * mm)
 
     def least_at(base):
         return cam.replace(base_radius=base).analyse().profile_margin.value
@@ -472,8 +472,8 @@ def test_the_base_circle_for_a_least_radius(roller, least, rise, offset, sigma):
 def test_the_larger_of_two_base_circles_keeps_both_limits():
     cam = TranslatingRollerCam(program(30 * mm), 40 * mm, 5 * mm)
     for alpha in (20 * deg, 60 * deg):
-        both = cam.base_radius_for(pressure_angle=alpha, least_radius=20 * mm)
-        each = cam.base_radius_for(pressure_angle=alpha), cam.base_radius_for(least_radius=20 * mm)
+        both = cam.base_radius_for(pressure_angle=alpha, min_radius=20 * mm)
+        each = cam.base_radius_for(pressure_angle=alpha), cam.base_radius_for(min_radius=20 * mm)
         assert both == pytest.approx(max(each), rel=1e-12)
 
 
@@ -491,7 +491,7 @@ def test_the_least_base_circle_of_a_follower_that_goes_down_can_just_be_built(of
 @both_senses
 def test_the_base_circle_of_a_flat_follower(sigma):
     cam = TranslatingFlatCam(program(30 * mm), 90 * mm, rotation=sigma)
-    sized = cam.replace(base_radius=cam.base_radius_for(least_radius=5 * mm))
+    sized = cam.replace(base_radius=cam.base_radius_for(min_radius=5 * mm))
     assert sized.analyse().profile_margin.value == pytest.approx(5 * mm, rel=1e-9)
     assert sized.analyse(20001).profile_radius.min() == pytest.approx(5 * mm, rel=1e-6)
 
@@ -499,27 +499,27 @@ def test_the_base_circle_of_a_flat_follower(sigma):
 @both_senses
 def test_the_offset_of_a_rocking_face(sigma):
     cam = OscillatingFlatCam(program(14 * deg), 90 * mm, 20 * deg, rotation=sigma, arm_length=200 * mm)
-    sized = cam.replace(face_offset=cam.face_offset_for(least_radius=25 * mm))
+    sized = cam.replace(face_offset=cam.face_offset_for(min_radius=25 * mm))
     assert sized.analyse().profile_margin.value == pytest.approx(25 * mm, rel=1e-9)
 
 
 def test_sizes_of_a_population():
     rollers = np.array([[2.0], [8.0], [12.0]]) * mm
     cam = TranslatingRollerCam(program(30 * mm), 40 * mm, rollers, 4 * mm)
-    limits = {"pressure_angle": 20 * deg, "least_radius": 10 * mm}
+    limits = {"pressure_angle": 20 * deg, "min_radius": 10 * mm}
     singles = [cam.replace(roller_radius=float(r)).base_radius_for(**limits) for r in rollers[:, 0]]
     assert_allclose(cam.base_radius_for(**limits), singles, rtol=1e-13)
     lifts = np.array([[10.0], [20.0]]) * mm
     flat = TranslatingFlatCam(MotionProgram((Rise(120 * deg, lifts, Cycloidal()),)))
     singles = [flat.replace(motion=MotionProgram((Rise(120 * deg, lift, Cycloidal()),))) for lift in lifts[:, 0]]
     assert_allclose(
-        flat.base_radius_for(least_radius=1 * mm), [cam.base_radius_for(least_radius=1 * mm) for cam in singles]
+        flat.base_radius_for(min_radius=1 * mm), [cam.base_radius_for(min_radius=1 * mm) for cam in singles]
     )
 
 
 def test_feasible_start_angles_of_a_rocking_roller():
     """The base circle of a rocking roller is set by the arm's start angle: two limits leave an interval of it."""
-    limits = {"at_most": {steepest: 35 * deg}, "angles": 361}
+    limits = {"at_most": {max_pressure_angle: 35 * deg}, "angles": 361}
     study = Study(FOLLOWERS["rocking roller"].cam, {"start_angle": (10 * deg, 80 * deg)}, [peak_force], **limits)
     (low, high), *more = feasible(study)
     assert not more
@@ -529,7 +529,7 @@ def test_feasible_start_angles_of_a_rocking_roller():
 
 
 def test_a_limit_that_nothing_keeps_leaves_no_interval():
-    study = Study(TranslatingRollerCam(), ["base_radius"], [peak_force], at_most={steepest: 1 * deg})
+    study = Study(TranslatingRollerCam(), ["base_radius"], [peak_force], at_most={max_pressure_angle: 1 * deg})
     assert feasible(study).shape == (0, 2)
 
 
@@ -974,7 +974,7 @@ def test_a_study_evaluates_designs_as_their_analyses_do(cam):
         "OscillatingFlatCam": ("face_offset", 0 * mm, 30 * mm),
         "OscillatingRollerCam": ("start_angle", 20 * deg, 50 * deg),
     }[type(cam).__name__]
-    study = Study(cam, {name: (low, high)}, cam.measures, at_most={steepest: 40 * deg})
+    study = Study(cam, {name: (low, high)}, cam.measures, at_most={max_pressure_angle: 40 * deg})
     x = np.linspace(low, high, 5)[:, None]
     many, each = study.evaluate(x), [study.evaluate(row[None]) for row in x]
     assert_allclose(many.f, np.concatenate([one.f for one in each]), rtol=1e-9)
@@ -1023,7 +1023,7 @@ REFUSALS = [
      "the pressure angle wanted is 0 deg; it must lie between 0 and 90 deg"),
     (lambda: TranslatingRollerCam().base_radius_for(pressure_angle=np.nan),
      "the pressure angle wanted is nan deg; it must lie between 0 and 90 deg"),
-    (lambda: TranslatingFlatCam().base_radius_for(least_radius=-1 * mm),
+    (lambda: TranslatingFlatCam().base_radius_for(min_radius=-1 * mm),
      "the least radius wanted is -1 mm; it must be a finite number of at least 0 mm"),
     (lambda: TranslatingRollerCam().conjugate(20 * mm),
      "the rollers' centres are 20 mm apart; the first stands 38 mm above the cam axis, "

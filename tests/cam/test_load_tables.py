@@ -5,9 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from camkit import OscillatingRollerCam
-from camkit.cam.closing import jump_speed, preload_needed
-from camkit.cam.follower_measures import least_force, mean_torque
-from camkit.cam.load import ArmLoad
+from camkit.cam.follower_measures import mean_torque, min_force
+from camkit.cam.force_closure import jump_speed, preload_needed
+from camkit.cam.loads import ArmLoad
 from camkit.cam.measures import mean_efficiency, peak_force, peak_torque
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.slide import SlideLoad
@@ -56,7 +56,7 @@ def test_extremes_see_every_corner_of_a_load(kind, seed):
     a, fine = cam.analyse(31), cam.analyse(50001)
     top = abs(fine.contact_force).max()
     assert_allclose(peak_force(a), top, rtol=1e-3)
-    assert_allclose(least_force(a), fine.contact_force.min(), atol=1e-3 * top)
+    assert_allclose(min_force(a), fine.contact_force.min(), atol=1e-3 * top)
     assert_allclose(peak_torque(a), abs(fine.cam_torque).max(), rtol=1e-3)
     lacking = -(fine.inertia * cam.load.speed**2 * fine.acceleration + fine.static_resistance - fine.preload)
     assert_allclose(preload_needed(a, cam.load.speed), max(lacking.max(), 0), rtol=1e-3)
@@ -67,7 +67,7 @@ def test_a_load_that_works_in_a_dwell_alone_is_seen():
     assert_allclose(peak_force(pushed), 950, rtol=1e-6)  # 50 N preload, 20 mm of 5 N/mm, 800 N
     load = SlideLoad(cam_angle_table=tuple((x, -y) for x, y in TENT))
     pulled = TranslatingRollerCam(load=load, groove=False).analyse()
-    assert_allclose(least_force(pulled), -650, rtol=1e-6)
+    assert_allclose(min_force(pulled), -650, rtol=1e-6)
     assert_allclose(preload_needed(pulled, 300 * rpm), 700, rtol=1e-6)
     assert jump_speed(pulled) == 0
 
@@ -81,7 +81,7 @@ def test_a_population_sees_the_corners_of_a_load_as_each_design_does():
         rise, back = Rise(angle, lift, Poly345()), Return(100 * deg, lift, Poly345())
         return TranslatingFlatCam(MotionProgram((rise, Dwell(60 * deg), back)), 60 * mm, load=load)
 
-    for measure in (peak_force, least_force, peak_torque):
+    for measure in (peak_force, min_force, peak_torque):
         alone = [measure(cam(a, h).analyse(7)) for a, h in zip(angles.ravel(), lifts.ravel(), strict=True)]
         assert_allclose(measure(cam(angles, lifts).analyse(7)), alone, rtol=1e-4)
 
@@ -132,19 +132,19 @@ def test_a_groove_without_spring_follows_a_drop_of_speed():
 def test_no_size_keeps_a_least_radius_where_the_speed_drops(cam):
     size = cam.face_offset_for if isinstance(cam, OscillatingFlatCam) else cam.base_radius_for
     with pytest.raises(ValueError, match="speed drops at once at a cam angle of 120 deg"):
-        size(least_radius=5 * mm)
+        size(min_radius=5 * mm)
 
 
 def test_a_knife_edge_and_a_limit_of_the_pressure_angle_have_a_size_all_the_same():
     cam = TranslatingRollerCam(dropping(20 * mm), roller_radius=0.0, groove=False)
-    assert np.isfinite(cam.base_radius_for(least_radius=0.0))
+    assert np.isfinite(cam.base_radius_for(min_radius=0.0))
     assert np.isfinite(cam.base_radius_for(pressure_angle=30 * deg))
 
 
 def test_in_a_population_the_design_whose_speed_drops_has_no_size():
     slope = np.array([[0.0], [0.5]])
     motion = MotionProgram((Rise(120 * deg, 20 * mm, FreePolynomial(end=(1, slope, 0))), Dwell(60 * deg)))
-    sizes = TranslatingFlatCam(motion, 60 * mm).base_radius_for(least_radius=5 * mm)
+    sizes = TranslatingFlatCam(motion, 60 * mm).base_radius_for(min_radius=5 * mm)
     assert np.isfinite(sizes[0])
     assert np.isnan(sizes[1])
 

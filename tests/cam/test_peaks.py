@@ -10,21 +10,17 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import DoorHandleCam, OscillatingRollerCam, door_handle_study, nsga2
-from camkit.cam import high_speed_study, valve_study
-from camkit.cam.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, lever_wear
-from camkit.cam.closing import ContactPair, contact_along, jump_speed
-from camkit.cam.follower_measures import least_force, least_profile_radius, peak_pressure
-from camkit.cam.high_speed import HighSpeedCam
-from camkit.cam.high_speed_load import ConstantTorque, InertialSpringLoad
-from camkit.cam.load import ArmLoad
+from camkit.cam.follower_measures import min_force, min_profile_radius, peak_pressure
+from camkit.cam.force_closure import ContactPair, contact_along, jump_speed
+from camkit.cam.loads import ArmLoad
 from camkit.cam.measures import (
     base_radius,
-    least_concave_radius,
-    least_convex_radius,
+    max_pressure_angle,
+    min_concave_radius,
+    min_convex_radius,
     part,
     peak_force,
     peak_torque,
-    steepest,
     undercut_margin,
 )
 from camkit.cam.oscillating_flat import OscillatingFlatCam
@@ -32,8 +28,12 @@ from camkit.cam.peaks import highest, raised
 from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
-from camkit.cam.valve import ValveCam
-from camkit.cam.valve_train import FOLLOWERS
+from camkit.machines import high_speed_study, valve_study
+from camkit.machines.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, lever_wear
+from camkit.machines.high_speed_cam import HighSpeedCam
+from camkit.machines.high_speed_load import ConstantTorque, InertialSpringLoad
+from camkit.machines.valve_cam import ValveCam
+from camkit.machines.valve_train import FOLLOWERS
 from camkit.motion import (
     LAWS,
     Cycloidal,
@@ -48,7 +48,7 @@ from camkit.motion import (
     Skewed,
     SplineLaw,
 )
-from camkit.motion.shaped import FAMILIES
+from camkit.motion.families.shaped import FAMILIES
 from camkit.units import N, deg, kg, mm, rpm
 
 PAIR = ContactPair()
@@ -75,18 +75,18 @@ def expected(cam):
     """Every measure from its definition over the fine table."""
     a = fine_table(cam)
     value = {
-        steepest: abs(a.pressure_angle).max(),
+        max_pressure_angle: abs(a.pressure_angle).max(),
         base_radius: a.pitch_radius.min(),
         peak_force: abs(a.contact_force).max(),
-        least_force: a.contact_force.min(),
+        min_force: a.contact_force.min(),
         peak_torque: abs(a.cam_torque).max(),
-        least_profile_radius: radius(a.curvature) - cam.roller_radius if cam.roller_radius else a.profile_radius.min(),
+        min_profile_radius: radius(a.curvature) - cam.roller_radius if cam.roller_radius else a.profile_radius.min(),
     }
     if cam.roller_radius:
         bent = abs(a.curvature) if cam.groove else a.curvature
         value |= {
-            least_convex_radius: radius(a.curvature),
-            least_concave_radius: radius(-a.curvature),
+            min_convex_radius: radius(a.curvature),
+            min_concave_radius: radius(-a.curvature),
             undercut_margin: 1 - cam.roller_radius * bent.max(),
         }
     if not (a.undercut.any() or a.outer_undercut.any()):
@@ -97,7 +97,7 @@ def expected(cam):
 def right(cam, n):
     """Ten times better than 0.1 %: at a needle, a radius of 0.1 mm, the table itself is no better than 5e-5."""
     found, values = cam.analyse(n), expected(cam)
-    sizes = {undercut_margin: 1, least_profile_radius: values[base_radius], least_force: values[peak_force]}
+    sizes = {undercut_margin: 1, min_profile_radius: values[base_radius], min_force: values[peak_force]}
     for measure, value in values.items():
         close = 1e-4 * (abs(value) + sizes.get(measure, 0)) if np.isfinite(value) else 0
         assert_allclose(measure(found), value, rtol=0, atol=close, err_msg=measure.name)
@@ -159,7 +159,7 @@ def test_a_rise_of_two_degrees():
     motion = MotionProgram((rise, Dwell(178 * deg), back))
     for n in (3, 721):
         analysis = TranslatingRollerCam(motion).analyse(n)
-        assert steepest(analysis) / deg == pytest.approx(26.234, abs=1e-3)
+        assert max_pressure_angle(analysis) / deg == pytest.approx(26.234, abs=1e-3)
         assert peak_force(analysis) == pytest.approx(995.2, abs=0.1)
         assert undercut_margin(analysis) == pytest.approx(-8.54, abs=0.005)
 
@@ -172,7 +172,7 @@ def test_a_law_that_stops_with_a_jolt_is_seen_before_the_joint():
     a, h = np.pi**2 / 2 * 20 * mm / (90 * deg) ** 2, 20 * mm
     thrown = SLIDE.resisting_force(h, -a)
     for n in (2, 7, 361):
-        assert least_force(cam.analyse(n)) == pytest.approx(thrown, rel=1e-7)
+        assert min_force(cam.analyse(n)) == pytest.approx(thrown, rel=1e-7)
         speed = np.sqrt(SLIDE.static_force(h) / (SLIDE.mass * a))
         assert jump_speed(cam.analyse(n)) == pytest.approx(speed, rel=1e-7)
 
@@ -192,7 +192,7 @@ def test_both_curves_of_a_door_handle():
         analysis = cam.analyse(61)
         for name in ("lift", "relief"):
             for measure, value in expected(getattr(cam, name)).items():
-                if measure in (least_profile_radius, least_force) or measure.name == "peak contact pressure":
+                if measure in (min_profile_radius, min_force) or measure.name == "peak contact pressure":
                     continue
                 assert_allclose(part(measure, name)(analysis), value, rtol=1e-5, atol=1e-5, err_msg=measure.name)
 
@@ -243,7 +243,7 @@ def test_peaks_of_a_high_speed_cam(law):
     rise, fall = cam.analyse(20_001).intervals
     few = cam.analyse(5)
     expected = {
-        high_speed_study.steepest: [abs(part.pressure_angle).max() for part in (rise, fall)],
+        high_speed_study.max_pressure_angle: [abs(part.pressure_angle).max() for part in (rise, fall)],
         high_speed_study.peak_force: [part.normal_force.max() for part in (rise, fall)],
         high_speed_study.peak_torque: [abs(part.cam_torque).max() for part in (rise, fall)],
         high_speed_study.peak_stress: [np.nanmax(part.stress_coefficient) / mm**0.5 for part in (rise, fall)],
@@ -291,16 +291,16 @@ def curves_of(analysis):
         return np.where(moved, -at.acceleration / np.where(moved, at.motion.s, 1), -np.inf) * cam.speed**2 / spring
 
     curves = {
-        high_speed_study.steepest: lambda at: abs(at.pressure_angle),
+        high_speed_study.max_pressure_angle: lambda at: abs(at.pressure_angle),
         high_speed_study.peak_force: force,
         high_speed_study.peak_torque: lambda at: abs(at.resisting_torque * at.velocity),
         -high_speed_study.undercut_margin: lambda at: cam.roller_radius * at.curvature - 1,
-        -high_speed_study.least_lead: lambda at: -least_share(cam, at),
+        -high_speed_study.min_lead: lambda at: -least_share(cam, at),
         high_speed_study.overrun: lambda at: np.maximum(-at.motion.s, at.motion.s - cam.swing) / cam.swing,
     }
     press = getattr(analysis, "press", None)
     if press is None:
-        own = {high_speed_study.spring_use: spring_use, -high_speed_study.least_force: lambda at: -force(at)}
+        own = {high_speed_study.spring_use: spring_use, -high_speed_study.min_force: lambda at: -force(at)}
         return curves | own | {high_speed_study.peak_stress: stress, high_speed_study.peak_wear: wear}
     factor = press.inertia_speed2 / (press.weight * press.lever)
     return curves | {closing_share: lambda at: -at.acceleration * factor, lever_stress: stress, lever_wear: wear}
@@ -419,10 +419,10 @@ def test_peaks_of_a_valve_cam(n, m):
     for follower in FOLLOWERS:
         cam = ValveCam(n=n, m=m, follower=follower, base_radius=30 * mm)
         fine, few = cam.analyse(20_001), cam.analyse(3)
-        assert steepest(few) == pytest.approx(abs(fine.pressure_angle).max(), rel=1e-5)
+        assert max_pressure_angle(few) == pytest.approx(abs(fine.pressure_angle).max(), rel=1e-5)
         assert peak_force(few) == pytest.approx(abs(fine.contact_force).max(), rel=1e-5)
         assert valve_study.peak_stress(few) == pytest.approx(fine.contact_stress.max(), rel=1e-5, nan_ok=True)
         assert valve_study.peak_camshaft_torque(few) == pytest.approx(abs(fine.cam_torque).max(), rel=1e-5)
         assert valve_study.face_reach(few) == pytest.approx(abs(fine.velocity).max(), rel=1e-5)
         tightest = fine.flat_radius.min() if follower == FOLLOWERS[0] else 1 / fine.curvature.max() - cam.roller_radius
-        assert few.least_radius == pytest.approx(tightest, abs=1e-4 * 30 * mm)
+        assert few.min_radius == pytest.approx(tightest, abs=1e-4 * 30 * mm)

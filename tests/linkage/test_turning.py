@@ -5,8 +5,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from camkit.linkage.cabin_door import Branch, CabinDoorLinkage
 from camkit.linkage.rssr import NEXT_TO, RSSR
+from camkit.machines.cabin_door import Branch, CabinDoorLinkage
 from camkit.units import deg, mm
 
 few = settings(max_examples=50, deadline=None)

@@ -181,7 +181,7 @@ def test_only_full_turns_must_close_in_a_population():
 
 
 def orders(program):
-    return [joint.order for joint in program.joints()]
+    return [joint.order for joint in program.transitions()]
 
 
 @pytest.mark.parametrize(
@@ -201,14 +201,14 @@ def test_the_order_that_breaks_at_dwells(law, order):
 
 
 def test_joints_have_their_angles_with_the_turns_own_joint_last():
-    joints = full_turn(Cycloidal()).joints()
+    joints = full_turn(Cycloidal()).transitions()
     assert [joint.angle / deg for joint in joints] == pytest.approx([90, 120, 240, 360])
-    assert len(MotionProgram((Rise(1, 1, Cycloidal()), Dwell(1))).joints()) == 1
-    assert MotionProgram((Rise(1, 1, Cycloidal()),)).joints() == []
+    assert len(MotionProgram((Rise(1, 1, Cycloidal()), Dwell(1))).transitions()) == 1
+    assert MotionProgram((Rise(1, 1, Cycloidal()),)).transitions() == []
 
 
 def test_jumps_are_after_minus_before():
-    joint = full_turn(SimpleHarmonic(), 1.0).joints()[0]
+    joint = full_turn(SimpleHarmonic(), 1.0).transitions()[0]
     assert joint.s == pytest.approx(0, abs=1e-12)
     assert joint.v == pytest.approx(0, abs=1e-12)
     assert joint.a == pytest.approx(np.pi**2 / 2 / (90 * deg) ** 2)
@@ -220,12 +220,12 @@ def test_verdicts():
     leap = FreePolynomial((0.5, 0), (1, 0))
     rising = Rise(60 * deg, 12 * mm, Poly345())
     said = [
-        MotionProgram((rising, Dwell(60 * deg))).joints()[0],
-        MotionProgram((rising, Rise(60 * deg, 12 * mm, Poly4567()))).joints()[0],
-        MotionProgram((Rise(60 * deg, 12 * mm, SimpleHarmonic()), Dwell(60 * deg))).joints()[0],
-        MotionProgram((Rise(60 * deg, 12 * mm, straight), Dwell(60 * deg))).joints()[0],
-        MotionProgram((Dwell(60 * deg), Rise(60 * deg, 12 * mm, leap))).joints()[0],
-        MotionProgram((Rise(60 * deg, 12 * mm, Poly4567()), Dwell(60 * deg))).joints()[0],
+        MotionProgram((rising, Dwell(60 * deg))).transitions()[0],
+        MotionProgram((rising, Rise(60 * deg, 12 * mm, Poly4567()))).transitions()[0],
+        MotionProgram((Rise(60 * deg, 12 * mm, SimpleHarmonic()), Dwell(60 * deg))).transitions()[0],
+        MotionProgram((Rise(60 * deg, 12 * mm, straight), Dwell(60 * deg))).transitions()[0],
+        MotionProgram((Dwell(60 * deg), Rise(60 * deg, 12 * mm, leap))).transitions()[0],
+        MotionProgram((Rise(60 * deg, 12 * mm, Poly4567()), Dwell(60 * deg))).transitions()[0],
     ]
     assert [joint.verdict for joint in said] == [
         "at 60 deg the jerk jumps by -0.627 follower units/rad^3: finite; acceptable",
@@ -261,7 +261,7 @@ def test_a_program_of_dwells_is_smooth():
 
 def test_joints_of_a_population_are_refused():
     with pytest.raises(ValueError, match=r"^the program is a population; joints are named for one program at a time$"):
-        full_turn(Cycloidal(), np.array([[0.01], [0.02]])).joints()
+        full_turn(Cycloidal(), np.array([[0.01], [0.02]])).transitions()
 
 
 # ---------------------------------------------------------------- peaks
@@ -448,7 +448,7 @@ def test_angles_that_were_rounded_close_the_turn(off):
     for k, value in enumerate(program(phi)):
         scale = np.abs(exact[k]).max()
         np.testing.assert_allclose(value, exact[k], rtol=0, atol=1e-4 * scale)  # 5e-5 deg move a steep flank
-    assert [joint.order for joint in program.joints()] == [3, 3, 3]
+    assert [joint.order for joint in program.transitions()] == [3, 3, 3]
 
 
 def test_single_precision_closes_the_turn():

@@ -1,0 +1,143 @@
+"""What keeps a follower on its cam, and what the shaft and the surfaces bear.
+
+Every function takes any cam's analysis.  Jump and preload are those of a rigid follower without friction:
+the inner flank pushes with ``Q / lever``, ``Q = J omega^2 w + (what resists besides)``, and cannot pull.  The
+extremes are those of the whole curve, whatever cam angles the analysis has (see `peaks`).
+
+Speeds are in rad/s.  Only a high-speed cam knows its speed as a share of the rated one, at which its load is given:
+there speeds are such shares, and 1.2 is 20 % above the rated speed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..contact import LineContact, contact_modulus, line_contact
+from ..kinds import applied, numbers, refuse_arguments, shown
+from ..quantities import Design, fails, quantity
+
+
+def jump_speed(analysis: Any) -> Any:
+    """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
+
+    0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
+    speed, as it does in a groove without a spring: that is form closed.
+
+    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.units import rpm
+    >>> print(f"{jump_speed(TranslatingRollerCam().analyse()) / rpm:.1f} rpm")
+    943.7 rpm
+    """
+
+    def slackness(at: Any) -> Any:
+        static, throw = at.static_resistance, -at.inertia * at.acceleration
+        thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
+        return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
+
+    slack = analysis.highest(slackness).value
+    slack = np.where(_thrown_off(analysis), np.inf, slack)
+    with np.errstate(divide="ignore"):
+        return 1 / np.sqrt(np.where(getattr(analysis, "form_closed", False), 0.0 * np.isfinite(slack), slack))[()]
+
+
+def preload_needed(analysis: Any, speed: Any) -> Any:
+    """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
+
+    The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
+    ``inf`` where the follower's speed drops at once.  ``ValueError`` for a speed that is not finite.
+
+    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.units import rpm
+    >>> cam = TranslatingRollerCam()
+    >>> least = preload_needed(cam.analyse(), 1200 * rpm)
+    >>> closed = cam.replace(load=cam.load.replace(preload=least))
+    >>> print(f"{least:.2f} N, jumps at {jump_speed(closed.analyse()) / rpm:.1f} rpm")
+    135.88 N, jumps at 1200.0 rpm
+    """
+    if fails(np.isfinite(speed) & (np.asarray(speed) >= 0)):
+        raise ValueError(f"the speed of the cam is {speed:.6g}; it must be a finite number of at least 0")
+
+    def lacking(at: Any) -> Any:
+        without = at.static_resistance - at.preload
+        return -(at.inertia * speed**2 * at.acceleration + without)
+
+    least = np.maximum(analysis.highest(lacking).value, 0.0)
+    drops = _thrown_off(analysis) & ~np.asarray(getattr(analysis, "form_closed", False)) & (np.asarray(speed) > 0)[()]
+    return np.where(drops, np.inf, least)[()]
+
+
+def _thrown_off(analysis: Any) -> Any:
+    """Whether the follower has mass and its speed drops at once, which no force can make it follow."""
+    corner = getattr(analysis, "corner", None)
+    return (corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0) if corner else np.False_
+
+
+class TorqueBalance(NamedTuple):
+    """How a torque is spread over the cam angle: numbers, or ``(p,)``; ``surplus`` has the cam angle last."""
+
+    mean: Any
+    """What the motor gives all the time, N m."""
+    surplus: Any
+    """Work that the torque took above the mean since the first cam angle, J."""
+    swing: Any
+    """Between the largest and the least ``surplus``, J: what a flywheel has to store."""
+
+    def flywheel(self, speed: Any, unevenness: Any) -> Any:
+        """Moment of inertia with which the speed varies by the share ``unevenness`` of its mean, kg m^2."""
+        return self.swing / (unevenness * speed**2)
+
+
+def torque_balance(cam_angle: Any, torque: Any) -> TorqueBalance:
+    """Mean and swing of a ``torque`` (N m) given over ``cam_angle`` (rad), by the trapezoid rule.
+
+    Without friction the mean over a full turn is the work of the machine alone: what mass, spring and weight take
+    they give back.
+
+    >>> phi = np.linspace(0, 2 * np.pi, 721)
+    >>> balance = torque_balance(phi, 5 + 2 * np.sin(phi))
+    >>> print(f"{balance.mean:.4f} N m, {balance.swing:.4f} J")
+    5.0000 N m, 4.0000 J
+    """
+    cam_angle, torque = numbers(cam_angle, "the cam angles"), numbers(torque, "the torque")
+    if cam_angle.shape[-1:] != torque.shape[-1:] or cam_angle.ndim > torque.ndim or not torque.size:
+        raise ValueError(f"the torque is {shown(torque)}, the cam angles are {shown(cam_angle)}; each needs the other")
+    step, middle = np.diff(cam_angle, axis=-1), (torque[..., 1:] + torque[..., :-1]) / 2
+    span = step.sum(-1)
+    mean = (middle * step).sum(-1) / span
+    gained = np.cumsum((middle - np.expand_dims(mean, -1)) * step, axis=-1)
+    surplus = np.concatenate([0.0 * gained[..., :1], gained], axis=-1)
+    return TorqueBalance(mean, surplus, surplus.max(-1) - surplus.min(-1))
+
+
+@dataclass(frozen=True)
+class ContactPair(Design):
+    """The materials of cam and follower and the width on which they touch."""
+
+    width: float = quantity("b", 15, 2, 60, "mm", "width of the contact")
+    cam_modulus: float = quantity("E_1", 210, 50, 220, "GPa", "elastic modulus of the cam")
+    follower_modulus: float = quantity("E_2", 210, 50, 650, "GPa", "elastic modulus of the follower")
+    cam_poisson: float = quantity("nu_1", 0.3, 0, 0.5, "", "Poisson's ratio of the cam", at_least=0)
+    follower_poisson: float = quantity("nu_2", 0.3, 0, 0.5, "", "Poisson's ratio of the follower", at_least=0)
+
+    @property
+    def modulus(self) -> Any:
+        """``E*``, Pa."""
+        return contact_modulus(self.cam_modulus, self.follower_modulus, self.cam_poisson, self.follower_poisson)
+
+
+def contact_along(analysis: Any, pair: ContactPair) -> LineContact:
+    """Pressure, half width, largest shear and its depth along the cam, on the flank that gives the force.
+
+    ``nan`` where that flank is undercut, and where a flat face would have to be pulled.
+
+    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> print(f"{contact_along(TranslatingRollerCam().analyse(), ContactPair()).pressure.max() / 1e6:.1f} MPa")
+    230.8 MPa
+    """
+    refuse_arguments(contact_along, locals())
+    with applied("the contact along the cam", analysis):
+        force = analysis.contact_force * analysis.loaded_flank
+        return line_contact(force / pair.width, analysis.fit, pair.modulus)

@@ -1,0 +1,1 @@
+"""From many designs to one: the analytic hierarchy process, choosers, summaries."""

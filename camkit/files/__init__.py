@@ -1,0 +1,1 @@
+"""Designs, studies, profiles and tables as files."""

@@ -1,0 +1,242 @@
+"""The entries of a saved file: a design, a law or a program as a JSON object that says its kind.
+
+Numbers stand in the units of their declarations.  What a file gives is checked against the declaration or the
+annotation of its field before anything is built of it, whatever the constructor itself would take.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
+from functools import lru_cache
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from ..motion import Law, MotionProgram, Segment
+from ..quantities import Choice, Design, Quantity, declarations, unremarked, words
+from ..units import factor, in_unit
+from .json_file import shown
+
+MOST_ROWS = 5000
+"""Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
+
+Metadata ``in_all=(what, most)`` says how many the lists of such fields may have together in a design."""
+MOST_THINGS = 500
+"""Entries that are objects themselves, such as the segments of a program."""
+
+
+def key(name: str, declared: Any) -> str:
+    """A field's name in a file: with its unit."""
+    return f"{name} [{declared.unit}]" if isinstance(declared, Quantity) and declared.unit else name
+
+
+def exact_in_unit(value: float, unit: str) -> float:
+    """``value`` (SI) in ``unit``: fifteen digits, or more where those give it back more exactly.
+
+    >>> exact_in_unit(0.04809, "mm"), exact_in_unit(0.3, "deg")
+    (48.09, 17.188733853924695)
+    """
+    plain, si = in_unit(float(value), unit), factor(unit)
+    near = float(value) / si
+    tried = (plain, near, float(np.nextafter(near, -np.inf)), float(np.nextafter(near, np.inf)))
+    return min(tried, key=lambda number: abs(number * si - value))
+
+
+def entry_of(thing: Any, where: str = "value") -> Any:
+    """A value as JSON knows it; ``where`` names it in the refusal of what no file can hold."""
+    if isinstance(thing, (np.generic, np.ndarray)) and np.ndim(thing) == 0:
+        return thing.item()
+    if thing is None or isinstance(thing, (bool, int, float, str)):
+        return thing
+    if isinstance(thing, (tuple, list, np.ndarray)):
+        return [entry_of(value, where) for value in thing]
+    name, known = type(thing).__name__, kinds()
+    if name in known and is_dataclass(thing):
+        _refuse_namesake(type(thing), known[name], where)
+        declared = declarations(thing)
+        values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init}
+        return {"kind": name} | {
+            key(n, declared.get(n)): _field_entry(v, declared.get(n), f"{words(n)} of the {name}")
+            for n, v in values.items()
+        }
+    what = f"a {name}" if is_dataclass(thing) or not callable(thing) else "a function of one's own"
+    raise ValueError(f"the {where} is {what}, which no file can hold")
+
+
+def _refuse_namesake(kind: type, read: type, where: str) -> None:
+    """A class of one's own under the name of another, which a file would be read as."""
+    if kind is not read:
+        other = "camkit's" if _ours(read) else "another one of your own, made later"
+        raise ValueError(
+            f"the {where} is a {kind.__name__} of your own, which would be read again as {other}: give your class a "
+            "name of its own, or make the thing anew"
+        )
+
+
+def _field_entry(value: Any, declared: Any, where: str) -> Any:
+    if isinstance(declared, Quantity):
+        if np.ndim(value):
+            raise ValueError("this is a population; one design can be saved")
+        return exact_in_unit(value, declared.unit)
+    if isinstance(declared, Choice) and value in declared.options:
+        return value.name
+    return entry_of(value, where)
+
+
+def kinds() -> dict[str, type]:
+    """Every class that a file may name; of two with one name camkit's own, else the newest."""
+    every = [MotionProgram, *(kind for base in (Design, Law, Segment) for kind in _below(base))]
+    known = [kind for kind in every if "__dataclass_fields__" in vars(kind) and not inspect.isabstract(kind)]
+    return {k.__name__: k for k in sorted(known, key=_ours) if not k.__name__.startswith("_")}
+
+
+def _below(kind: type) -> Iterator[type]:
+    inner: type
+    for inner in kind.__subclasses__():
+        yield inner
+        yield from _below(inner)
+
+
+def _ours(kind: type) -> bool:
+    return kind.__module__.partition(".")[0] == __name__.partition(".")[0]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Reads the entries of one file; ``missing`` names the fields that took their default, ``remarks`` say more."""
+
+    missing: list[str] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
+    held: Counter[str] = field(default_factory=Counter)
+    """How many entries one design has so far in lists that take long to work out."""
+
+    def thing(self, entry: Any, hint: Any = object, most: int = MOST_ROWS) -> Any:
+        """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
+        if isinstance(entry, list):
+            most = min(most, MOST_THINGS) if any(isinstance(value, dict) for value in entry) else most
+            if len(entry) > most:
+                raise ValueError(f"the file has a list of {len(entry)} entries; there can be at most {most}")
+            return tuple(self.thing(value) for value in entry)
+        if not isinstance(entry, dict):
+            return entry
+        known, name = kinds() | {k.__name__: k for k in _classes(hint)}, entry.get("kind")
+        if not isinstance(name, str) or name not in known:
+            raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
+        kind = known[name]
+        values = self._fields(kind, {k: v for k, v in entry.items() if k != "kind"})
+        try:
+            with unremarked():  # a file's numbers have their units
+                return kind(**values)
+        except (TypeError, AttributeError, IndexError, ArithmeticError):
+            raise ValueError(f"the file is damaged: no {name} can be built of what it says") from None
+
+    def _fields(self, kind: type, entries: Mapping[str, Any]) -> dict[str, Any]:
+        declared = declarations(kind)
+        named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
+        for wrong in entries.keys() - named.keys():
+            raise ValueError(f"the file has {shown(wrong)}, which a {kind.__name__} does not have")
+        for lacking in [name for name in named if name not in entries]:
+            self.lacks(lacking, kind.__name__, named[lacking])
+        hints = _hints(kind)
+        return {
+            named[k].name: self._field(
+                entry, k, named[k], declared.get(named[k].name), hints.get(named[k].name, object)
+            )
+            for k, entry in entries.items()
+        }
+
+    def lacks(self, name: str, kind: str, of: Field[Any]) -> None:
+        """A field that is not in the file takes its default, if it has one."""
+        if of.default is MISSING and of.default_factory is MISSING:
+            raise ValueError(f"the file lacks {name!r} of the {kind}")
+        self.missing.append(f"{name!r} of the {kind}")
+
+    def _field(self, entry: Any, name: str, of: Field[Any], declared: Any, hint: Any) -> Any:
+        if isinstance(declared, Quantity):
+            if not is_number(entry):
+                raise ValueError(f"the file says {shown(entry)} for {name!r}; it must be {declared.possible}")
+            return entry * declared.factor
+        if isinstance(declared, Choice):
+            return self._choice(entry, name, declared)
+        value = self.thing(entry, hint, of.metadata.get("most", MOST_ROWS))
+        if "in_all" in of.metadata and isinstance(entry, list):
+            self._count(len(entry), *of.metadata["in_all"])
+        if not fits(value, hint):
+            raise ValueError(f"the file says {shown(entry)} for {name!r}; {_wanted(hint)} belongs there")
+        return value
+
+    def _count(self, entries: int, what: str, most: int) -> None:
+        """``entries`` more in lists of which a design can have ``most`` together, however many lists there are."""
+        self.held[what] += entries
+        if self.held[what] > most:
+            raise ValueError(f"the file has more than {most} {what} in all; they would take too long to work out")
+
+    def _choice(self, entry: Any, name: str, declared: Choice) -> Any:
+        """An option by its name, or something of one's own that has all that the options have in common."""
+        for option in declared.options:
+            if isinstance(entry, str) and option.name == entry:
+                return option
+        value = self.thing(entry) if isinstance(entry, dict) else None
+        if value is None or not declared.allows(value):
+            options = ", ".join(option.name for option in declared.options)
+            raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {options}")
+        return value
+
+
+def is_number(value: Any) -> bool:
+    """Whether a file gives a number; true and false are none."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+@lru_cache(maxsize=256)
+def _hints(kind: type) -> dict[str, Any]:
+    """The annotations of a class; of one's own classes those that can be found out, ``Any`` being anything."""
+    try:
+        hints = get_type_hints(kind)
+    except (NameError, TypeError, AttributeError):  # names that are no longer known where the class was made
+        return {}
+    return hints if _ours(kind) else {name: object if hint is Any else hint for name, hint in hints.items()}
+
+
+def fits(value: Any, hint: Any) -> bool:
+    """Whether a value of a file is of the kind that an annotation names; ``Any`` stands for a number.
+
+    >>> fits(((0.0, 1.0),), tuple[tuple[float, float], ...]), fits(((),), tuple[tuple[float, float], ...])
+    (True, False)
+    """
+    origin: Any = get_origin(hint)
+    inner = get_args(hint)
+    if hint in (Any, float):
+        return is_number(value)
+    if hint in (int, bool, str, NoneType):
+        return type(value) is hint
+    if origin in (Union, UnionType):
+        return any(fits(value, each) for each in inner)
+    if origin is tuple and inner[-1:] != (...,):
+        return isinstance(value, tuple) and len(value) == len(inner) and all(map(fits, value, inner))
+    if origin in (tuple, list):
+        return isinstance(value, tuple) and all(fits(each, inner[0]) for each in value)
+    if hint in (tuple, list):
+        return isinstance(value, tuple)
+    return isinstance(hint, type) and isinstance(value, hint)
+
+
+def _classes(hint: Any) -> list[type]:
+    """The classes of ours or one's own that an annotation names."""
+    return [h for h in (hint, *get_args(hint)) if isinstance(h, type) and is_dataclass(h)]
+
+
+def _wanted(hint: Any) -> str:
+    """What an annotation names, in words."""
+    said = {Any: "a number", float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
+    if isinstance(hint, type) and hint not in said and get_origin(hint) is None:
+        return f"{'an' if hint.__name__[0] in 'AEIO' else 'a'} {hint.__name__}"
+    if get_origin(hint) is tuple and get_args(hint)[-1:] == (...,):
+        inner = get_args(hint)[0]
+        return "a list of pairs of numbers" if get_origin(inner) is tuple else "a list of values"
+    options = [said[each] for each in get_args(hint) if each in said] if get_origin(hint) in (Union, UnionType) else []
+    return said.get(hint, " or ".join(options) or "something else")

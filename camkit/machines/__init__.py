@@ -1,0 +1,1 @@
+"""Whole machines: design, measures and study, one file each."""

@@ -1,0 +1,518 @@
+"""The cam of an aircraft cabin-door handle: one disk, two cranks.
+
+Over the first 30 deg of the handle a relief-flap crank swings 10 deg while the lift crank dwells; over the
+next 150 deg the lift crank swings 69 deg while the relief crank dwells on the lift curve's base circle.
+
+Source: Gong, Liu, He, Nanjing University of Aeronautics and Astronautics, 2025 (Tables 1, 3, 4).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..cam import groove
+from ..cam.loads import ArmLoad, Friction, refuse_table
+from ..cam.measures import (
+    CURVE,
+    MOTION,
+    base_radius,
+    groove_gap,
+    max_pressure_angle,
+    min_convex_radius,
+    part,
+    peak_force,
+    peak_torque,
+    radius_of,
+    undercut_margin,
+    worst,
+)
+from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from ..geometry import angle_opposite, rotated
+from ..kinds import listed, refuse_arguments
+from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..quantities import Design, Measure, choice, counted, fails, quantity, words
+from ..study.study import Space, Study, weighted
+from ..units import deg, mm
+
+BOTH = ("lift", "relief")
+
+
+@dataclass(frozen=True)
+class DoorHandleCam(Design):
+    """Cam of a cabin-door handle with a lift and a relief crank (defaults: the paper's Table 1).
+
+    The groove holds three stretches, one behind the other: the relief curve, the transition arc on which the
+    relief crank dwells, the lift curve.  ``lift`` and ``relief`` are the two `OscillatingRollerCam` curves; the
+    relief curve ends on the lift curve's base circle and so depends on the lift design.
+
+    >>> cam = DoorHandleCam()
+    >>> print(f"{cam.base_radius / mm:.3f} mm, {np.degrees(cam.relief.start_angle):.2f} deg")
+    33.588 mm, 24.88 deg
+
+    Raises ``ValueError`` for sizes that cannot be built: the sentence says which and what is possible.
+    """
+
+    lift_arm: float = quantity("l_1", 50, 40, 62, "mm", "lift arm: pivot to roller centre")
+    lift_start_angle: float = quantity("psi_0", 22, 15, 30, "deg", "lift arm from the line of centres at the start")
+    relief_arm: float = quantity("l_2", 75, 60, 92, "mm", "relief arm: pivot to roller centre")
+    lift_centre_distance: float = quantity("a_1", 74.24, 60, 110, "mm", "cam axis to lift pivot")
+    relief_centre_distance: float = quantity("a_2", 100, 85, 120, "mm", "cam axis to relief pivot")
+    roller_radius: float = quantity("r_T", 5, 1, 12, "mm", "both rollers")
+    lift_swing: float = quantity("tau_1", 69, 40, 80, "deg", "swing of the lift crank")
+    relief_swing: float = quantity("tau_2", 10, 2, 20, "deg", "swing of the relief crank")
+    relief_cam_angle: float = quantity("phi_2", 30, 15, 90, "deg", "handle angle for the relief crank")
+    handle_angle: float = quantity("phi", 180, 120, 200, "deg", "handle angle in all; the rest is for the lift crank")
+    motion_law: Any = choice("law", Cycloidal(), LAWS, "motion law of both cranks")
+    friction: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and rollers", at_least=0)
+    cam_friction_circle: float = quantity("rho_1", 1.5, 0, 4, "mm", "friction circle of the cam axis", at_least=0)
+    roller_friction_circle: float = quantity("rho_2", 0.5, 0, 4, "mm", "friction circle of the roller pins", at_least=0)
+    pivot_friction_circle: float = quantity("rho_3", 1, 0, 4, "mm", "friction circle of the arm pivots", at_least=0)
+    lift_arm_mass: float = quantity("m_1", 2, 0, 10, "kg", "uniform lift arm", at_least=0)
+    relief_arm_mass: float = quantity("m_2", 0.5, 0, 10, "kg", "uniform relief arm", at_least=0)
+    handle_speed: float = quantity("omega", 90, 0, 360, "deg/s", "speed of the handle", at_least=0)
+    door_torque: float = quantity("T_d", 0, 0, 30, "N m", "constant torque of the door on the lift crank", above=None)
+    flap_torque: float = quantity("T_f", 0, 0, 30, "N m", "constant torque of the flap on the relief crank", above=None)
+    door_spring: float = quantity("c", 0, 0, 30, "N m/rad", "torsion spring on the lift crank", at_least=0)
+    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arms; 0: they turn level", at_least=0)
+    up_angle: float = quantity("u", 90, -180, 180, "deg", "from the lift line of centres to straight up", above=None)
+    door_torque_table: tuple[tuple[float, float], ...] = field(default=())
+    """Pairs of lift travel [rad] and torque [N m] added to ``door_torque``; straight lines between."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_table("torque table", "travel", "torque", self.door_torque_table)
+        shares = self.relief_cam_angle < self.handle_angle
+        if fails(shares):
+            raise ValueError(
+                f"the relief cam angle is {self.relief_cam_angle / deg:.4g} deg of {self.handle_angle / deg:.4g} deg "
+                "handle angle; it must leave some for the lift crank"
+            )
+        fits = self.handle_angle + self.lift_cam_angle <= 2 * np.pi
+        if fails(fits):
+            raise ValueError(
+                "relief curve, transition arc and lift curve need "
+                f"{(self.handle_angle + self.lift_cam_angle) / deg:.4g} deg of the cam; there are 360 deg"
+            )
+        reaches = np.isfinite(self._relief_rest_angle)
+        if fails(reaches):
+            low = abs(self.relief_centre_distance - self.relief_arm) / mm
+            high = (self.relief_centre_distance + self.relief_arm) / mm
+            raise ValueError(
+                f"the relief roller has to rest on the lift curve's base circle of {self.base_radius / mm:.4g} mm; "
+                f"an arm of {self.relief_arm / mm:.4g} mm at {self.relief_centre_distance / mm:.4g} mm reaches "
+                f"{low:.4g} to {high:.4g} mm"
+            )
+        self.keep(shares & fits & reaches)
+
+    @property
+    def lift_cam_angle(self) -> Any:
+        """Handle angle over which the lift crank swings."""
+        return self.handle_angle - self.relief_cam_angle
+
+    @property
+    def base_radius(self) -> Any:
+        """``r_0``: pitch radius of the lift curve at its start, on which the relief crank dwells."""
+        a, l = self.lift_centre_distance, self.lift_arm
+        return np.sqrt(a**2 + l**2 - 2 * a * l * np.cos(self.lift_start_angle))
+
+    @property
+    def _relief_rest_angle(self) -> Any:
+        """``psi'``: the relief arm's angle with its roller on the base circle."""
+        return angle_opposite(self.base_radius, self.relief_arm, self.relief_centre_distance)
+
+    @property
+    def _rub(self) -> Friction:
+        return Friction(
+            self.friction, self.cam_friction_circle, self.roller_friction_circle, self.pivot_friction_circle
+        )
+
+    @cached_property
+    def lift(self) -> OscillatingRollerCam:
+        """The lift curve: dwell, then rise; its arm swings against the cam's rotation."""
+        return OscillatingRollerCam(
+            motion=MotionProgram(
+                (Dwell(self.relief_cam_angle), Rise(self.lift_cam_angle, self.lift_swing, self.motion_law))
+            ),
+            centre_distance=self.lift_centre_distance,
+            arm_length=self.lift_arm,
+            start_angle=self.lift_start_angle,
+            roller_radius=self.roller_radius,
+            rotation=1,
+            load=ArmLoad(
+                mass=self.lift_arm_mass,
+                speed=self.handle_speed,
+                torque=self.door_torque,
+                spring_rate=self.door_spring,
+                gravity=self.gravity,
+                up_angle=self.up_angle,
+                torque_table=self.door_torque_table,
+            ),
+            friction=self._rub,
+        )
+
+    @cached_property
+    def relief(self) -> OscillatingRollerCam:
+        """The relief curve: return, then dwell; a mirrored crank whose roller comes in to the base circle."""
+        return OscillatingRollerCam(
+            motion=MotionProgram(
+                (Return(self.relief_cam_angle, self.relief_swing, self.motion_law), Dwell(self.lift_cam_angle))
+            ),
+            centre_distance=self.relief_centre_distance,
+            arm_length=self.relief_arm,
+            start_angle=self._relief_rest_angle + self.relief_swing,
+            roller_radius=self.roller_radius,
+            rotation=-1,
+            load=ArmLoad(
+                mass=self.relief_arm_mass,
+                speed=self.handle_speed,
+                torque=-self.flap_torque,
+                gravity=self.gravity,
+                up_angle=self.relief_direction - self.up_angle,
+            ),
+            friction=self._rub,
+        )
+
+    @cached_property
+    def relief_direction(self) -> Any:
+        """Direction from the cam axis to the relief pivot; the lift pivot is at 0, the cam turns with growing angle.
+
+        It follows from the order of the stretches: the transition arc ends where the lift curve begins, when
+        the relief roller has used it up.
+        """
+        lift = self._roller_direction(self.lift_centre_distance, self.lift_arm, self.lift_start_angle)
+        relief = self._roller_direction(self.relief_centre_distance, self.relief_arm, self._relief_rest_angle)
+        return self.lift_cam_angle + lift + relief
+
+    @staticmethod
+    def _roller_direction(a: Any, l: Any, psi: Any) -> Any:
+        return np.arctan2(l * np.sin(psi), a - l * np.cos(psi))
+
+    def analyse(self, n: int = 721) -> DoorHandleAnalysis:
+        """Both curves at ``n`` handle angles, a third of them over the relief motion."""
+        analysis = DoorHandleAnalysis(self, *self._handle_angles(n))
+        for curve in (analysis.lift, analysis.relief):
+            curve.refuse_impossible()
+        return analysis
+
+    def _handle_angles(self, n: int) -> tuple[np.ndarray, int]:
+        """Handle angles dense over both motions; the first ``k`` end a hair before the lift crank starts.
+
+        A hair, so that a law that stops with a jolt is seen before the dwell that follows it.
+        """
+        k = counted(n, "handle angles", least=6) // 3
+        before = np.linspace(0, 1, k) * self.relief_cam_angle * (1 - 1e-9)
+        after = self.relief_cam_angle + np.linspace(0, 1, n - k) * self.lift_cam_angle
+        return _behind(before, after), k
+
+
+@dataclass(frozen=True)
+class DoorHandleAnalysis:
+    """Both curves of a `DoorHandleCam` over the handle angle, and the groove that joins them.
+
+    ``cam_angle[..., :k]`` is the relief crank's motion, the rest the lift crank's.
+    """
+
+    cam: DoorHandleCam
+    cam_angle: np.ndarray
+    k: int
+    rough: bool = field(default=False, kw_only=True)
+    """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
+
+    @cached_property
+    def lift(self) -> OscillatingRollerAnalysis:
+        """The lift curve."""
+        return OscillatingRollerAnalysis(self.cam.lift, self.cam_angle, rough=self.rough)
+
+    @cached_property
+    def relief(self) -> OscillatingRollerAnalysis:
+        """The relief curve, in the frame of its own (mirrored) crank."""
+        return OscillatingRollerAnalysis(self.cam.relief, self.cam_angle, rough=self.rough)
+
+    @property
+    def curves(self) -> dict[str, OscillatingRollerAnalysis]:
+        """Both cam curves by name."""
+        return {"lift": self.lift, "relief": self.relief}
+
+    @property
+    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Both cranks by name: pivot ``(2,)`` and roller centre ``(2, n)`` in the machine's frame, m."""
+        pivot = self.from_relief(np.array([self.cam.relief_centre_distance, 0.0]))
+        lift = self.lift.cranks["arm"]
+        return {"lift": lift, "relief": (pivot, self.from_relief(self.relief.roller_centre))}
+
+    @property
+    def turn(self) -> np.ndarray:
+        """How far the cam has turned counter-clockwise at each handle angle, rad."""
+        return self.cam_angle
+
+    def from_relief(self, points: np.ndarray) -> np.ndarray:
+        """Points of the relief curve's own frame in the frame of the whole cam."""
+        x, y = points
+        return rotated(np.stack([x, -y]), self.cam.relief_direction)
+
+    def _joined(self, name: str) -> np.ndarray:
+        """A curve's points along the whole groove, ``(2, ..., 2n)``: relief curve, transition arc, lift curve.
+
+        The transition arc is what the relief roller runs over while its crank dwells.
+        """
+        return _behind(
+            self.from_relief(getattr(self.relief, name)), getattr(self.lift, name)[..., self.k :], points=True
+        )
+
+    @cached_property
+    def stretch(self) -> np.ndarray:
+        """The name of the stretch to which each point of the groove belongs."""
+        n = self.cam_angle.shape[-1]
+        return np.repeat(["relief", "transition", "lift"], [self.k, n - self.k, n - self.k])
+
+    @property
+    def profile_angle(self) -> np.ndarray:
+        """The handle angle at which a roller touches each point of the groove, rad."""
+        return _behind(self.cam_angle, self.cam_angle[..., self.k :])
+
+    @cached_property
+    def pitch(self) -> np.ndarray:
+        """Pitch curve of the whole groove, m."""
+        return self._joined("pitch")
+
+    @cached_property
+    def profile(self) -> np.ndarray:
+        """Inner flank of the whole groove, m."""
+        return self._joined("profile")
+
+    @cached_property
+    def outer_profile(self) -> np.ndarray:
+        """Outer flank of the whole groove, m."""
+        return self._joined("outer_profile")
+
+    @cached_property
+    def stroke_curvature(self) -> Any:
+        """The largest convex curvature of the lift curve from its least convex (most hollow) place on, 1/m.
+
+        A rise begins on the base circle with that circle's curvature, so the most convex point of the whole curve says
+        how large the disk is.  Behind the most hollow place lies what the stroke itself bends.
+        """
+        hollow = np.asarray(self.lift.lowest(_curvature).cam_angle)[..., None]
+        most = self.lift.highest(lambda at: np.where(at.cam_angle >= hollow, at.curvature, -np.inf)).value
+        return np.where(np.isinf(self.lift.sharpest(1).value), np.inf, most)[()]
+
+    def _along(self, name: str) -> np.ndarray:
+        return _behind(getattr(self.relief, name), getattr(self.lift, name)[..., self.k :])
+
+    @cached_property
+    def curvature(self) -> np.ndarray:
+        """Curvature of the whole pitch curve, convex > 0, 1/m."""
+        return self._along("curvature")
+
+    @cached_property
+    def groove_gap(self) -> Any:
+        """Least width of the wall between two parts of the whole groove, m; below 0 they merge (see `groove.gap`)."""
+        cam, after = self.cam, self.cam.lift_cam_angle
+
+        def path(place: Any) -> np.ndarray:
+            """The relief roller's way over the handle angle, then the lift roller's over its own."""
+            lift = place - after
+            relief = self.from_relief(self.relief.at(np.minimum(place, cam.handle_angle)).pitch)
+            both = zip(self.lift.at(np.maximum(lift, 0.0)).pitch, relief, strict=True)
+            return np.stack([np.where(lift > cam.relief_cam_angle, x, y) for x, y in both])
+
+        return groove.gap(path, cam.handle_angle + after, cam.roller_radius, self.rough)
+
+    @cached_property
+    def undercut(self) -> np.ndarray:
+        """Where the inner flank of the groove is undercut."""
+        return self._along("undercut")
+
+    @cached_property
+    def outer_undercut(self) -> np.ndarray:
+        """Where the outer flank of the groove is undercut."""
+        return self._along("outer_undercut")
+
+
+def _curvature(curve: OscillatingRollerAnalysis) -> np.ndarray:
+    return curve.curvature
+
+
+def _behind(first: np.ndarray, second: np.ndarray, points: bool = False) -> np.ndarray:
+    """Two stretches in one array, also where only one of them has a population axis."""
+    if points:
+        return np.stack([_behind(a, b) for a, b in zip(first, second, strict=True)])
+    lead = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
+    return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in (first, second)], axis=-1)
+
+
+PAPER_JUDGEMENTS = ((1, 5, 5), (1 / 5, 1, 1), (1 / 5, 1, 1))
+"""The paper's AHP judgements among pressure angle, force and torque."""
+
+DOOR_HANDLE_SPACE = {
+    "lift_arm": (40 * mm, 60 * mm),
+    "lift_start_angle": (0.30, 0.55),
+    "relief_cam_angle": (30 * deg, 75 * deg),
+}
+"""A space in which whole cams live: the relief crank may take a larger share of the handle angle."""
+
+PAPER_SPACE = {
+    "lift_arm": (45 * mm, 55 * mm),
+    "lift_start_angle": (0.30, 0.46),
+    "relief_arm": (67.5 * mm, 82.5 * mm),
+}
+"""The paper's free quantities; it prints no bounds, these are +-10 % of the lengths and 0.30..0.46 rad."""
+
+LIFT_SPACE = {name: PAPER_SPACE[name] for name in ("lift_arm", "lift_start_angle")}
+"""What of the paper's free quantities the lift curve depends on."""
+
+EXPANDED_SPACE = PAPER_SPACE | {
+    "lift_centre_distance": (60 * mm, 100 * mm),
+    "relief_centre_distance": (85 * mm, 115 * mm),
+    "relief_cam_angle": (30 * deg, 75 * deg),
+    "roller_radius": (3 * mm, 6 * mm),
+}
+"""What the paper leaves for later: centre distances, relief motion angle and roller radius are free too."""
+
+STUDY_ANGLES = 361
+"""Handle angles of an analysis within a search."""
+
+CURVE_TABLE = tuple(part(measure, name) for name in BOTH for measure in (*CURVE, *MOTION))
+"""Every measure of both curves, for a table."""
+
+
+stroke_radius = Measure(
+    "least convex radius of the stroke (pitch), lift", "mm", lambda a: radius_of(a.stroke_curvature)
+)
+
+_LEAST = (base_radius, min_convex_radius, undercut_margin)
+WORSE_CURVE = {
+    m: worst(m, BOTH, np.minimum if m in _LEAST else np.maximum)
+    for m in (max_pressure_angle, peak_force, peak_torque, *_LEAST)
+}
+LIFT_CURVE = {m: part(m, "lift") for m in CURVE}
+EFFORT = (max_pressure_angle, peak_force, peak_torque)
+DoorHandleCam.measures = (*CURVE_TABLE, *WORSE_CURVE.values(), groove_gap, stroke_radius)
+
+
+def door_handle_study(
+    start: DoorHandleCam | None = None,
+    *,
+    space: Space | None = None,
+    reference: DoorHandleCam | None = None,
+    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+) -> Study:
+    """The whole cam: little effort against a large least convex radius, both of the worse curve.
+
+    Effort is the weighted sum of the largest pressure angle, contact force and cam torque, each divided by its
+    value at ``reference`` (default: ``start``); ``weights`` are AHP weights.  Limits: at most 45 deg, a base radius
+    of at least 30 mm, convex radii of at least 7 mm, and no undercut of either flank of the joined groove (the
+    roller's radius is at most 0.9 of any radius of curvature), whose ends leave a wall.
+
+    ``space`` maps free quantities to bounds in SI; default: lift arm, start angle and the relief crank's share of
+    the handle angle, where a fifth of all designs keep the limits.  The paper's own design is not one of them, its
+    relief curve is undercut; it is where a search starts and what effort is measured against.
+
+    Two things to know before a front is believed.  The **lift arm stays on its lower bound**: neither strength nor
+    wear resists a short arm here, and the contact force ``T / (l cos alpha)`` of a door torque, which does, weighs
+    too little in the paper's judgements to lift it off.  And a constant ``door_torque`` ``T`` that outweighs the arms'
+    inertia has the **peak torque T times the largest velocity**: motion law, swing and cam angle alone fix it, so
+    where these are not free its judgement weighs nothing.  Without one, as in the paper, the arms' inertia is the only
+    load and forces are tenths of a newton; the notebooks open at 10 N m, an assumption.
+
+    >>> study = door_handle_study()
+    >>> study.evaluate([0.042, 0.5, 60 * deg]).feasible.tolist(), study.evaluate(study.x0).feasible.tolist()
+    ([True], [False])
+    """
+    refuse_arguments(door_handle_study, locals())
+    start = start or DoorHandleCam()
+    of = WORSE_CURVE
+    joined = {of[undercut_margin]: 0.1, groove_gap: 0.0}
+    return Study(
+        start=start,
+        free=space or DOOR_HANDLE_SPACE,
+        minimise=(_effort(of, reference or start, weights), -of[min_convex_radius]),
+        at_most={of[max_pressure_angle]: 45 * deg},
+        at_least={of[base_radius]: 30 * mm, of[min_convex_radius]: 7 * mm, **joined},
+        angles=STUDY_ANGLES,
+    )
+
+
+def door_handle_paper_study(
+    start: DoorHandleCam | None = None,
+    *,
+    reference: DoorHandleCam | None = None,
+    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+) -> Study:
+    """The whole cam in the paper's box: lift arm, start angle and relief arm, as far as the paper lets them go.
+
+    Only 1 in 10 000 random designs keeps the limits, and the front is an edge of the box rather than a surface in it:
+    the **lift arm stays on its lower bound and the start angle on its upper one** (45 mm, 0.46 rad), the relief arm
+    runs from 79.0 to 80.6 mm, the effort from 1.029 to 1.069 of the start's.  At general tolerances (ISO 2768, medium)
+    half of the cams drawn at either end of it miss a limit.
+
+    >>> study = door_handle_paper_study()
+    >>> study.evaluate([[0.045, 0.46, 0.080], study.x0]).feasible.tolist()
+    [True, False]
+    """
+    return door_handle_study(start, space=PAPER_SPACE, reference=reference, weights=weights)
+
+
+def lift_curve_study(
+    start: DoorHandleCam | None = None,
+    *,
+    space: Space | None = None,
+    reference: DoorHandleCam | None = None,
+    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+) -> Study:
+    """The lift curve alone, as the paper judges it: little effort against a large least convex radius of its stroke.
+
+    Effort, ``reference``, ``weights`` and limits are those of `door_handle_study`, of the lift curve only; nothing is
+    said about the relief curve, except that its roller must reach the base circle.  The radius is that of the stroke
+    (see `DoorHandleAnalysis.stroke_curvature`): the base circle, where the crank rests, is held by its own limit.
+
+    Raises ``ValueError`` for a free quantity on which the lift curve does not depend, such as the relief arm.
+
+    >>> study = lift_curve_study()
+    >>> study.evaluate(study.x0).f.round(4).tolist()
+    [[1.0, -0.047]]
+    """
+    refuse_arguments(lift_curve_study, locals())
+    start = start or DoorHandleCam()
+    free = space or LIFT_SPACE
+    for name in free:
+        if name in WITHOUT_LIFT:
+            raise ValueError(f"the {words(name)} has no effect on the lift curve; it must not be free")
+    of = LIFT_CURVE
+    return Study(
+        start=start,
+        free=free,
+        minimise=(_effort(of, reference or start, weights), -stroke_radius),
+        at_most={of[max_pressure_angle]: 45 * deg},
+        at_least={of[base_radius]: 30 * mm, stroke_radius: 7 * mm},
+        angles=STUDY_ANGLES,
+    )
+
+
+WITHOUT_LIFT = (
+    "relief_arm",
+    "relief_centre_distance",
+    "relief_swing",
+    "relief_arm_mass",
+    "flap_torque",
+    "roller_radius",
+    "friction",
+    "cam_friction_circle",
+    "roller_friction_circle",
+    "pivot_friction_circle",
+)
+"""Quantities that neither the lift curve's pitch curve nor its frictionless forces depend on."""
+
+
+def _effort(of: Any, reference: DoorHandleCam, weights: Any) -> Measure:
+    """The weighted sum of pressure angle, force and torque, each over its value at ``reference``."""
+    parts = [of[measure] for measure in EFFORT]
+    weights = listed(weights, "the weights", "part of the effort")
+    if len(weights) != len(parts):
+        raise ValueError(f"the effort has {len(parts)} parts (angle, force, torque); there are {len(weights)} weights")
+    analysis = reference.analyse(STUDY_ANGLES)
+    return weighted("effort", dict(zip(parts, weights, strict=True)), [float(m(analysis)) for m in parts])

@@ -1,0 +1,494 @@
+"""The intermediate tube of a shaft with two universal joints: as light as strength, stiffness and speed allow.
+
+Source: Lyu, Du, Li, Yuan, Luo, Guangdong University of Technology, 2007 (drive of a ZJ-15A drilling rig).  The
+paper sizes outer diameter ``D`` and inner diameter ``d`` of the tube for the least area of its section.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache, reduce
+from typing import Any
+
+import numpy as np
+
+from ..data import load
+from ..kinds import numbers, refuse_arguments, shown
+from ..quantities import Design, Measure, declarations, fails, quantity, words
+from ..study.design_map import DesignMap
+from ..study.study import Space, Study
+from ..units import GPa, MPa, deg, kg, kW, m, mm, rpm
+
+TORQUE_NUMBER = 9550
+"""Handbooks' ``M [N m] = 9550 P [kW] / n [rpm]``; exact is 30000 / pi = 9549.2966, the paper uses 9550."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """What a shaft is made of, SI, with the source of each number."""
+
+    name: str
+    elastic_modulus: float
+    shear_modulus: float
+    density: float
+    yield_strength: float
+    source: str
+
+    @property
+    def allowable_shear(self) -> float:
+        """Yield in shear (von Mises, ``sigma / sqrt(3)``) over the safety that the paper's 98 MPa give 20Cr, Pa."""
+        return 98 * MPa * self.yield_strength / (540 * MPa)
+
+
+MATERIALS = {
+    row["name"]: Material(
+        row["name"],
+        row["elastic_modulus"] * GPa,
+        row["shear_modulus"] * GPa,
+        row["density"] * kg / m**3,
+        row["yield_strength"] * MPa,
+        row["source"],
+    )
+    for row in load("materials")["materials"]
+}
+"""Materials by name."""
+
+
+@dataclass(frozen=True)
+class UniversalJointShaft(Design):
+    """The tube between two universal joints (defaults: the paper's best design and data).
+
+    >>> tube = UniversalJointShaft(outer_diameter=128*mm, inner_diameter=98*mm).analyse()
+    >>> print(f"{tube.area / mm**2:.0f} mm^2, {tube.shear_stress / MPa:.3f} MPa, {tube.critical_speed / rpm:.1f} rpm")
+    5325 mm^2, 83.564 MPa, 2974.7 rpm
+
+    Raises ``ValueError`` for a quantity that is not positive, a bore as wide as the tube, a highest speed
+    below the lowest, or a joint angle of 90 deg or more.
+    """
+
+    outer_diameter: float = quantity("D", 128.64, 108, 140, "mm", "tube, outside")
+    inner_diameter: float = quantity("d", 101.78, 87, 103, "mm", "tube, inside")
+    length: float = quantity("L", 2.41, 0.5, 5, "m", "between the joints")
+    power: float = quantity("P", 257, 20, 600, "kW", "transmitted")
+    service_factor: float = quantity("K_A", 1.5, 1, 3, "", "for shocks: torque over nominal torque")
+    speed: float = quantity("n_min", 163, 50, 1000, "rpm", "lowest speed at full power; it sets the torque")
+    max_speed: float = quantity("n_max", 1000, 100, 5000, "rpm", "highest speed")
+    elastic_modulus: float = quantity("E", 206, 60, 220, "GPa", "Young's modulus")
+    shear_modulus: float = quantity("G", 79.4, 20, 90, "GPa", "shear modulus")
+    density: float = quantity("rho", 7850, 1500, 8000, "kg/m^3", "mass over volume; not printed in the paper")
+    allowable_shear: float = quantity("tau_p", 98, 20, 300, "MPa", "shear stress that is allowed")
+    allowable_twist: float = quantity("theta_p", 1, 0.1, 2, "deg/m", "twist over length that is allowed")
+    speed_margin: float = quantity("s", 1.5, 1.25, 2, "", "critical speed over highest speed; the paper: 1.25 to 1.5")
+    joint_angle: float = quantity("beta", 0, 0, 45, "deg", "of the joint before the tube; the paper: none", at_least=0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if fails(self.inner_diameter < self.outer_diameter):
+            raise ValueError(
+                f"the inner diameter d is {self.inner_diameter / mm:.6g} mm; "
+                f"it must be below the outer diameter D of {self.outer_diameter / mm:.6g} mm"
+            )
+        if fails(self.speed <= self.max_speed):
+            raise ValueError(
+                f"the lowest speed n_min is {self.speed / rpm:.6g} rpm; "
+                f"it must not be above the highest speed n_max of {self.max_speed / rpm:.6g} rpm"
+            )
+        if fails(self.joint_angle < np.pi / 2):
+            raise ValueError(
+                f"the joint angle beta is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
+            )
+
+    def made_of(self, name: str) -> UniversalJointShaft:
+        """The same shaft of another of `MATERIALS`: moduli, density and allowable shear stress change.
+
+        >>> round(UniversalJointShaft().made_of("40Cr").allowable_shear / MPa, 1)
+        142.5
+        """
+        if not isinstance(name, str) or name not in MATERIALS:
+            raise ValueError(f"the material {shown(name)} is not known; there are {', '.join(MATERIALS)}")
+        material = MATERIALS[name]
+        properties = ("elastic_modulus", "shear_modulus", "density", "allowable_shear")
+        return self.replace(**{p: getattr(material, p) for p in properties})
+
+    @property
+    def torque(self) -> Any:
+        """In the shaft before the joint, ``M = 9550 K_A P / n`` with kW and rpm, N m; 0.0074 % above `exact_torque`."""
+        return TORQUE_NUMBER * self.service_factor * (self.power / kW) / (self.speed / rpm)
+
+    @property
+    def exact_torque(self) -> Any:
+        """``M = K_A P / omega`` in SI, N m."""
+        return self.service_factor * self.power / self.speed
+
+    @property
+    def tube_torque(self) -> Any:
+        """The largest torque in the tube over a turn, ``M / cos(beta)``, N m.
+
+        Behind a joint the torque swings between ``M cos(beta)`` and this, twice a turn.  The couple that the joint
+        bends the tube with is nothing where the torque is largest: with ``psi`` the tube's angle from where it is
+        least, torque and couple together are ``M / sqrt(1 - sin(beta)^2 sin(psi)^2)`` (Tresca), so this is the most
+        of both.  A joint behind the tube with forks in phase adds nothing unless its angle is larger; see
+        `DoubleUniversalJoint` for any other drive.
+        """
+        return self.torque / np.cos(self.joint_angle)
+
+    @property
+    def stiff_difference(self) -> Any:
+        """``D^4 - d^4`` at which the twist is just what is allowed, m^4: ``32 M / (pi G theta_p cos(beta))``."""
+        return 32 * self.tube_torque / (np.pi * self.shear_modulus * self.allowable_twist)
+
+    def stiff_diameter(self, inner_diameter: Any) -> Any:
+        """Outer diameter at which the twist is just what is allowed, m (see `stiff_difference`)."""
+        bore = numbers(inner_diameter, "the inner diameters")
+        with np.errstate(over="ignore"):
+            return ((self.stiff_difference + bore**4) ** 0.25)[()]
+
+    @property
+    def twist_governs_below(self) -> Any:
+        """Outer diameter up to which a tube that is stiff enough is strong enough, m: ``2 tau_p / (G theta_p)``."""
+        return 2 * self.allowable_shear / (self.shear_modulus * self.allowable_twist)
+
+    def analyse(self, n: int = 1) -> ShaftAnalysis:
+        """Stresses, twist and speeds; ``n`` is there so that every design is analysed alike (a tube has no angle)."""
+        return ShaftAnalysis(self)
+
+
+@dataclass(frozen=True)
+class ShaftAnalysis:
+    """What follows from a `UniversalJointShaft`: numbers for one design, ``(p, 1)`` for ``p`` designs.
+
+    ``nan`` where a member of a population cannot be built.
+    """
+
+    shaft: UniversalJointShaft
+
+    @cached_property
+    def buildable(self) -> Any:
+        """Whether every quantity is possible, the bore inside the tube, speeds in order and the joint able to turn."""
+        s = self.shaft
+        possible = [q.allows(getattr(s, name)) for name, q in declarations(s).items()]
+        in_order = (s.inner_diameter < s.outer_diameter) & (s.speed <= s.max_speed) & (s.joint_angle < np.pi / 2)
+        return reduce(np.logical_and, possible, in_order)
+
+    @cached_property
+    def _outer(self) -> Any:
+        return np.where(self.buildable, self.shaft.outer_diameter, np.nan)[()]
+
+    @cached_property
+    def area(self) -> Any:
+        """``A = pi (D^2 - d^2) / 4``, m^2."""
+        return np.pi * (self._outer**2 - self.shaft.inner_diameter**2) / 4
+
+    @cached_property
+    def polar_moment(self) -> Any:
+        """``I_p = pi (D^4 - d^4) / 32``, m^4; the second moment of area ``I`` is half of it."""
+        return np.pi * (self._outer**4 - self.shaft.inner_diameter**4) / 32
+
+    @cached_property
+    def mass(self) -> Any:
+        """Of the tube between the joints, kg."""
+        return self.shaft.density * self.area * self.shaft.length
+
+    @cached_property
+    def inertia(self) -> Any:
+        """About the tube's own axis, ``rho L I_p``, kg m^2."""
+        return self.shaft.density * self.shaft.length * self.polar_moment
+
+    @property
+    def torque(self) -> Any:
+        """Before the joint, ``M = 9550 K_A P / n``, N m."""
+        return self.shaft.torque
+
+    @cached_property
+    def tube_torque(self) -> Any:
+        """The largest in the tube, ``M / cos(beta)``, N m (see `UniversalJointShaft.tube_torque`)."""
+        return np.where(self.buildable, self.shaft.tube_torque, np.nan)[()]
+
+    @cached_property
+    def shear_stress(self) -> Any:
+        """At the tube's surface, ``tau = M_t / W_n``, ``W_n = pi D^3 [1 - (d / D)^4] / 16 = 2 I_p / D``, Pa.
+
+        ``M_t`` is the `tube_torque`; no bending couple makes more of it.
+        """
+        return self.tube_torque * self._outer / (2 * self.polar_moment)
+
+    @cached_property
+    def twist(self) -> Any:
+        """Over the length at the largest torque, ``theta = M_t / (G I_p)``, rad/m."""
+        return self.tube_torque / (self.shaft.shear_modulus * self.polar_moment)
+
+    @cached_property
+    def critical_speed(self) -> Any:
+        """``sqrt(g / y)``, ``y = 5 Q L^3 / (384 E I)`` the sag of the tube under its weight ``Q``, rad/s.
+
+        The paper prints 348.  Gravity cancels: ``sqrt(76.8 E I / (rho A L^4))``, 11 % below the exact
+        ``pi^2 sqrt(E I / (rho A L^4))`` of a tube on two supports, so the paper's limit is a cautious one.
+        """
+        s = self.shaft
+        return np.sqrt(76.8 * s.elastic_modulus * self.polar_moment / 2 / (s.density * self.area * s.length**4))
+
+    @cached_property
+    def buckling_stress(self) -> Any:
+        """Shear stress at which a long tube's wall buckles, ``tau_c = 0.292 E ((D - d) / D)^1.5``, Pa.
+
+        ``0.272 E (t / r)^1.5 / (1 - nu^2)^0.75`` with ``nu = 0.3``, wall ``t`` and outer radius ``r``.
+        """
+        return 0.292 * self.shaft.elastic_modulus * ((self._outer - self.shaft.inner_diameter) / self._outer) ** 1.5
+
+    @cached_property
+    def shear_utilisation(self) -> Any:
+        """Shear stress over what is allowed."""
+        return self.shear_stress / self.shaft.allowable_shear
+
+    @cached_property
+    def twist_utilisation(self) -> Any:
+        """Twist over what is allowed."""
+        return self.twist / self.shaft.allowable_twist
+
+    @cached_property
+    def speed_utilisation(self) -> Any:
+        """Highest speed over what the critical speed allows, ``s n_max / n_1``."""
+        return self.shaft.speed_margin * self.shaft.max_speed / self.critical_speed
+
+    @cached_property
+    def buckling_utilisation(self) -> Any:
+        """Shear stress over the stress at which the wall buckles."""
+        return self.shear_stress / self.buckling_stress
+
+    @property
+    def utilisation(self) -> dict[str, Any]:
+        """Every limit's load over what is allowed, by name; above 1 the limit is broken."""
+        return {
+            "shear stress": self.shear_utilisation,
+            "twist": self.twist_utilisation,
+            "critical speed": self.speed_utilisation,
+            "buckling": self.buckling_utilisation,
+        }
+
+    @property
+    def sizes(self) -> TubeSizes:
+        """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
+        return _sizes(self.shaft.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
+
+
+def _measure(name: str, unit: str, attribute: str) -> Measure:
+    return Measure(name, unit, lambda a: np.max(getattr(a, attribute), axis=-1))
+
+
+def _margin(use: Measure) -> Measure:
+    return Measure(use.name.replace("utilisation", "margin"), "%", lambda a: 1 - use(a))
+
+
+tube_area = _measure("area of the tube", "mm^2", "area")
+tube_mass = _measure("mass of the tube", "kg", "mass")
+tube_torque = _measure("largest torque in the tube", "N m", "tube_torque")
+shear_stress = _measure("shear stress", "MPa", "shear_stress")
+twist = _measure("twist", "deg/m", "twist")
+critical_speed = _measure("critical speed", "rpm", "critical_speed")
+buckling_stress = _measure("buckling stress", "GPa", "buckling_stress")
+
+shear_utilisation = _measure("utilisation of the shear stress", "%", "shear_utilisation")
+twist_utilisation = _measure("utilisation of the twist", "%", "twist_utilisation")
+speed_utilisation = _measure("utilisation of the critical speed", "%", "speed_utilisation")
+buckling_utilisation = _measure("utilisation of the buckling stress", "%", "buckling_utilisation")
+
+UTILISATIONS = (shear_utilisation, twist_utilisation, speed_utilisation, buckling_utilisation)
+"""What each limit is used up by; 100 % is the limit."""
+
+MARGINS = tuple(_margin(use) for use in UTILISATIONS)
+"""What each limit leaves."""
+
+TUBE_NUMBERS = (tube_area, tube_mass, tube_torque, shear_stress, twist, critical_speed, buckling_stress, *UTILISATIONS)
+"""What a designer of the tube wants to read."""
+
+SHAFT_MEASURES = (*TUBE_NUMBERS, *MARGINS)
+"""Every measure of the tube, for tables."""
+UniversalJointShaft.measures = SHAFT_MEASURES
+
+PAPER_SPACE = {"outer_diameter": (108 * mm, 140 * mm), "inner_diameter": (87 * mm, 103 * mm)}
+"""The paper's bounds."""
+
+PLANE_WINDOW = np.array([[104, 84], [150, 124]]) * mm
+"""What a picture of both diameters shows: the paper's bounds and what lies beyond them, ``(2, 2)``, m."""
+
+WIDE_SPACE = {"outer_diameter": (60 * mm, 300 * mm), "inner_diameter": (20 * mm, 290 * mm)}
+"""Diameters far beyond the paper's, for other powers, lengths and materials."""
+
+
+def shaft_study(start: UniversalJointShaft | None = None, *, space: Space | None = None) -> Study:
+    """The paper's problem: the least area that keeps shear stress, twist, critical speed and buckling stress.
+
+    ``space`` maps free quantities to bounds in SI.
+
+    >>> study = shaft_study()
+    >>> study.evaluate([[128*mm, 98*mm]]).f.round(6).tolist(), study.evaluate([[128*mm, 98*mm]]).feasible.tolist()
+    ([[0.005325]], [True])
+    """
+    refuse_arguments(shaft_study, locals())
+    return Study(
+        start=start or UniversalJointShaft(),
+        free=space or PAPER_SPACE,
+        minimise=(tube_area,),
+        at_most=dict.fromkeys(UTILISATIONS, 1.0),
+    )
+
+
+def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Space | None = None) -> UniversalJointShaft:
+    """The lightest tube within bounds (``space`` as in `shaft_study`), in closed form where the twist governs.
+
+    Stiffness fixes ``D^4 - d^4``, so the area ``pi/4 (D^4 - d^4) / (D^2 + d^2)`` falls as the bore grows: the
+    bore is the widest that is allowed, or that leaves a tube of the widest ``D`` stiff enough.  The outer diameter
+    follows (`UniversalJointShaft.stiff_diameter`); where it would be below its bound it is there.
+
+    >>> tube = lightest_shaft()
+    >>> print(f"{tube.outer_diameter / mm:.6f} mm, {tube.analyse().area / mm**2:.6f} mm^2")
+    129.190698 mm, 4776.191895 mm^2
+    >>> behind_a_joint = lightest_shaft(UniversalJointShaft(joint_angle=20*deg))
+    >>> print(f"{behind_a_joint.outer_diameter / mm:.3f} mm")
+    130.409 mm
+
+    Raises ``ValueError`` where no tube within the bounds is stiff enough, or another limit than the twist governs.
+    """
+    study = shaft_study(start, space=space)
+    start, space = study.start, study.free
+    if set(space) != set(PAPER_SPACE):
+        both = " and the ".join(map(words, PAPER_SPACE))
+        raise ValueError(f"the space is {shown(space)}; it must have bounds of the {both}")
+    (narrowest, widest), (min_bore, bore) = space["outer_diameter"], space["inner_diameter"]
+    if widest**4 - min_bore**4 < start.stiff_difference:
+        stiffest = start.replace(outer_diameter=widest, inner_diameter=min_bore).analyse()
+        raise ValueError(
+            f"even the stiffest tube within the bounds, {widest / mm:.6g} mm outside and {min_bore / mm:.6g} mm "
+            f"inside, takes {100 * stiffest.twist_utilisation:.4g} % of its limit on twist"
+        )
+    bore = min(bore, (widest**4 - start.stiff_difference) ** 0.25)
+    tube = start.replace(outer_diameter=max(start.stiff_diameter(bore), narrowest), inner_diameter=bore)
+    others = {name: use for name, use in tube.analyse().utilisation.items() if name != "twist"}
+    worst = max(others, key=others.__getitem__)
+    if others[worst] > 1:
+        raise ValueError(
+            f"the lightest tube that keeps the twist takes {100 * others[worst]:.4g} % of its limit on {worst}; "
+            "the closed form holds where the twist governs"
+        )
+    return tube
+
+
+TUBE_FILES = {"EN 10210-2": "tubes_en10210", "GB/T 17395": "tubes_gbt17395"}
+"""The series of standard tubes and their data files."""
+
+
+def standard_tubes(series: str = "EN 10210-2") -> np.ndarray:
+    """Outer and inner diameters of the standard tubes of a series, ``(n, 2)``, m.
+
+    ``series``: ``"EN 10210-2"`` (hot finished, metric of inch sizes) or ``"GB/T 17395"`` (seamless); the data files
+    in ``camkit/reference`` say where the sizes come from.
+
+    >>> len(standard_tubes()), (standard_tubes()[0] / mm).round(1).tolist()
+    (75, [88.9, 82.5])
+    """
+    refuse_arguments(standard_tubes, locals())
+    if series not in TUBE_FILES:
+        raise ValueError(f"the series {series!r} is not known; there are {', '.join(TUBE_FILES)}")
+    walls = load(TUBE_FILES[series])["walls_by_outer_diameter"]
+    return np.array([(float(D), round(float(D) - 2 * t, 6)) for D, row in walls.items() for t in row]) * mm
+
+
+def _refuse_tubes(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+    """``ValueError`` for tubes that are no array of two diameters each, and for another argument of a wrong kind."""
+    refuse_arguments(function, given)
+    shape = given["tubes"].shape
+    if len(shape) != 2 or shape[1] != 2 or given["tubes"].dtype.kind not in "iuf":
+        raise ValueError(f"the tubes are {shown(given['tubes'])}; they must be an array of both diameters, (n, 2)")
+
+
+def tubes_that_hold(shaft: UniversalJointShaft, tubes: np.ndarray) -> np.ndarray:
+    """Those of some tubes, ``(n, 2)`` m, with which ``shaft`` keeps every limit, whatever bounds there are.
+
+    >>> len(tubes_that_hold(UniversalJointShaft(), standard_tubes()))
+    52
+    """
+    _refuse_tubes(tubes_that_hold, locals())
+    analysis = shaft.replace(outer_diameter=tubes[:, :1], inner_diameter=tubes[:, 1:]).analyse()
+    return tubes[np.max(list(analysis.utilisation.values()), axis=0)[:, 0] <= 1]
+
+
+def nearest_tube(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJointShaft:
+    """``shaft`` with the standard tube whose two diameters lie nearest among those that keep every limit.
+
+    >>> tube = nearest_tube(UniversalJointShaft(), standard_tubes("GB/T 17395"))
+    >>> print(f"{tube.outer_diameter / mm:.0f} x {tube.inner_diameter / mm:.0f} mm")
+    133 x 101 mm
+
+    Raises ``ValueError`` if there is none.
+    """
+    holding = tubes_that_hold(shaft, tubes)
+    if not len(holding):
+        raise ValueError(f"none of the {len(tubes)} standard tubes keeps every limit")
+    return _with_nearest(shaft, holding)
+
+
+def _with_nearest(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJointShaft:
+    gap = np.hypot(tubes[:, 0] - shaft.outer_diameter, tubes[:, 1] - shaft.inner_diameter)
+    D, d = tubes[np.argmin(gap)]
+    return shaft.replace(outer_diameter=float(D), inner_diameter=float(d))
+
+
+def lightest_tube(study: Study, tubes: np.ndarray) -> UniversalJointShaft:
+    """The standard tube with the least area within the bounds and limits of a `shaft_study`.
+
+    Raises ``ValueError`` if there is none.
+    """
+    _refuse_tubes(lightest_tube, locals())
+    low, high = study.bounds
+    inside = tubes[((tubes >= low) & (tubes <= high)).all(-1)]
+    evaluation = study.evaluate(inside) if len(inside) else None
+    if evaluation is None or not evaluation.feasible.any():
+        raise ValueError(
+            f"none of the {len(inside)} standard tubes within {low[0] / mm:.4g} to {high[0] / mm:.4g} mm outside and "
+            f"{low[1] / mm:.4g} to {high[1] / mm:.4g} mm inside keeps every limit"
+        )
+    return study.design(inside[np.argmin(np.where(evaluation.feasible, evaluation.f[:, 0], np.inf))])
+
+
+@dataclass(frozen=True)
+class TubeSizes:
+    """Which diameters a shaft's power, speeds, length and material allow; its own diameters do not matter.
+
+    >>> sizes = UniversalJointShaft().analyse().sizes
+    >>> (1e3 * sizes.lightest).round(4).tolist(), sizes is UniversalJointShaft(inner_diameter=90*mm).analyse().sizes
+    ([129.1907, 103.0], True)
+    """
+
+    shaft: UniversalJointShaft
+
+    @cached_property
+    def plane(self) -> DesignMap:
+        """The paper's problem over the plane of both diameters."""
+        return DesignMap(shaft_study(self.shaft), PLANE_WINDOW)
+
+    @cached_property
+    def lightest(self) -> np.ndarray:
+        """Both diameters of `lightest_shaft`, ``(2,)`` m; ``nan`` where there is none in closed form."""
+        try:
+            tube = lightest_shaft(self.shaft)
+        except ValueError:
+            return np.full(2, np.nan)
+        return np.array([tube.outer_diameter, tube.inner_diameter])
+
+    @cached_property
+    def standard_tubes(self) -> dict[str, np.ndarray]:
+        """The sizes of each series of `standard_tubes`, by the series' name."""
+        return {series: standard_tubes(series) for series in TUBE_FILES}
+
+    @cached_property
+    def holding(self) -> dict[str, np.ndarray]:
+        """`tubes_that_hold` of each series."""
+        return {series: tubes_that_hold(self.shaft, tubes) for series, tubes in self.standard_tubes.items()}
+
+    def nearest(self, shaft: UniversalJointShaft) -> dict[str, UniversalJointShaft | None]:
+        """The `nearest_tube` of each series to a shaft with this data; ``None`` where no tube keeps every limit."""
+        return {series: _with_nearest(shaft, t) if len(t) else None for series, t in self.holding.items()}
+
+
+_sizes = lru_cache(maxsize=16)(TubeSizes)

@@ -1,0 +1,149 @@
+"""Measures of a valve cam, and the questions asked of it: the paper's, and the ones it was after.
+
+Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 1141-1144.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..cam.measures import max_pressure_angle, peak, peak_force
+from ..kinds import listed, refuse_arguments
+from ..quantities import Measure
+from ..study.study import Space, Study, WeightedSum, weighted
+from ..units import deg, mm
+from .valve_cam import ValveAnalysis, ValveCam
+
+fullness = Measure("fullness", "", lambda a: a.fullness)
+nose_acceleration = Measure("nose acceleration", "m/s^2", lambda a: a.nose_acceleration)
+nose_deceleration = Measure("nose deceleration", "m/s^2", lambda a: abs(a.nose_acceleration))
+peak_acceleration = Measure("peak positive acceleration", "m/s^2", lambda a: a.peak_acceleration)
+nose_radius = Measure("radius at the nose (flat follower)", "mm", lambda a: a.nose_radius)
+min_radius = Measure("least convex radius anywhere", "mm", lambda a: a.min_radius)
+min_concave_radius = Measure("least hollow radius", "mm", lambda a: a.min_concave_radius)
+face_reach = Measure("reach of the contact on a flat face", "mm", peak(lambda a: abs(a.velocity)))
+jump_margin = Measure("overspeed before the follower jumps", "%", lambda a: a.jump_margin)
+peak_stress = Measure("peak contact stress", "MPa", peak(lambda a: a.contact_stress))
+peak_camshaft_torque = Measure("peak camshaft torque", "N m", peak(lambda a: abs(a.cam_torque)))
+
+VALVE_MEASURES = (
+    fullness,
+    nose_acceleration,
+    peak_acceleration,
+    nose_radius,
+    min_radius,
+    min_concave_radius,
+    max_pressure_angle,
+    face_reach,
+    jump_margin,
+    peak_force,
+    peak_stress,
+    peak_camshaft_torque,
+)
+"""What a table of a valve cam shows; peaks are those of the opening flank, which the closing one mirrors."""
+
+PAPER_BOX = {"n": (3.0, 20.0), "m": (1.0, 20.0)}
+"""The paper's ranges of the exponents' parameters."""
+PAPER_MIN_RADIUS = 4.5 * mm
+"""The paper's limit for the radius of curvature."""
+STUDY_ANGLES = 91
+"""Cam angles of an analysis within a search: peaks are looked for again between them, and right to 1e-7."""
+
+listed_deceleration = Measure("nose deceleration as listed", "", lambda a: abs(a.nose_acceleration) / mm * deg**2)
+"""In the units of the paper's listing: mm and seconds, but the half angle in degrees."""
+ValveCam.measures = (*VALVE_MEASURES, nose_deceleration, listed_deceleration)
+
+
+def in_paper_units(cam: ValveCam) -> ValveCam:
+    """The cam that the paper's listing computes: it takes ``v = v_g alpha_B / omega`` in m/s and degrees for mm.
+
+    That is a seating velocity of 0.0573 of the stated one.
+
+    >>> cam = in_paper_units(ValveCam())
+    >>> print(f"{cam.seating_slope * cam.half_angle / mm:.7f} mm")
+    0.0657840 mm
+    """
+    refuse_arguments(in_paper_units, locals())
+    return cam.replace(seating_velocity=cam.seating_velocity * mm / deg)
+
+
+def _corner(start: ValveCam, end: int) -> ValveAnalysis:
+    """The cam at the lower (0) or upper (1) corner of the paper's box."""
+    return start.replace(**{name: bounds[end] for name, bounds in PAPER_BOX.items()}).analyse()
+
+
+def _against_fullness(wear: Measure, weights: Sequence[float], most: Measure, at: ValveAnalysis) -> WeightedSum:
+    """``W1 (-xi / K1) + W2 (wear / K2)``: ``K1`` the fullness at the upper corner, ``K2`` what ``most`` is ``at``."""
+    weights = listed(weights, "the weights", "objective")
+    if len(weights) != 2:
+        raise ValueError(f"there are {len(weights)} weights; there must be one of the fullness and one of the wear")
+    parts = dict(zip((-fullness, wear), weights, strict=True))
+    name = f"fullness against {most.name}{'' if wear.sign > 0 else ', sign as printed'}"
+    return weighted(name, parts, (fullness(_corner(at.cam, 1)), most(at)))
+
+
+def valve_study(
+    start: ValveCam | None = None,
+    weights: Sequence[float] = (0.5, 0.5),
+    *,
+    printed_sign: bool = False,
+    paper_units: bool = False,
+) -> Study:
+    """The paper's problem: ``W1 (-xi / K1) + W2 (|a| / K2)`` small, radius at the nose at least 4.5 mm.
+
+    ``K1`` and ``K2`` are the largest fullness and the largest nose deceleration ``|a|`` in the box.
+    ``printed_sign`` takes ``a`` as printed, without the bars: being negative, it is then rewarded for its size.
+    ``paper_units`` computes as the paper's listing does (see `in_paper_units`): K1 = 0.637143792, K2 = 599.758.
+
+    >>> study = valve_study(paper_units=True)
+    >>> [f"{k:.9g}" for k in study.minimise[0].reference]
+    ['0.637143792', '599.758095']
+    """
+    refuse_arguments(valve_study, locals())
+    start = start or ValveCam()
+    start, size = (in_paper_units(start), listed_deceleration) if paper_units else (start, nose_deceleration)
+    objective = _against_fullness(-size if printed_sign else size, weights, size, _corner(start, 0))
+    return Study(start, PAPER_BOX, (objective,), at_least={nose_radius: PAPER_MIN_RADIUS}, angles=STUDY_ANGLES)
+
+
+def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float] = (0.5, 0.5)) -> Study:
+    """What the paper was after: ``W1 (-xi / K1) + W2 (a+ / K2)`` small, radius at least 4.5 mm anywhere.
+
+    ``a+`` is the peak positive acceleration, which grows with the fullness; ``K1`` and ``K2`` are both at the
+    upper corner of the box.  With the paper's base radius of 21 mm no (n, m) keeps the limit, so
+    no random design is feasible before the base circle is larger.
+
+    >>> study = corrected_valve_study(ValveCam(base_radius=24.5 * mm))
+    >>> study.evaluate([[20, 20], [20, 1]]).feasible.tolist()
+    [True, False]
+    """
+    refuse_arguments(corrected_valve_study, locals())
+    start = start or ValveCam()
+    objective = _against_fullness(peak_acceleration, weights, peak_acceleration, _corner(start, 1))
+    return Study(start, PAPER_BOX, (objective,), at_least={min_radius: PAPER_MIN_RADIUS}, angles=STUDY_ANGLES)
+
+
+def keeping_least_radius(cam: ValveCam, least: float = PAPER_MIN_RADIUS) -> ValveCam:
+    """The same cam on the base circle on which its least convex radius under its follower is ``least``.
+
+    >>> print(f"{keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
+    24.341 mm
+    """
+    refuse_arguments(keeping_least_radius, locals())
+    return cam.replace(base_radius=float(cam.analyse().base_radius_for(least)))
+
+
+def valve_front_study(
+    start: ValveCam | None = None,
+    limited: Measure = nose_radius,
+    space: Space | None = None,
+) -> Study:
+    """The real conflict: much fullness against little peak positive acceleration.
+
+    ``limited`` is the radius that the paper's limit of 4.5 mm holds for: `nose_radius` as published, or
+    `min_radius`; ``space`` are other bounds than the paper's.
+    """
+    refuse_arguments(valve_front_study, locals())
+    objectives = (-fullness, peak_acceleration)
+    limit = {limited: PAPER_MIN_RADIUS}
+    return Study(start or ValveCam(), space or PAPER_BOX, objectives, at_least=limit, angles=STUDY_ANGLES)

@@ -1,0 +1,148 @@
+"""Polynomials with a say left to the designer: free ends, or free coefficients between fixed ends.
+
+Source: Norton, Cam Design and Manufacturing Handbook (polynomial functions and boundary conditions);
+Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (the degree-9 family of high-speed cams).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.polynomial.legendre import legder, legval
+
+from ...kinds import a_number, listed, refuse_lengths
+from ..extremes import law_peaks
+from ..law import Kinematics, Law, Peaks
+from .polynomial import Poly345
+
+LETTERS = ("s", "v", "a", "j")
+Condition = tuple[float, int]
+"""An end (0 or 1) and the order of a derivative given there."""
+
+
+@dataclass(frozen=True)
+class FreePolynomial(Law):
+    """The polynomial of least degree with the given ``s, v, a, j`` at the two ends.
+
+    ``start`` and ``end`` hold up to four values each, in the order ``s, v, a, j``, normalised (lift 1 over
+    unit time); ``None`` leaves one free, a population gives arrays of shape ``(p, 1)``.  ``k`` values make
+    degree ``k - 1``: a 3-4-5 polynomial is ``start=(0, 0, 0), end=(1, 0, 0)``.  The law is solved for in
+    Legendre polynomials of ``2 u - 1``, which keeps the equations well conditioned.
+
+    ``ValueError``: no value at all, more than four at an end, a value that is not finite, or values that
+    do not determine a polynomial (such as velocities alone).
+
+    >>> cubic = FreePolynomial(start=(0, 0), end=(1, 0))
+    >>> cubic([0.1, 0.2, 0.3]).s.round(6)
+    array([0.028, 0.104, 0.216])
+    """
+
+    start: tuple[Any | None, ...] = (0.0, 0.0, 0.0)
+    end: tuple[Any | None, ...] = (1.0, 0.0, 0.0)
+
+    name = "free polynomial"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "start", _values("start", self.start))
+        object.__setattr__(self, "end", _values("end", self.end))
+        refuse_lengths(self)
+        _inverse(self._conditions)
+
+    @property
+    def _given(self) -> list[tuple[Condition, Any]]:
+        ends = ((0.0, self.start), (1.0, self.end))
+        return [((u, k), value) for u, values in ends for k, value in enumerate(values) if value is not None]
+
+    @property
+    def _conditions(self) -> tuple[Condition, ...]:
+        return tuple(condition for condition, _ in self._given)
+
+    @property
+    def coefficients(self) -> Any:
+        """The factors of the Legendre polynomials of ``2 u - 1``: shape ``(k,)``, or ``(k, p, 1)``."""
+        values = np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for _, value in self._given)))
+        return np.tensordot(_inverse(self._conditions), values, axes=1)
+
+    @property
+    def continuity(self) -> int:
+        """As for every law; 0 where only the position is that of a dwell, -1 where not even that."""
+        ends = [self(u) for u in (0.0, 1.0)]
+        rest = [np.allclose(ends[0][k], 0) and np.allclose(ends[1][k], k == 0) for k in range(4)]
+        return ([*rest, False].index(False)) - 1
+
+    def at(self, u: Any) -> Kinematics:
+        c, x = self.coefficients, 2 * u - 1
+        return Kinematics(*(2**k * legval(x, legder(c, k), tensor=False) for k in range(4)))
+
+    def peaks(self) -> Peaks:
+        return law_peaks(self)
+
+
+@lru_cache(maxsize=256)
+def _inverse(conditions: tuple[Condition, ...]) -> Any:
+    """From given values to Legendre coefficients."""
+    every = np.eye(len(conditions))
+    rows = [2**k * legval(2 * u - 1, legder(every, k)) for u, k in conditions]
+    if not rows or np.linalg.matrix_rank(np.array(rows)) < len(rows):
+        given = ", ".join(f"{LETTERS[k]}({u:g})" for u, k in conditions) or "nothing"
+        raise ValueError(f"the free polynomial is given {given}; that does not determine a polynomial: add an s")
+    return np.linalg.inv(np.array(rows))
+
+
+def _values(word: str, given: Any) -> tuple[Any, ...]:
+    """What is given at one end, each a number, a column or ``None``."""
+    values = listed(given, f"the {word} of the free polynomial", "value")
+    if len(values) > 4:
+        raise ValueError(f"the {word} of the free polynomial has {len(values)} values; it can have s, v, a, j at most")
+    return tuple(
+        value if value is None else a_number(value, f"{letter} at the {word} of the free polynomial")
+        for letter, value in zip(LETTERS, values, strict=False)
+    )
+
+
+@dataclass(frozen=True)
+class Degree9(Law):
+    """Degree 9 with dwell ends and four free coefficients ``c``, the family of high-speed cams::
+
+        s = 10 u^3 - 15 u^4 + 6 u^5 + 64 u^3 (1 - u)^3 [c0 P0 + c1 P1 + c2 P2 + c3 P3]
+
+    with ``P`` the Legendre polynomials of ``2 u - 1``.  Each coefficient is a number or an array of shape
+    ``(p, 1)``.  ``ValueError``: not four coefficients, or one that is not finite.
+
+    >>> Degree9((0, 0, 0, 0))(0.25).s == Poly345()(0.25).s
+    np.True_
+    """
+
+    c: tuple[Any, ...] = (0.0, 0.0, 0.0, 0.0)
+
+    name = "degree 9"
+    continuity = 2
+
+    def __post_init__(self) -> None:
+        c = listed(self.c, "the c of the degree 9 law", "coefficient")
+        if len(c) != 4:
+            raise ValueError(f"the degree 9 law has {len(c)} coefficients c; it must have four")
+        c = tuple(a_number(value, f"the coefficient c{i} of the degree 9 law") for i, value in enumerate(c))
+        object.__setattr__(self, "c", c)
+        refuse_lengths(self)
+
+    def at(self, u: Any) -> Kinematics:
+        c0, c1, c2, c3 = self.c
+        s, v, a, j = Poly345().at(u)
+        w, d, x = u * (1 - u), 1 - 2 * u, 2 * u - 1
+        g, g1, g2, g3 = 64 * w**3, 192 * w**2 * d, 384 * w * (1 - 5 * w), 384 * d * (1 - 10 * w)
+        q = c0 + c1 * x + c2 * (3 * x**2 - 1) / 2 + c3 * (5 * x**3 - 3 * x) / 2
+        q1 = 2 * c1 + 6 * c2 * x + c3 * (15 * x**2 - 3)
+        q2, q3 = 12 * c2 + 60 * c3 * x, 120 * c3
+        return Kinematics(
+            s + g * q,
+            v + g1 * q + g * q1,
+            a + g2 * q + 2 * g1 * q1 + g * q2,
+            j + g3 * q + 3 * g2 * q1 + 3 * g1 * q2 + g * q3,
+        )
+
+    def peaks(self) -> Peaks:
+        return law_peaks(self)

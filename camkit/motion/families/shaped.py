@@ -1,0 +1,82 @@
+"""A motion law with a say left to the designer: four coefficients shape it between its fixed ends.
+
+Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (polynomials of degree 9, splines as the alternative).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ...kinds import refuse_kinds, refuse_lengths
+from ...quantities import choice
+from ..extremes import law_peaks
+from ..law import Kinematics, Law, Peaks
+from .free import Degree9
+from .spline import SplineLaw
+
+KNOTS = (0.2, 0.4, 0.6, 0.8)
+"""Where the four coefficients of the B-spline family sit."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """What four coefficients stand for: ``law(c)`` is linear in ``c``, and so is what it adds to another law.
+
+    ``wide``: how far from 0 a search may take a coefficient.
+    """
+
+    name: str
+    law: Callable[[tuple[Any, ...]], Law]
+    wide: float
+
+
+def _spline(c: tuple[Any, ...]) -> Law:
+    return SplineLaw(KNOTS, c)
+
+
+DEGREE9 = Family("degree 9", Degree9, 0.6)
+SPLINE = Family("B-spline", _spline, 0.2)  # with more, next to no random law stays between its ends
+FAMILIES = (DEGREE9, SPLINE)
+
+
+@dataclass(frozen=True)
+class ShapedLaw(Law):
+    """``base`` and what the coefficients ``c`` add to it: ``base(u) + family(c)(u) - family(0)(u)``.
+
+    The family ``DEGREE9`` adds ``64 u^3 (1 - u)^3 [c0 P0 + c1 P1 + c2 P2 + c3 P3]`` with the Legendre polynomials
+    of ``2 u - 1``; ``SPLINE`` adds the quintic B-spline with knots at 0.2, 0.4, 0.6, 0.8 that is ``c_i`` there.
+    Both leave position, velocity and acceleration at the two ends as they are.
+
+    >>> from camkit.motion import Poly345
+    >>> c = (0.1, -0.2, 0.0, 0.05)
+    >>> float(abs(ShapedLaw(Poly345(), c)(0.3).a - Degree9(c)(0.3).a)) < 1e-12
+    True
+    """
+
+    base: Law
+    c: tuple[Any, ...]
+    family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
+
+    name = "shaped"
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        Degree9(self.c)  # refuses what are not four numbers
+        refuse_lengths(self)
+
+    @property
+    def continuity(self) -> int:
+        return min(self.base.continuity, 2)
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        return tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
+
+    def at(self, u: Any) -> Kinematics:
+        parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * 4).at(u)
+        return Kinematics(*(base + shaped - plain for base, shaped, plain in zip(*parts, strict=True)))
+
+    def peaks(self) -> Peaks:
+        return law_peaks(self)

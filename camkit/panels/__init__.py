@@ -1,0 +1,42 @@
+"""Live panels for JupyterLab: sliders on one side, pictures and numbers of the same design on the other."""
+
+from .ahp import AhpPanel, ahp_panel
+from .choose import choose_panel
+from .contours import contour_panel
+from .cycle_time import CycleTimePanel, cycle_time_panel
+from .explore import Explorer, explore
+from .fronts import FrontsPanel, compare_fronts
+from .live_pareto import LiveParetoPanel, live_pareto_panel
+from .optimise import OptimisePanel, optimise_panel
+from .pareto import ParetoPanel, pareto_panel
+from .presets import presets
+from .program import ProgramEditor, edit_program
+from .shortlist import shortlist
+from .tolerances import TolerancePanel, tolerance_panel
+from .try_everything import try_everything
+
+__all__ = [
+    "AhpPanel",
+    "CycleTimePanel",
+    "Explorer",
+    "FrontsPanel",
+    "LiveParetoPanel",
+    "OptimisePanel",
+    "ParetoPanel",
+    "ProgramEditor",
+    "TolerancePanel",
+    "ahp_panel",
+    "choose_panel",
+    "compare_fronts",
+    "contour_panel",
+    "cycle_time_panel",
+    "edit_program",
+    "explore",
+    "live_pareto_panel",
+    "optimise_panel",
+    "pareto_panel",
+    "presets",
+    "shortlist",
+    "tolerance_panel",
+    "try_everything",
+]

@@ -1,0 +1,233 @@
+"""`ahp_panel`: pairwise judgements under sliders or typed, their weights and consistency at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..decision.ahp import SAATY_SCALE, ahp, judgement_matrix, typed_judgement
+from ..kinds import refuse_arguments
+from ..markup import Html, escaped, html, table
+from ..render.front import weight_bars
+from .kit.controls import banner, show_message, small_html, tables_html
+from .kit.panel import Panel
+from .kit.picture import LivePicture
+
+Pair = tuple[int, int]
+
+HINT = (
+    "A knob stands nearer to what matters more. "
+    "A box takes any number or fraction: 3, 1/5, 0.4. Leave it empty where you cannot judge."
+)
+
+
+class AhpPanel(Panel):
+    """Saaty's judgements among ``names``: for each pair a slider from 1/9 to 9 and a box to type in.
+
+    A pair may be left without a judgement (an empty box; its slider then shows, pale, what the others imply) as long
+    as the rest connect all criteria.  ``weights`` and ``judgement`` follow at once; ``on_change(f)`` calls ``f()``
+    after every change.
+    """
+
+    def __init__(self, names: Sequence[str], judgements: Any, title: str = "") -> None:
+        refuse_arguments(AhpPanel.__init__, locals())
+        self.names = tuple(names)
+        self.start = judgement_matrix(judgements)
+        if len(self.start) != len(self.names):
+            raise ValueError(f"there are {len(self.start)} rows of judgements for {len(self.names)} criteria")
+        self._followers: list[Callable[[], None]] = []
+        self._silent = False
+        self.method = w.Dropdown(
+            options=[("eigenvector", "eigenvector"), ("geometric mean", "geometric")], description="weights by",
+            layout=w.Layout(width="230px"), style={"description_width": "initial"},
+        )  # fmt: skip
+        self.method.observe(lambda _: self._judge(self._said), "value")
+        pairs = list(combinations(range(len(self.names)), 2))
+        self.sliders = {pair: self._slider(pair) for pair in pairs}
+        self.boxes = {pair: self._box(pair) for pair in pairs}
+        self.picture = LivePicture(
+            (weight_bars,), f"Weights of {', '.join(names)}", width=7.2, height=0.9 + 0.5 * len(names)
+        )
+        self._matrix, self._banner = w.HTML(), banner()
+        reset = w.Button(description="Reset", icon="undo", tooltip="back to the judgements that the panel began with")
+        reset.on_click(lambda _: self.load(self.start))
+        rows = [self._row(pair) for pair in pairs]
+        hint = w.HTML(small_html(HINT))
+        buttons = w.HBox([reset, self.method])
+        left = w.VBox([*rows, hint, buttons, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
+        right = w.Box([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="720px"))
+        body = w.HBox([left, right], layout=w.Layout(flex_flow="row wrap", align_items="flex-start"))
+        super().__init__([w.HTML(html("<b>{}</b>", title)), body])
+        self.load(judgements)
+
+    def _slider(self, pair: Pair) -> w.SelectionSlider:
+        slider = w.SelectionSlider(
+            options=[(_fraction(v), v) for v in SAATY_SCALE[::-1]],
+            value=1.0,
+            readout=False,
+            layout=w.Layout(width="170px"),
+        )
+        slider.observe(lambda change: self._say(pair, change.new), "value")
+        return slider
+
+    def _box(self, pair: Pair) -> w.Text:
+        first, second = (self.names[k] for k in pair)
+        box = w.Text(
+            continuous_update=False, placeholder="not judged", layout=w.Layout(width="88px"),
+            tooltip=f"how many times {first} matters more than {second}",
+        )  # fmt: skip
+        box.observe(lambda change: self._typed(pair, change.new), "value")
+        return box
+
+    def _row(self, pair: Pair) -> w.Widget:
+        first, second = (w.HTML(escaped(self.names[k]), layout=w.Layout(flex="0 0 118px")) for k in pair)
+        first.add_class("camkit-right")
+        cells = [first, self.sliders[pair], second, self.boxes[pair]]
+        return w.HBox(cells, layout=w.Layout(align_items="center"))
+
+    @property
+    def weights(self) -> np.ndarray:
+        """The weights of the criteria."""
+        return self.judgement.weights
+
+    @property
+    def upper(self) -> list[float | None]:
+        """The judgements as the matrix's upper triangle, row by row; ``None`` where there is none."""
+        return [None if math.isnan(value) else value for value in self._said.values()]
+
+    def load(self, judgements: Any) -> None:
+        """Show other judgements (matrix or upper triangle, ``None`` where there is none)."""
+        matrix = judgement_matrix(judgements)
+        if len(matrix) != len(self.names):
+            raise ValueError(
+                f"there are judgements for {len(matrix)} criteria; this panel has {len(self.names)} criteria"
+            )
+        self._judge({pair: float(matrix[pair]) for pair in self.sliders})
+        if note := ahp(judgements).note:
+            show_message(self._banner, f"{note[0].upper()}{note[1:]}. {self.advice}".strip())
+
+    def on_change(self, act: Callable[[], None]) -> None:
+        """Call ``act()`` after every change of a judgement."""
+        self._followers.append(act)
+
+    def _typed(self, pair: Pair, words: str) -> None:
+        if self._silent:
+            return
+        try:
+            value = typed_judgement(words)
+        except ValueError as refusal:
+            self._refuse(pair, f"{refusal}, and an empty box leaves it open")
+        else:
+            self._say(pair, value)
+
+    def _say(self, pair: Pair, value: float) -> None:
+        """Judge one pair anew; ``nan``: leave it open."""
+        if self._silent:
+            return
+        try:
+            self._judge(self._said | {pair: value})
+        except ValueError as refusal:
+            self._refuse(pair, str(refusal))
+
+    def _refuse(self, pair: Pair, sentence: str) -> None:
+        """Say why a judgement cannot be, and go back to the last one that could."""
+        self._place(pair)
+        first, second = (self.names[k] for k in pair)
+        show_message(self._banner, f"The judgement of {first} against {second} stays as it was: {sentence}.")
+
+    def _judge(self, said: dict[Pair, float]) -> None:
+        """Take up judgements, if they connect all criteria."""
+        self.judgement = ahp(list(said.values()) or [[1]], self.method.value)
+        self._said = said
+        for pair in said:
+            self._place(pair)
+        self._show()
+        for act in self._followers:
+            act()
+
+    def _place(self, pair: Pair) -> None:
+        """Slider and box of a pair show its judgement, or what the others imply."""
+        value, slider = self._said[pair], self.sliders[pair]
+        options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value}, reverse=True)
+        at = _nearest(options, float(self.judgement.completed[pair]))
+        shown = tuple((_fraction(v), v) for v in options)
+        (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
+        self._silent = True
+        try:
+            if slider.options != shown:
+                slider.options = shown
+            slider.value = at
+            self.boxes[pair].value = "" if math.isnan(value) else _fraction(value)
+        finally:
+            self._silent = False
+
+    def _show(self) -> None:
+        self.picture.show((self.names, self.judgement))
+        self._matrix.value = self._matrix_html()
+        show_message(self._banner, self.advice)
+
+    @property
+    def advice(self) -> str:
+        """What to look at again when the judgements contradict each other; empty when they do not."""
+        ratio = self.judgement.consistency_ratio
+        if ratio <= 0.1:
+            return ""
+        worst = self.judgement.worst
+        named = {f"{self.names[i]} against {self.names[j]}": (i, j) for i, j in worst}
+        first, *others = named
+        said, implied = _fraction(self.judgement.matrix[named[first]]), _about(worst[named[first]])
+        told = f"{first}: {said} was said, the {'rest implies' if others else 'others imply'} about {implied}"
+        advice = (
+            f"Each of {', '.join(named)} may be the one that is off; take {told}" if others else f"Look again at {told}"
+        )
+        return f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10). {advice}."
+
+    def _matrix_html(self) -> Html:
+        rows = (
+            (name, *self._matrix_row(i), html("<b>{}</b>", f"{weight:.4f}"))
+            for i, (name, weight) in enumerate(zip(self.names, self.weights, strict=True))
+        )
+        return tables_html(table(("", *self.names, "weight"), rows))
+
+    def _matrix_row(self, i: int) -> list[str]:
+        """A row of the matrix; what nobody has judged is in brackets, as the others imply it."""
+        cells = zip(self.judgement.matrix[i], self.judgement.completed[i], strict=True)
+        return [f"({c:.2g})" if math.isnan(v) else _fraction(v) for v, c in cells]
+
+    def summary(self) -> str:
+        """Weights and consistency ratio."""
+        lines = [f"{name}: {weight:.4f}" for name, weight in zip(self.names, self.weights, strict=True)]
+        missing = [f"not judged: {self.judgement.missing}"] if self.judgement.missing else []
+        return "\n".join([*lines, f"consistency ratio: {self.judgement.consistency_ratio:.4f}", *missing])
+
+
+def _fraction(value: float) -> str:
+    """``1/3`` and ``3``, as Saaty writes them; four digits of anything else."""
+    whole = Fraction(float(value)).limit_denominator(99)
+    exact = abs(float(whole) - value) < 1e-9 and 1 in (whole.numerator, whole.denominator)
+    return str(whole) if exact else f"{value:.4g}"
+
+
+def _about(value: float) -> str:
+    """Two digits of a judgement, below 1 as ``1/81``."""
+    there, back = (float(f"{v:.2g}") for v in (value, 1 / value))
+    return f"1/{back:g}" if back > 1 else f"{there:g}"
+
+
+def _nearest(options: Sequence[float], value: float) -> float:
+    return min(options, key=lambda option: abs(option - value))
+
+
+def ahp_panel(names: Sequence[str], judgements: Any, title: str = "") -> AhpPanel:
+    """Sliders and boxes for pairwise judgements among ``names``: "the left matters 5 times as much as the right".
+
+    ``judgements`` is a reciprocal matrix or its upper triangle row by row, ``None`` where there is no judgement yet.
+    The result's ``.weights`` feed the next cell.
+    """
+    return AhpPanel(names, judgements, title)

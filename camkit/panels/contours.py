@@ -1,0 +1,218 @@
+"""`contour_panel`: the objective of a study over its two free quantities, and its optimum while weights move."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..kinds import a_number, refuse_arguments, refuse_empty
+from ..markup import html, joined
+from ..quantities import Measure, Quantity, words
+from ..render.contours import ShownPlane, objective_plane
+from ..study.design_map import DesignMap
+from ..study.study import Study, WeightedSum, made_study
+from ..units import factor
+from .explore import Explorer
+from .kit.controls import NumberRow, banner, show_message
+from .kit.latest_only import Debounced
+from .kit.panel import IMPOSSIBLE, Panel
+from .kit.picture import SETTLE, LivePicture
+
+MakeStudy = Callable[..., Study]
+
+
+def optimum(plane: DesignMap) -> np.ndarray | None:
+    """Free values of the best design that keeps every limit, or ``None``.
+
+    The best of the plane and of its four quarters: the objective may have several valleys.
+    """
+    quarters = _quarters(plane.study) if plane.evaluation.feasible.any() else []
+    ends = [plane.best, *(DesignMap(quarter).best for quarter in quarters)]
+    kept = np.array([end for end in ends if np.isfinite(end).all()])
+    return kept[np.argmin(plane.study.evaluate(kept).f[:, 0])] if len(kept) else None
+
+
+def _quarters(study: Study) -> list[Study]:
+    """The study in each quarter of its bounds."""
+    low, high = study.bounds
+    middle = (low + high) / 2
+    corners = [(x, y) for x in (low, middle) for y in (low, middle)]
+    boxes = [np.array([[x[0], y[1]], [x[0], y[1]] + (high - low) / 2]) for x, y in corners]
+    return [study.replace(free=dict(zip(study.free, box.T, strict=True)), start=study.design(box[0])) for box in boxes]
+
+
+class ContourPanel(Panel):
+    """The objective over two quantities of the design of an `Explorer`, where limits are missed, and the optimum.
+
+    ``studies`` maps a name in the menu to a function ``make(start, weights)`` that gives a `Study` with two free
+    quantities; ``weights`` names the parts of its weighted objective, a slider each (they are shared out so as to add
+    to 1).  The best design of the grid is marked at once, the optimum itself a moment after the last move.  A click
+    loads the design under it.
+    """
+
+    def __init__(
+        self, explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], steps: int = 41
+    ) -> None:
+        refuse_arguments(ContourPanel.__init__, locals())
+        refuse_empty(studies, "studies")
+        self.explorer, self.studies, self.steps = explorer, studies, steps
+        self.menu = w.Dropdown(
+            options=list(studies),
+            description="problem",
+            layout=w.Layout(width="auto"),
+            style={"description_width": "66px"},
+        )
+        self.menu.observe(lambda _: self._changed(), "value")
+        self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
+        self.plane = DesignMap(self.study, n=steps)
+        self.optimum: np.ndarray | None = None
+        self._key: Any = None
+        self._searched = False
+        self._later, self._settling = Debounced(self.settle, SETTLE), threading.RLock()
+        self.verdict, self._banner = w.HTML(), banner()
+        self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
+        self.take.on_click(lambda _: self.load(self.optimum))
+        self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=5.6)
+        self.picture.widget.on_click(self._clicked)
+        super().__init__([self._body()])
+        self._changed()
+        self.settle()
+        explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
+
+    def _knob(self, i: int, name: str, value: float) -> NumberRow:
+        a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)
+        declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
+        return NumberRow(name, declared, value, self._changed, lambda sentence: show_message(self._banner, sentence))
+
+    def _body(self) -> w.Widget:
+        take = w.HBox([self.take])
+        left = [self.menu, *(knob.row for knob in self.knobs), take, self._banner, self.verdict]
+        return w.HBox(
+            [
+                w.VBox(left, layout=w.Layout(flex="1 1 340px", max_width="560px")),
+                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 480px", max_width="740px")),
+            ],
+            layout=w.Layout(flex_flow="row wrap"),
+        )
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """The weights, as shares of their sum."""
+        values = [knob.value for knob in self.knobs]
+        if not sum(values) > 0:
+            raise ValueError("all weights are 0; at least one must be above 0")
+        return tuple(value / sum(values) for value in values)
+
+    @property
+    def study(self) -> Study:
+        """The problem of the menu under these weights, around the design in the sliders."""
+        make, first = self.studies[self.menu.value], self.explorer.start
+        free = made_study(make, first, weights=self.weights).free
+        around = self.explorer.design.replace(**{n: getattr(first, n) for n in free})
+        return made_study(make, around, weights=self.weights)
+
+    def _changed(self) -> None:
+        """Another problem or other weights: shown at once, the optimum a moment later."""
+        self._take_up()
+        self._later.ask()
+
+    def _take_up(self) -> None:
+        """Another plane, unless only the free quantities of the design moved."""
+        try:
+            study = self.study
+            key = self.menu.value, self.weights, study.start
+            plane = self.plane if key == self._key else DesignMap(study, n=self.steps)
+            _ = plane.evaluation  # now, and not while it is drawn
+        except IMPOSSIBLE as refusal:
+            show_message(self._banner, f"This cannot be surveyed: {refusal}.")
+            return
+        last = self._key, self.plane, self.optimum, self._searched
+        if key != self._key:
+            self._key, self.plane, self.optimum, self._searched = key, plane, None, False
+        try:
+            self._show()
+        except IMPOSSIBLE as refusal:
+            self._key, self.plane, self.optimum, self._searched = last
+            show_message(self._banner, f"This cannot be surveyed: {refusal}.")
+        else:
+            show_message(self._banner, "")
+
+    def settle(self) -> None:
+        """Catch up with the design in the sliders, and look for the optimum if that is still to be done."""
+        with self._settling:
+            if self._later.waiting:
+                self._later.cancel()
+                self._take_up()
+                self._search()
+
+    def _search(self) -> None:
+        plane = self.plane
+        if not self._searched:
+            try:
+                best = optimum(plane)
+            except IMPOSSIBLE as refusal:
+                show_message(self._banner, f"The optimum cannot be found: {refusal}.")
+                return
+            if plane is self.plane:  # nobody has moved anything since
+                self.optimum, self._searched = best, True
+                self._show()
+
+    def _show(self) -> None:
+        here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
+        self.take.disabled = self.optimum is None
+        first, *rest = self._lines()
+        self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")
+        self.picture.show(ShownPlane(self.plane, here, self.optimum if self._searched else self.plane.best_on_grid))
+
+    def _lines(self) -> list[str]:
+        """The optimum in words: free quantities, parts of the objective, limits."""
+        if not self._searched:
+            return ["looking for the optimum"]
+        if self.optimum is None:
+            return ["no design between the bounds keeps every limit"]
+        study = self.plane.study
+        analysis = study.design(self.optimum).analyse(study.angles)
+        free = zip(study.free, self.plane.declared, self.optimum, strict=True)
+        where = ", ".join(f"{words(n)} {v / q.factor:.4g} {q.unit}".rstrip() for n, q, v in free)
+        objective = study.minimise[0]
+        parts = objective.parts if isinstance(objective, WeightedSum) else (objective,)
+        told = [f"{m.name}: {_text(m, analysis)}" for m in (*parts, *(m for m, _, _ in study.limits))]
+        return [f"optimum: {where}", *told]
+
+    def load(self, x: Any) -> None:
+        """Put free values into the sliders."""
+        free = dict(zip(self.plane.study.free, map(float, x), strict=True))
+        self.explorer.load(self.explorer.design.replace(**free))
+
+    def _clicked(self, x: float, y: float) -> None:
+        width, height = self.picture.figure.canvas.get_width_height()
+        point = self.picture.axes[0].transData.inverted().transform((x * width, (1 - y) * height))
+        low, high = self.plane.study.bounds
+        shown = point * [factor(q.unit) for q in self.plane.declared]
+        if (low <= shown).all() and (shown <= high).all():
+            self.load(shown)
+
+    def summary(self) -> str:
+        """The problem, its weights and its optimum."""
+        problem, taken, _ = self._key
+        weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(taken, start=1))
+        return "\n".join([f"{problem}: {weights}", *self._lines()])
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
+        self.settle()
+        return super()._repr_mimebundle_(**kwargs)
+
+
+def _text(measure: Measure, analysis: Any) -> str:
+    return measure.text(float(measure.sign * measure(analysis)))
+
+
+def contour_panel(
+    explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], **options: Any
+) -> ContourPanel:
+    """A panel that shows an objective over two quantities of the design in ``explorer`` (see `ContourPanel`)."""
+    return ContourPanel(explorer, studies, weights, **options)

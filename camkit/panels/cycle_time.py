@@ -1,0 +1,133 @@
+"""`cycle_time_panel`: the shortest interval in which the optimum still keeps a limit, in the background."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import ceil, log2
+from typing import Any
+
+import ipywidgets as w
+
+from ..kinds import a_number, refuse_arguments
+from ..quantities import Measure, Quantity
+from ..render.progress import ShownIntervals, intervals_tried
+from ..search.cycle_time import IntervalStep, shortest_interval
+from ..search.protocol import Monitor, SearchStopped, monitored
+from ..study.study import Study, made_study
+from ..units import deg, in_unit
+from .explore import Explorer
+from .kit.controls import NumberRow, show_message
+from .kit.picture import LivePicture
+from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
+
+TOLERANCE = 0.1 * deg
+"""To which the interval is found."""
+
+
+class CycleTimePanel(JobPanel):
+    """How short the intervals may be for the optimum of a study to keep a limit, and what that gains in output.
+
+    ``make(start, **choices)`` gives the `Study` around the design of an `Explorer`; its objective is limited to
+    ``limit``.  Intervals between ``shortest`` and ``longest`` (rad) are tried, each search starting where the last one
+    ended; gains count from the longest.  ``step`` holds the best so far, also after Stop.
+    """
+
+    def __init__(
+        self,
+        explorer: Explorer,
+        make: MakeStudy,
+        limit: float,
+        shortest: float,
+        longest: float,
+        choices: Mapping[str, Mapping[str, Any]],
+    ) -> None:
+        refuse_arguments(CycleTimePanel.__init__, locals())
+        a_number(limit, "the limit", "be a finite number above 0", lambda most: most > 0)
+        self.explorer, self.make = explorer, make
+        self.choices = Choices(choices)
+        self.measure: Measure = self._study().minimise[0]
+        shortest_interval(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
+        self.limit = self._limit_knob(limit)
+        self.shortest = self._interval("phi_min", "shortest", shortest)
+        self.longest = self._interval("phi_max", "longest", longest)
+        self.steps: list[IntervalStep] = []
+        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report, explorer.start, make)
+        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
+        self.take = w.Button(description="Load the design", icon="star", disabled=True, layout=w.Layout(width="auto"))
+        self.take.on_click(lambda _: self.load())
+        self.verdict = w.HTML()
+        self.picture = LivePicture((intervals_tried,), "Intervals tried", width=6.6, height=3.9)
+        self.picture.show(ShownIntervals(self.measure, limit, ()))
+        super().__init__([self._beside_picture(self._asked())])
+
+    def _limit_knob(self, limit: float) -> NumberRow:
+        unit = self.measure.unit
+        shown = in_unit(limit, unit)
+        declared = Quantity("max", shown, 0, 2 * shown, unit, f"largest {self.measure.name} that is allowed")
+        return NumberRow("limit", declared, limit, lambda: None, self._refused)
+
+    def _interval(self, symbol: str, name: str, value: float) -> NumberRow:
+        declared = Quantity(symbol, value / deg, 10, 170, "deg", f"{name} interval that is tried")
+        return NumberRow(f"{name}_interval", declared, value, lambda: None, self._refused)
+
+    def _refused(self, sentence: str) -> None:
+        show_message(self.runner.banner, sentence)
+
+    def _asked(self) -> list[w.Widget]:
+        runner = self.runner
+        knobs = [knob.row for knob in (self.limit, self.longest, self.shortest)]
+        buttons = w.HBox([runner.run_button, runner.stop_button, self.take, self.progress])
+        return [*self.choices.menus.values(), *knobs, buttons, runner.status, runner.banner, self.verdict]
+
+    def _study(self) -> Study:
+        return made_study(self.make, self.explorer.design, **self.choices.values)
+
+    @property
+    def step(self) -> IntervalStep | None:
+        """Where the search stands."""
+        return self.steps[-1] if self.steps else None
+
+    def load(self) -> None:
+        """Put the design with the shortest interval so far into the sliders."""
+        if self.step and self.step.best:
+            self.explorer.load(self.step.best.design)
+
+    def _prepare(self) -> tuple[Study, float, float, float]:
+        low, high = self.shortest.value, self.longest.value
+        task = self._study(), self.limit.value, low, high
+        shortest_interval(*task)  # refuses at once what cannot be searched
+        self.progress.max, self.progress.value = 2 + ceil(log2(max((high - low) / TOLERANCE, 1))), 0
+        return task
+
+    def _job(self, task: tuple[Study, float, float, float], watch: Monitor) -> None:
+        study, self._tried_limit, low, high = task
+        self.measure, self.steps, stopped = study.minimise[0], [], ""
+        self.take.disabled, self.verdict.value = True, ""
+        try:
+            for step in shortest_interval(monitored(study, watch), self._tried_limit, low, high, tolerance=TOLERANCE):
+                self._show(step)
+        except SearchStopped:
+            stopped = " (stopped)"
+        self._report(watch)
+        self.runner.status.value += stopped
+
+    def _show(self, step: IntervalStep) -> None:
+        self.steps.append(step)
+        self.progress.value = len(self.steps)
+        self.take.disabled = step.best is None
+        self.verdict.value = told(step.message, step.best.message if step.best else step.optimum.message)
+        self.picture.show(ShownIntervals(self.measure, self._tried_limit, tuple(self.steps)))
+
+    def _report(self, watch: Monitor) -> None:
+        self.runner.status.value = f"{len(self.steps)} intervals tried, {watch.looked} designs looked at"
+
+    def summary(self) -> str:
+        """What was asked, and what was found."""
+        return "\n".join([*filter(None, [self.choices.words]), self.step.message if self.step else "not run yet"])
+
+
+def cycle_time_panel(
+    explorer: Explorer, make: MakeStudy, limit: float, shortest: float, longest: float, **choices: Any
+) -> CycleTimePanel:
+    """A panel that finds how short the intervals may be (see `CycleTimePanel`); each choice maps words to values."""
+    return CycleTimePanel(explorer, make, limit, shortest, longest, choices)

@@ -1,0 +1,317 @@
+"""`explore`: a design under sliders, its pictures and its measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from operator import attrgetter
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..cam.undercut import undercut_in_words
+from ..files import designs, profiles
+from ..kinds import refuse_arguments, shown
+from ..markup import html, table
+from ..quantities import Analysable, Design, Measure, Quantity, declarations, unremarked, words
+from ..render.picture import View, below, positions_of, small_png, strip
+from ..study.study import keeps, refuse_limits
+from ..study.tolerances import ANGLES
+from ..units import deg
+from .kit.controls import Download, Menu, NumberRow, Upload, banner, control, show_message, tables_html
+from .kit.orbit import Orbit
+from .kit.panel import IMPOSSIBLE, Panel, reason
+from .kit.picture import DRAWING, LivePicture
+
+VIEWPOINT = {
+    "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
+    "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
+}
+
+
+def declared_in(design: Any) -> dict[str, Any]:
+    """Declarations of a design and of the designs that it holds, such as ``load.mass``."""
+    parts = {f.name: getattr(design, f.name) for f in fields(design)}
+    held = {name: part for name, part in parts.items() if isinstance(part, Design)}
+    return declarations(design) | {
+        f"{name}.{inner}": declared for name, part in held.items() for inner, declared in declarations(part).items()
+    }
+
+
+def changed(design: Any, values: Mapping[str, Any]) -> Any:
+    """``design`` with other values, also of designs that it holds."""
+    changes = {name: value for name, value in values.items() if "." not in name}
+    with unremarked():  # a panel's numbers have their units
+        for part in dict.fromkeys(name.partition(".")[0] for name in values.keys() - changes.keys()):
+            inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
+            changes[part] = getattr(design, part).replace(**inner)
+        return design.replace(**changes)
+
+
+def remarked(found: designs.Read) -> str:
+    """What a panel says of a file that it has loaded; nothing if there is nothing to remark."""
+    return f"The file is loaded, but {'; and '.join(found.remarks)}." if found.remarks else ""
+
+
+class Explorer(Panel):
+    """Sliders for a design's quantities; pictures and measures follow at once.
+
+    ``design`` is the design that is shown, the last one that could be built.  ``load(design)`` shows another,
+    ``on_change(f)`` calls ``f(design)`` after every change.  What cannot be built shows as a sentence in place
+    of the picture.
+    """
+
+    def __init__(
+        self,
+        design: Analysable,
+        views: Sequence[View],
+        free: Sequence[str] | None = None,
+        measures: Sequence[Measure] = (),
+        at_most: Mapping[Measure, float] | None = None,
+        at_least: Mapping[Measure, float] | None = None,
+        width: float = 12.6,
+        height: float = 7.0,
+        turn: float | None = None,
+        azimuth: float | None = None,
+        elevation: float | None = None,
+    ) -> None:
+        refuse_arguments(Explorer.__init__, locals())
+        refuse_limits(at_most or {}, at_least or {})
+        self.start: Any = design
+        self.design: Any = design
+        self.analysis = design.analyse()
+        self.measures = tuple(measures)
+        self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
+            m: (v, -1) for m, v in (at_least or {}).items()
+        }
+        self._at_most = dict(at_most or {})
+        self._first = [float(m(self.analysis)) for m in self.measures]
+        self._followers: list[Callable[[Any], None]] = []
+        self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", width=width, height=height)
+        self._banner, self._undercut = banner(), banner()
+        self._impossible = ""
+        self.controls = self._make_controls(free or tuple(declarations(design)))
+        wanted = dict.fromkeys(name for view in views for name in positions_of(view))
+        position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
+        self.positions = {name: self._position(name, position[name]) for name in wanted}
+        if {"azimuth", "elevation"} <= self.positions.keys():
+            self._orbit = Orbit(self.picture, self.positions, self._show)
+        self._table = w.HTML()
+        super().__init__(
+            [self._grid(), self._buttons(), self._banner, self._undercut, self.picture.widget, self._table]
+        )
+        self._show()
+
+    def _make_controls(self, free: Sequence[str]) -> dict[str, NumberRow | Menu]:
+        declared = declared_in(self.design)
+        unknown = [name for name in free if name not in declared]
+        if unknown:
+            raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
+        values = {name: attrgetter(name)(self.design) for name in free}
+        return {
+            name: control(name, declared[name], value, self._changed, self._refuse_number)
+            for name, value in values.items()
+        }
+
+    def _position(self, name: str, value: float | None) -> NumberRow:
+        """The control that turns the mechanism or the view of it."""
+        if name == "turn":
+            angle, low, high = self._turn_range()
+            declared = Quantity("phi", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
+            return NumberRow(
+                f"{angle}_shown", declared, low if value is None else value, self._turned, self._refuse_number
+            )
+        declared = VIEWPOINT[name]
+        value = declared.default * deg if value is None else value
+        return NumberRow(name, declared, value, self._turned, self._refuse_number)
+
+    def _turn_range(self) -> tuple[str, float, float]:
+        """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
+        angle = next((a for a in ANGLES if hasattr(self.analysis, a)), None)
+        if angle is None:
+            raise ValueError(f"the {type(self.start).__name__} has no {' or '.join(map(words, ANGLES))} to turn it by")
+        values = getattr(self.analysis, "turn_range", getattr(self.analysis, angle))
+        return angle, float(np.min(values)), float(np.max(values))
+
+    def _grid(self) -> w.Widget:
+        rows = [c.row for c in (*self.controls.values(), *self.positions.values())]
+        grid = w.Box(rows)
+        grid.add_class("camkit-grid")
+        return grid
+
+    def _buttons(self) -> w.Widget:
+        reset = w.Button(description="Reset", icon="undo", tooltip="back to the design that the panel began with")
+        reset.layout.width = "auto"
+        reset.on_click(lambda _: self.load(self.start))
+        name = type(self.design).__name__
+        save = self._file("Save design", f"{name}.json", "application/json", lambda: designs.to_json(self.design))
+        table = self._file("Profile as CSV", f"{name}.csv", "text/csv", lambda: profiles.profile_csv(self.analysis))
+        drawing = self._file(
+            "Profile as DXF", f"{name}.dxf", "image/vnd.dxf", lambda: profiles.profile_dxf(self.analysis)
+        )
+        load = Upload("Load design", self.load_json)
+        has_profile = hasattr(self.analysis, "profile")
+        return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
+
+    def _file(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> Download:
+        """A download of the design that the controls show; none where they show what cannot be built."""
+
+        def shown() -> str:
+            if self._impossible:
+                raise ValueError(self._impossible[0].lower() + self._impossible[1:-1])
+            return content()
+
+        return Download(description, filename, mime, shown, self._say)
+
+    def _say(self, sentence: str) -> None:
+        show_message(self._banner, sentence)
+
+    def load_json(self, file: str | bytes) -> None:
+        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
+        try:
+            found = designs.read(file, type(self.design))
+            found.thing.analyse()
+        except IMPOSSIBLE as refusal:
+            show_message(self._banner, f"This file cannot be used: {reason(refusal)}.")
+        else:
+            self.load(found.thing)
+            if self.design is found.thing:  # else it cannot be built, which the banner says
+                show_message(self._banner, remarked(found))
+
+    def load(self, design: Any) -> None:
+        """Show ``design``: every slider moves to its value; ``ValueError`` for what is no design of this kind."""
+        kind = type(self.start)
+        if not isinstance(design, kind):
+            raise ValueError(f"the design is {shown(design)}; it must be a {kind.__name__}, as this panel shows")
+        for name, knob in self.controls.items():
+            knob.set(attrgetter(name)(design))
+        self._try(lambda: design)
+
+    def on_change(self, act: Callable[[Any], None]) -> None:
+        """Call ``act(design)`` after every change to a design that can be built."""
+        self._followers.append(act)
+
+    def _changed(self) -> None:
+        self._try(lambda: changed(self.design, {name: knob.value for name, knob in self.controls.items()}))
+
+    def _try(self, make: Callable[[], Any]) -> None:
+        """Show the design that ``make()`` gives if it can be built, computed and drawn."""
+        last = self.design, self.analysis
+        try:
+            design = make()
+            analysis = design.analyse()
+        except (ArithmeticError, np.linalg.LinAlgError) as error:
+            self._go_back(*last, error)
+            return
+        except ValueError as refusal:
+            self._refuse(str(refusal))
+            return
+        self.design, self.analysis = design, analysis
+        try:
+            self._show()
+        except IMPOSSIBLE as error:
+            self._go_back(*last, error)
+            return
+        self._tell_followers()
+
+    def _tell_followers(self) -> None:
+        """Each of them, whatever the others make of the design."""
+        for act in self._followers:
+            try:
+                act(self.design)
+            except IMPOSSIBLE as error:
+                show_message(self._banner, f"What belongs to this design cannot be shown everywhere: {reason(error)}.")
+
+    def _refuse(self, sentence: str) -> None:
+        """The sentence in place of the picture and the numbers, which would belong to another design."""
+        self._impossible = f"This cannot be built: {sentence}."
+        show_message(self._banner, self._impossible)
+        show_message(self._undercut, "")
+        self.picture.widget.layout.display = self._table.layout.display = "none"
+
+    def _refuse_number(self, sentence: str) -> None:
+        """Say why a number was not taken; what is shown stays."""
+        show_message(self._banner, f"{sentence} {self._impossible}".strip())
+
+    def _go_back(self, design: Any, analysis: Any, error: Exception) -> None:
+        """Controls, picture and numbers of the last design, and a sentence that says why."""
+        self.design, self.analysis = design, analysis
+        for name, knob in self.controls.items():
+            knob.set(attrgetter(name)(design))
+        self._fit_turn()
+        self._reveal()
+        show_message(self._banner, f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
+
+    def _turned(self) -> None:
+        if not self._impossible:
+            self._show()
+
+    def _fit_turn(self) -> None:
+        if "turn" in self.positions:
+            self.positions["turn"].between(*self._turn_range()[1:])
+
+    def _show(self) -> None:
+        """Everything is made before anything is shown."""
+        numbers = self._table_html()
+        self._fit_turn()
+        position = {name: knob.value for name, knob in self.positions.items()}
+        self.picture.show(self.analysis, limits=self._at_most, **position)
+        self._table.value = numbers
+        self._reveal()
+
+    def _reveal(self) -> None:
+        """Picture and numbers belong to the design."""
+        self._impossible = ""
+        show_message(self._banner, "")
+        show_message(self._undercut, undercut_in_words(self.analysis), "status")
+        self.picture.widget.layout.display = self._table.layout.display = ""
+
+    def rows(self) -> list[tuple[Measure, float, float]]:
+        """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
+        every = [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
+        return [(m, now, first) for m, now, first in every if not (np.isinf(now) and np.isinf(first))]
+
+    def _table_html(self) -> str:
+        rows = [self._row_cells(*row) for row in self.rows()]
+        half = -(-len(rows) // 2) if len(rows) > 9 else max(len(rows), 1)
+        head = ("measure", "now", "start", "change", "limit", "")
+        return tables_html(*(table(head, rows[i : i + half]) for i in range(0, len(rows), half)))
+
+    def _row_cells(self, measure: Measure, now: float, first: float) -> tuple[str, ...]:
+        change = f"{100 * (now - first) / abs(first):+.1f} %" if first and np.isfinite([now, first]).all() else ""
+        return (measure.name, measure.text(now), measure.text(first), change, *self._verdict(measure, now))
+
+    def _verdict(self, measure: Measure, now: float) -> tuple[str, str]:
+        if measure not in self._limits:
+            return "", ""
+        value, sense = self._limits[measure]
+        limit = html("&le; {}" if sense > 0 else "&ge; {}", measure.text(value))
+        met = keeps(now, value, sense)
+        return limit, "met" if met else html("<span class='camkit-missed'>{}</span>", "not met")
+
+    def still(self) -> bytes:
+        """The picture; below it the mechanism in four positions, if it can be turned."""
+        turning = [view for view in self.picture.views if "turn" in positions_of(view)]
+        if not turning or "azimuth" in self.positions:
+            return super().still()
+        low, high = self._turn_range()[1:]
+        turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
+        with DRAWING:
+            below_it = strip(self.analysis, turning[0], turns, width=self.picture.figure.get_figwidth())
+            return below(super().still(), small_png(below_it))
+
+    def summary(self) -> str:
+        """Every measure as it is now."""
+        return "\n".join(f"{m.name}: {m.text(now)}" for m, now, _ in self.rows())
+
+
+def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
+    """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
+
+    ``free`` may also name quantities of a design that it holds: ``"load.mass"``.
+    ``measures`` are listed with their value now, at the start and the change; ``at_most`` and ``at_least`` map
+    measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first, ``azimuth`` and
+    ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the next cell.
+    """
+    return Explorer(design, views, free, **options)

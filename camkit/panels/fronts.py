@@ -1,0 +1,186 @@
+"""`compare_fronts`: fronts of several searches laid over each other, and the choice of a design from any of them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..kinds import refuse_arguments
+from ..markup import Html, escaped, table
+from ..render.front import ShownFronts, fronts_overlaid, shown_objectives
+from ..search.epsilon_constraint import dominated_shares
+from ..search.nsga2 import Front, Generation
+from ..search.protocol import Monitor, SearchStopped, monitored
+from ..study.study import Study, made_study
+from .explore import Explorer
+from .kit.controls import tables_html
+from .kit.picture import LivePicture
+from .kit.runner import JobPanel, Runner
+
+Search = Callable[[Study], Iterator[Generation]]
+"""Looks for the front of a study step by step: `trade_off_steps`, or `nsga2_generations`."""
+Way = tuple[Callable[[Any], Study], Search]
+"""How a study is made around a design, and how it is searched."""
+
+
+class FrontsPanel(JobPanel):
+    """Fronts of the same two objectives by several ways of search, around the design of an `Explorer`.
+
+    ``ways`` maps names to searches (see `Way`); ``given`` are fronts that are there already.  The searches run one
+    after the other in a thread: the page stays alive, Stop takes effect before the next design and keeps the fronts
+    so far.  A click, or menu and slider, loads a design into the explorer; a cross shows where its design stands.
+
+    Raises ``ValueError`` if neither a way nor a front is there, or fronts have other objectives than two.
+    """
+
+    def __init__(
+        self, explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
+    ) -> None:
+        refuse_arguments(FrontsPanel.__init__, locals())
+        self.explorer, self.ways = explorer, dict(ways or {})
+        self.fronts = self._empty_fronts(dict(given or {}))
+        self._refuse_other_objectives()
+        self.start = self._objectives(explorer.start.analyse())
+        self.seconds: dict[str, float] = {}
+        self._silent = False
+        self._make_widgets()
+        self.picture = LivePicture((fronts_overlaid,), "Fronts laid over each other", width=8.6, height=5.4)
+        self.picture.widget.on_click(self._clicked)
+        super().__init__([self._beside_picture(self._asked(), (360, 560), (520, 860))])
+        self._show()
+        explorer.on_change(lambda _: self._show_here())
+
+    def _empty_fronts(self, given: dict[str, Front]) -> dict[str, Front]:
+        """A front for each way, without a design where none is given."""
+        fronts = dict(given)
+        for name, (make, _) in self.ways.items():
+            if name not in fronts:
+                study = made_study(make, self.explorer.start)
+                fronts[name] = Front(study, np.zeros((0, len(study.free))), np.zeros((0, len(study.minimise))))
+        return fronts
+
+    def _refuse_other_objectives(self) -> None:
+        if not self.fronts:
+            raise ValueError("there is nothing to compare; name one or more ways to search, or fronts")
+        objectives = {front.study.minimise for front in self.fronts.values()}
+        if len(objectives) > 1 or len(next(iter(objectives))) != 2:
+            named = "; ".join(", ".join(m.name for m in measures) for measures in objectives)
+            raise ValueError(f"the fronts are of {named}; they must be of the same two objectives")
+
+    def _make_widgets(self) -> None:
+        style = {"description_width": "62px"}
+        page = self.explorer.start, list(self.ways)
+        self.runner = Runner(
+            "Compute the fronts", lambda: self.explorer.design, self._search, lambda _: self._show(), *page
+        )
+        self.runner.run_button.disabled = not self.ways
+        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
+        self.menu = w.Dropdown(
+            options=list(self.fronts), description="front", layout=w.Layout(width="330px"), style=style
+        )
+        self.pick = w.IntSlider(0, 0, 0, description="design", layout=w.Layout(width="330px"), style=style)
+        self.table = w.HTML()
+        self.menu.observe(lambda _: self._fit_slider(), "value")
+        self.pick.observe(lambda change: None if self._silent else self.select(self.menu.value, change.new), "value")
+
+    def _asked(self) -> list[w.Widget]:
+        runner = self.runner
+        buttons = w.HBox([runner.run_button, runner.stop_button, self.progress], layout=w.Layout(flex_flow="row wrap"))
+        return [*([buttons, runner.status, runner.banner] if self.ways else []), self.menu, self.pick, self.table]
+
+    # ------------------------------------------------------------ the searches
+
+    def _search(self, design: Any, watch: Monitor) -> None:
+        began = time.monotonic()
+        try:
+            for name, (make, search) in self.ways.items():
+                self._follow(name, made_study(make, design), search, watch)
+            self.runner.status.value = f"all fronts are there: {time.monotonic() - began:.1f} s elapsed"
+        except SearchStopped:
+            self.runner.status.value = "stopped"
+        finally:
+            self._show()
+
+    def _follow(self, name: str, study: Study, search: Search, watch: Monitor) -> None:
+        began = time.monotonic()
+        for step in search(monitored(study, watch)):
+            self.fronts[name], self.seconds[name] = replace(step.front, study=study), time.monotonic() - began
+            self.progress.max, self.progress.value = step.of, step.number
+            self.runner.status.value = escaped(f"{name}: {step.number} of {step.of}")
+
+    # ------------------------------------------------------------ what is shown
+
+    def _objectives(self, analysis: Any) -> np.ndarray:
+        return np.array([float(m(analysis)) for m in next(iter(self.fronts.values())).study.minimise])
+
+    def _show(self) -> None:
+        self._fit_slider()
+        self.table.value = self._table_html()
+        self._show_here()
+
+    def _show_here(self) -> None:
+        self.picture.show(ShownFronts(self.fronts, self.start, self._objectives(self.explorer.analysis)))
+
+    def _fit_slider(self) -> None:
+        """As many designs as the front in the menu has."""
+        count = len(self.fronts[self.menu.value])
+        self._silent = True
+        self.pick.max, self.pick.disabled = max(count - 1, 0), not count
+        self._silent = False
+
+    def shares(self) -> dict[str, float]:
+        """What each front dominates (see `dominated_shares`), up to the design that the explorer began with."""
+        return dominated_shares(self.fronts, self.start)
+
+    def _table_html(self) -> Html:
+        rows = []
+        for name, share in self.shares().items():
+            time_told = f"{self.seconds[name]:.1f} s" if name in self.seconds else ""
+            rows.append((name, len(self.fronts[name]), f"{100 * share:.1f} %", time_told))
+        return tables_html(table(("front", "designs", "dominates", "time"), rows))
+
+    def select(self, name: str, index: int) -> None:
+        """Load a design of one of the fronts into the sliders."""
+        if index >= len(self.fronts[name]):
+            return
+        self._silent = True
+        self.menu.value = name
+        self._fit_slider()
+        self._silent = True
+        self.pick.value = index
+        self._silent = False
+        self.explorer.load(self.fronts[name][index])
+
+    def _clicked(self, x: float, y: float) -> None:
+        """Load the nearest point."""
+        width, height = self.picture.figure.canvas.get_width_height()
+        at = np.array([x * width, (1 - y) * height])
+        found = []
+        for name, front in self.fronts.items():
+            points = self.picture.axes[0].transData.transform(shown_objectives(front).T)
+            found += [(float(np.hypot(*(point - at))), name, i) for i, point in enumerate(points)]
+        if found:
+            _, name, index = min(found)
+            self.select(name, index)
+
+    def summary(self) -> str:
+        """Each front with what it dominates, and the design in the sliders."""
+        lines = [
+            f"{name}: {len(self.fronts[name])} designs, dominates {100 * s:.0f} %" for name, s in self.shares().items()
+        ]
+        measures = next(iter(self.fronts.values())).study.minimise
+        here = self._objectives(self.explorer.analysis)
+        goals = ", ".join(f"{m.name} {m.text(m.sign * f)}" for m, f in zip(measures, here, strict=True))
+        return "\n".join([*lines, f"in the sliders: {goals}"])
+
+
+def compare_fronts(
+    explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
+) -> FrontsPanel:
+    """A panel of fronts by several searches; a design from them goes into the sliders of ``explorer``."""
+    return FrontsPanel(explorer, ways, given)

@@ -1,0 +1,62 @@
+"""What every panel shares: style, names for screen readers, a still picture with numbers where there is no kernel."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import ipywidgets as w
+
+from .picture import LivePicture
+
+IMPOSSIBLE = (ValueError, ArithmeticError)
+"""What a design can raise that cannot be built, computed or drawn: a panel says it in a sentence."""
+
+
+def reason(error: Exception) -> str:
+    """Why something is impossible, in words.
+
+    >>> reason(ValueError("the arm is too short")), reason(OverflowError(34, "Numerical result out of range"))
+    ('the arm is too short', 'a number in it becomes too large')
+    """
+    worded = isinstance(error, ValueError) or (len(error.args) == 1 and " " in str(error))
+    return str(error) if worded else "a number in it becomes too large"
+
+
+class PanelStyle(anywidget.AnyWidget):
+    """Nothing to see: the style sheet of the panel that it is put into, and a name for each of its controls."""
+
+    _esm = Path(__file__).with_name("panel.js").read_text(encoding="utf-8")
+    _css = Path(__file__).with_name("panel.css").read_text(encoding="utf-8")
+
+
+class Panel(w.VBox):
+    """A column of widgets around one live ``picture``; a subclass says in ``summary`` what it shows."""
+
+    picture: LivePicture
+
+    def __init__(self, children: Sequence[w.Widget]) -> None:
+        super().__init__([PanelStyle(layout=w.Layout(display="none")), *children])
+        self.add_class("camkit-panel")
+        if self.picture.said is str:  # else the picture is another panel's
+            self.picture.said = self.summary
+
+    def summary(self) -> str:
+        """The panel's numbers, a line each."""
+        raise NotImplementedError
+
+    def still(self) -> bytes:
+        """The picture, as a PNG file, that stands for the panel where there is no kernel."""
+        return self.picture.png()
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
+        """The live panel for a kernel, the picture and the numbers where there is none."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        data = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
+        data["image/png"] = base64.b64encode(self.still()).decode("ascii")
+        data["text/plain"] = self.summary()
+        self.picture.describe()
+        return data

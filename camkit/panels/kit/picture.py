@@ -1,0 +1,162 @@
+"""A figure that lives: drawn once, its curves moved in place, sent as an image to the page.
+
+A full drawing takes a few hundred milliseconds, three quarters of them for text.  So while something moves, only
+the curves are drawn, over a stored background (blitting), and a little after the last move everything is
+drawn again with axes that fit.
+
+Nothing queues: the page sends a slider's next value when the kernel is done with the last one, and by then only the
+newest is left.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import numpy as np
+import traitlets
+from matplotlib import rc_context
+
+from ...render.artists import STYLE, moving
+from ...render.picture import View, draw, encoded, layout, pixels, small_png
+
+SETTLE, PAUSE = 0.25, 1.0
+"""Seconds after the last move until everything is drawn again, and seconds after which a move is no longer a drag."""
+
+
+FARTHEST = 1e30
+"""No curve is drawn farther than this, in the units of its axes."""
+
+DRAWING = threading.RLock()
+"""Held while anything is drawn: figures share matplotlib's fonts, which two threads must not use at once."""
+
+
+class ImageWidget(anywidget.AnyWidget):
+    """An image on the page that tells what the pointer does on it."""
+
+    _esm = Path(__file__).with_name("image.js").read_text(encoding="utf-8")
+    _css = ".camkit-image { display: block; width: 100%; height: auto; }"
+    data = traitlets.Bytes(b"").tag(sync=True)
+    mime = traitlets.Unicode("image/png").tag(sync=True)
+    description = traitlets.Unicode("").tag(sync=True)
+
+    def on_pointer(self, act: Callable[[str, float, float], None]) -> None:
+        """Call ``act(kind, x, y)``: "press", "drag", "release", "click"; x and y are shares of width and height."""
+        self.on_msg(lambda _, message, __: act(message["kind"], message["x"], message["y"]))
+
+    def on_click(self, act: Callable[[float, float], None]) -> None:
+        """Call ``act(x, y)`` at every click."""
+        self.on_pointer(lambda kind, x, y: act(x, y) if kind == "click" else None)
+
+    def put(self, data: bytes, mime: str) -> None:
+        """Show another image."""
+        with self.hold_sync():
+            self.mime, self.data = mime, data
+
+
+class LivePicture:
+    """Views of an analysis in one figure, shown in ``widget``."""
+
+    def __init__(self, views: tuple[View, ...], description: str, **size: Any) -> None:
+        self.views = views
+        self.figure, self.axes = layout(views, **size)
+        self.description = description
+        self.said: Callable[[], str] = str
+        self.widget = ImageWidget(description=description)
+        self._background: Any = None
+        self._last: tuple[Any, dict[str, Any]] | None = None
+        self._later: threading.Timer | None = None
+        self._moved = 0.0
+
+    def show(self, analysis: Any, **position: Any) -> None:
+        """Show another analysis: at once with the axes as they are, and a little later with axes that fit.
+
+        What cannot be drawn raises ``ValueError`` or ``ArithmeticError``, and the picture stays as it was.
+        """
+        with DRAWING:
+            try:
+                draw(analysis, self.axes, self.views, **position)
+                self._refuse_far_points()
+            except (ValueError, ArithmeticError):
+                if self._last:
+                    draw(self._last[0], self.axes, self.views, **self._last[1])
+                raise
+            self._last = analysis, position
+            if self._background is None:
+                self.settle()
+            else:
+                self._blit()
+                self.widget.put(self._jpeg(), "image/jpeg")
+                self._settle_later()
+
+    def _refuse_far_points(self) -> None:
+        """Matplotlib finds no ticks and fills no area for numbers of any size."""
+        for ax in self.axes:
+            for curve in ax.lines:
+                points = np.abs(np.asarray(curve.get_xydata(), dtype=float))
+                far = points[np.isfinite(points)].max(initial=0)
+                if far > FARTHEST:
+                    raise OverflowError(f"a curve reaches {far:.3g}, farther than can be drawn")
+
+    def settle(self) -> None:
+        """Draw everything anew, axes fitted to the curves."""
+        with DRAWING:
+            if self._later:
+                self._later.cancel()
+                self._later = None
+            for ax in self.axes:
+                ax.relim()
+                ax.autoscale_view()
+                for artist in moving(ax):
+                    artist.set_animated(True)
+            with rc_context(STYLE):
+                self.figure.canvas.draw()
+            self.figure.set_layout_engine("none")  # the first drawing has laid the axes out; that takes half a second
+            self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]
+            self._blit()
+            self.widget.put(self._png(), "image/png")
+
+    def png(self) -> bytes:
+        """The picture as a PNG file, settled."""
+        with DRAWING:
+            if self._later:
+                self.settle()
+            return small_png(self.figure)
+
+    def _settle_later(self) -> None:
+        if self._later:
+            self._later.cancel()
+        self._later = threading.Timer(self._patience(), self._settle_if_alive)
+        self._later.start()
+
+    def _patience(self) -> float:
+        """Seconds to wait for the next move; a full drawing would delay it, and on a busy machine it comes late."""
+        now = time.monotonic()
+        since, self._moved = now - self._moved, now
+        return SETTLE + (2 * since if since < PAUSE else 0.0)
+
+    def _settle_if_alive(self) -> None:
+        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
+            self.settle()
+            self.describe()
+
+    def describe(self) -> None:
+        """Tell those who do not see the picture: the views' titles, and what ``said()`` has to say of the numbers."""
+        titles = ", ".join(filter(None, (ax.get_title(loc="left") for ax in self.axes)))
+        self.widget.description = "\n".join(filter(None, (self.description, titles, self.said())))
+
+    def _blit(self) -> None:
+        self.figure.canvas.restore_region(self._background)  # type: ignore[attr-defined]
+        for ax in self.axes:
+            for artist in moving(ax):
+                ax.draw_artist(artist)
+
+    def _jpeg(self) -> bytes:
+        return encoded(pixels(self.figure), "JPEG", quality=88, subsampling=0)
+
+    def _png(self) -> bytes:
+        return encoded(pixels(self.figure).convert("RGB"), "PNG", compress_level=2)

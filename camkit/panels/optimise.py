@@ -1,0 +1,124 @@
+"""`optimise_panel`: from the design in the sliders to a better one, in the background, and what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..kinds import refuse_arguments, shown
+from ..markup import escaped
+from ..quantities import Measure
+from ..render.progress import ShownLooks, best_so_far
+from ..search.minimise import METHODS, Minimum, minimise
+from ..search.protocol import Monitor, SearchStopped, monitored
+from ..study.study import Study, made_study
+from .explore import Explorer
+from .kit.controls import show_message
+from .kit.number import WholeBox, staying
+from .kit.picture import LivePicture
+from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
+
+
+class OptimisePanel(JobPanel):
+    """*Optimise from here*: `minimise` from the design of an `Explorer`, whose sliders then show what was found.
+
+    ``make(start, method, **choices)`` gives the `Study`; there is a menu for each of the ``choices``, and one for the
+    ``methods`` if there are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so
+    far is then in the sliders.  *Put back* loads the design from which the search began.
+    """
+
+    def __init__(
+        self,
+        explorer: Explorer,
+        make: MakeStudy,
+        choices: Mapping[str, Mapping[str, Any]],
+        methods: Sequence[str],
+    ) -> None:
+        refuse_arguments(OptimisePanel.__init__, locals())
+        if not len(methods) or any(method not in METHODS for method in methods):
+            raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
+        self.explorer, self.make = explorer, make
+        self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
+        layout, refused = w.Layout(width="190px"), staying("starts", self._refused, "stay")
+        self.starts = WholeBox(1, 1, 100, refused, description="starts", description_width="112px", layout=layout)
+        self.choices.menus["method"].observe(lambda _: self._fit_starts(), "value")
+        self._fit_starts()
+        self.study = self._study()
+        self.minimum: Minimum | None = None
+        self.before: Any = None
+        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report, explorer.start, make)
+        self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
+        self.back.on_click(lambda _: self.explorer.load(self.before))
+        self.verdict = w.HTML()
+        self._lines: tuple[str, ...] = ()
+        self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
+        self.picture.show(ShownLooks(self._measure, ()))
+        super().__init__([self._beside_picture(self._asked())])
+
+    def _asked(self) -> list[w.Widget]:
+        runner, menus = self.runner, self.choices.menus
+        asked = [menu for menu in menus.values() if len(menu.options) > 1]
+        buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
+        return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
+
+    def _refused(self, sentence: str) -> None:
+        show_message(self.runner.banner, sentence)
+
+    def _fit_starts(self) -> None:
+        """Other methods than SLSQP have no use for several starts."""
+        self.starts.disabled = self.choices.values["method"] != "slsqp"
+
+    def _study(self) -> Study:
+        return made_study(self.make, self.explorer.design, **self.choices.values)
+
+    def _prepare(self) -> tuple[Study, Any, str, int]:
+        study = self._study()
+        return study, self.explorer.design, self.choices.values["method"], self.starts.value
+
+    def _job(self, task: tuple[Study, Any, str, int], watch: Monitor) -> None:
+        self.study, self.before, method, starts = task
+        self.minimum, self.back.disabled = None, False
+        try:
+            self.minimum = minimise(monitored(self.study, watch), method, starts=starts)
+        except SearchStopped:
+            self._finish(watch.best, f"The search was stopped after {watch.looked} designs.")
+        else:
+            self._finish(self.minimum.x, self.minimum.message)
+        self._report(watch)
+
+    def _finish(self, x: Any, why: str) -> None:
+        """Say what was found, and show it."""
+        if x is None:
+            self._lines = (why, "None of them keeps every limit; the design in the sliders stays.")
+        else:
+            first, last = self.study.evaluate([self.study.x0, x]).f[:, 0]
+            self._lines = (f"{self._measure.name}: {self._text(first)} → {self._text(last)}", why)
+            self.explorer.load(self.study.design(x))
+        self.verdict.value = told(*self._lines)
+
+    @property
+    def _measure(self) -> Measure:
+        return self.study.minimise[0]
+
+    def _text(self, f: float) -> str:
+        return self._measure.text(self._measure.sign * f) if np.isfinite(f) else "none"
+
+    def _report(self, watch: Monitor) -> None:
+        best = f", best so far {self._text(watch.f)}" if watch.best is not None else ""
+        self.runner.status.value = escaped(f"{watch.looked} designs looked at{best}")
+        self.picture.show(ShownLooks(self._measure, tuple(watch.looks)))
+
+    def summary(self) -> str:
+        """What was asked, and what was found."""
+        lines = self._lines or ("not run yet",)
+        return "\n".join([self.choices.words, *lines])
+
+
+def optimise_panel(
+    explorer: Explorer, make: MakeStudy, *, methods: Sequence[str] = ("slsqp",), **choices: Any
+) -> OptimisePanel:
+    """A panel that optimises from the design in ``explorer``; each choice maps words to values."""
+    return OptimisePanel(explorer, make, choices, methods)

@@ -1,0 +1,236 @@
+"""`edit_program`: a motion program segment by segment, by table or by dragging its joints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ..kinds import refuse_arguments
+from ..markup import Html, html, joined, table
+from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
+from ..render.motion import PROGRAM_VIEWS, ShownProgram
+from ..units import deg, factor, in_unit
+from .kit.controls import banner, show_message, tables_html
+from .kit.number import NumberBox, staying
+from .kit.panel import IMPOSSIBLE, Panel
+from .kit.picture import LivePicture
+
+KINDS = ("rise", "dwell", "return")
+LEAST = 1 * deg
+"""The least angle to which a segment can be dragged."""
+MOST = 10_000.0
+"""More cannot be typed, in the unit shown."""
+GRID = 0.5
+"""Dragged angles (deg) and lifts snap to multiples of this, in the unit shown."""
+
+
+class LengthBox(NumberBox):
+    """A box for an angle or a lift of at most `MOST` units."""
+
+    def __init__(self, value: float, refused: Callable[[str], None], unit: str, **options: Any) -> None:
+        self._unit = unit
+        super().__init__(value, refused, **options)
+
+    def _read(self, text: str) -> float:
+        value = super()._read(text)
+        if abs(value) > MOST:
+            raise ValueError(f"{value:g} {self._unit} was typed; it must be at most {MOST:g} {self._unit}")
+        return value
+
+
+class SegmentRow:
+    """One segment: kind, angle, lift, law."""
+
+    def __init__(
+        self,
+        segment: Any,
+        unit: str,
+        changed: Callable[[], None],
+        remove: Callable[[SegmentRow], None],
+        refused: Callable[[str], None],
+    ) -> None:
+        self.unit, self._refused = unit, refused
+        kind = type(segment).__name__.lower()
+        law = getattr(segment, "law", LAWS[2])
+        laws = [(option.name, option) for option in (*LAWS, *(() if law in LAWS else (law,)))]
+        self.kind = w.Dropdown(options=KINDS, value=kind, layout=w.Layout(width="92px"))
+        self.angle = self._box("angle", "deg", in_unit(float(segment.angle), "deg"))
+        self.lift = self._box("lift", unit, in_unit(float(getattr(segment, "lift", 0.0)), unit))
+        self.law = w.Dropdown(options=laws, value=law, layout=w.Layout(width="210px"))
+        drop = w.Button(icon="times", tooltip="remove this segment", layout=w.Layout(width="34px"))
+        drop.on_click(lambda _: remove(self))
+        cells = [self.kind, self.angle, w.Label("deg"), self.lift, w.Label(unit), self.law, drop]
+        self.row = w.HBox(cells, layout=w.Layout(align_items="center"))
+        for box in (self.kind, self.angle, self.lift, self.law):
+            box.observe(lambda _: changed(), "value")
+
+    def _box(self, name: str, unit: str, value: float) -> NumberBox:
+        refused = staying(name, self._refused)
+        return LengthBox(value, refused, unit, meaning=f"{name}, {unit}", layout=w.Layout(width="84px"))
+
+    def segment(self) -> Any:
+        """The segment as the row says it."""
+        angle, lift = self.angle.value * deg, self.lift.value * factor(self.unit)
+        if self.kind.value == "dwell":
+            return Dwell(angle)
+        return (Rise if self.kind.value == "rise" else Return)(angle, lift, self.law.value)
+
+
+class ProgramEditor(Panel):
+    """A motion program under the hand: rows for its segments, handles at its joints.
+
+    ``program`` is the program that is shown, the last one that was possible; ``on_change(f)`` calls ``f(program)``
+    after every change.  Dragging a handle sideways moves a joint between its neighbours, up and down changes
+    the level there; what lies beyond stays.
+    """
+
+    def __init__(self, program: MotionProgram, unit: str = "mm") -> None:
+        refuse_arguments(ProgramEditor.__init__, locals())
+        factor(unit)
+        self.start = self.program = program
+        self.unit = unit
+        self._followers: list[Callable[[MotionProgram], None]] = []
+        self._silent = False
+        self._held: int | None = None
+        self.rows: list[SegmentRow] = []
+        self._table, self._list, self._banner = w.HTML(), w.VBox(), banner()
+        self.picture = LivePicture(PROGRAM_VIEWS, "Displacement, velocity, acceleration and jerk", height=5.6)
+        self.picture.widget.on_pointer(self._pointer)
+        add = w.Button(description="Add a segment", icon="plus")
+        add.on_click(lambda _: self._add())
+        reset = w.Button(description="Reset", icon="undo")
+        reset.on_click(lambda _: self.load(self.start))
+        left = w.VBox([self._list, w.HBox([add, reset])], layout=w.Layout(flex="0 1 600px"))
+        top = w.HBox([left, self._table], layout=w.Layout(flex_flow="row wrap"))
+        super().__init__([top, self._banner, self.picture.widget])
+        self.load(program)
+
+    def load(self, program: MotionProgram) -> None:
+        """Show another program."""
+        self.rows = [SegmentRow(s, self.unit, self._changed, self._remove, self._refused) for s in program.segments]
+        self._list.children = [row.row for row in self.rows]
+        self._try(lambda: program)
+
+    def on_change(self, act: Callable[[MotionProgram], None]) -> None:
+        """Call ``act(program)`` after every change to a program that is possible."""
+        self._followers.append(act)
+
+    def _refused(self, sentence: str) -> None:
+        show_message(self._banner, sentence)
+
+    def _changed(self) -> None:
+        if not self._silent:
+            self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
+
+    def _try(self, make: Callable[[], MotionProgram]) -> None:
+        last = self.program
+        try:
+            self.program = make()
+            table = self._table_html()
+            self.picture.show(ShownProgram(self.program, self.unit))
+        except IMPOSSIBLE as refusal:
+            self.program = last
+            show_message(self._banner, f"This is no motion program: {refusal}.")
+            self.picture.widget.layout.display = self._table.layout.display = "none"
+            return
+        show_message(self._banner, "")
+        self.picture.widget.layout.display = self._table.layout.display = ""
+        self._table.value = table
+        for act in self._followers:
+            act(self.program)
+
+    def _add(self) -> None:
+        rest = max(2 * np.pi - float(self.program.span), 0.0)
+        segment = Dwell(rest if rest > LEAST else 30 * deg)
+        self.rows.append(SegmentRow(segment, self.unit, self._changed, self._remove, self._refused))
+        self._list.children = [row.row for row in self.rows]
+        self._changed()
+
+    def _remove(self, row: SegmentRow) -> None:
+        self.rows.remove(row)
+        self._list.children = [r.row for r in self.rows]
+        self._changed()
+
+    def _pointer(self, kind: str, x: float, y: float) -> None:
+        """Take hold of the nearest handle, and move it."""
+        ax = self.picture.axes[0]
+        width, height = self.picture.figure.canvas.get_width_height()
+        at = np.array([x * width, (1 - y) * height])
+        if kind == "press":
+            levels = np.asarray(self.program.levels, dtype=float) / factor(self.unit)
+            handles = ax.transData.transform(np.column_stack([np.asarray(self.program.edges) / deg, levels]))
+            away = np.hypot(*(handles - at).T)
+            self._held = int(np.argmin(away)) if away.min() < 30 else None
+        elif kind == "drag" and self._held is not None:
+            self._move(self._held, *ax.transData.inverted().transform(at))
+        elif kind == "release":
+            self._held = None
+
+    def _move(self, joint: int, angle: float, level: float) -> None:
+        """Bring a joint to a cam angle (deg) and a level (in the unit shown), as far as its neighbours let it."""
+        edges, levels = np.asarray(self.program.edges) / deg, np.asarray(self.program.levels) / factor(self.unit)
+        last = len(edges) - 1
+        if 0 < joint < last:
+            low, high = edges[joint - 1] + LEAST / deg, edges[joint + 1] - LEAST / deg
+            edges[joint] = np.clip(round(angle / GRID) * GRID, low, high)
+            before, after = self.rows[joint - 1].kind.value, self.rows[joint].kind.value
+            level = round(level / GRID) * GRID
+            run = self._level_run(joint)
+            levels[run] = level if {before, after} != {"dwell"} else levels[run]
+        self._silent = True
+        try:
+            for i, row in enumerate(self.rows):
+                row.angle.value = round(float(edges[i + 1] - edges[i]), 6)
+                if row.kind.value != "dwell":
+                    change = round(float(levels[i + 1] - levels[i]), 6)
+                    row.kind.value = "rise" if change >= 0 else "return"
+                    row.lift.value = abs(change)
+        finally:
+            self._silent = False
+        self._changed()
+
+    def _level_run(self, joint: int) -> list[int]:
+        """The joints at the same level as ``joint`` because only dwells lie between."""
+        run = [joint]
+        while run[0] > 0 and self.rows[run[0] - 1].kind.value == "dwell":
+            run.insert(0, run[0] - 1)
+        while run[-1] < len(self.rows) and self.rows[run[-1]].kind.value == "dwell":
+            run.append(run[-1] + 1)
+        return [] if {0, len(self.rows)} & set(run) else run
+
+    def _verdicts(self) -> list[tuple[str, bool]]:
+        """What happens at each joint, in the follower's SI unit, and whether it may."""
+        si = "rad" if self.unit == "deg" else "m"
+        return [(joint.verdict.replace("follower units", si), joint.lawful) for joint in self.program.transitions()]
+
+    def _table_html(self) -> Html:
+        peaks = self.program.peaks()
+        names = (("velocity", "/rad"), ("acceleration", "/rad^2"), ("jerk", "/rad^3"))
+        rows = (
+            (
+                name,
+                f"{in_unit(float(p.value), self.unit):.5g} {self.unit}{per}",
+                f"{in_unit(float(p.cam_angle), 'deg'):.4g} deg",
+            )
+            for (name, per), p in zip(names, peaks, strict=True)
+        )
+        verdicts = joined(
+            html("<div>{}</div>" if lawful else "<div class='camkit-missed'>{}</div>", verdict)
+            for verdict, lawful in self._verdicts()
+        )
+        return tables_html(table(("peak", "value", "at"), rows), html("<div>{}</div>", verdicts))
+
+    def summary(self) -> str:
+        """Each joint's verdict."""
+        return "\n".join(verdict for verdict, _ in self._verdicts())
+
+
+def edit_program(program: MotionProgram, unit: str = "mm") -> ProgramEditor:
+    """Rows and handles for a motion program whose lifts are shown in ``unit`` ("mm" or "deg").
+
+    The result's ``.program`` goes into a cam: ``editor.on_change(lambda p: app.load(app.design.replace(motion=p)))``.
+    """
+    return ProgramEditor(program, unit)

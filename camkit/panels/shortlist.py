@@ -1,0 +1,134 @@
+"""`shortlist`: up to five designs kept side by side, their measures and profiles, to be taken along as a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import ipywidgets as w
+
+from ..decision.summary import SideBySide, side_by_side
+from ..kinds import refuse_arguments
+from ..render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
+from ..study.study import Study
+from .explore import Explorer
+from .kit.controls import Download, banner, bar_html, show_message, tables_html
+from .kit.panel import Panel
+from .kit.picture import LivePicture
+
+TITLE = "Designs side by side"
+MOST_MEASURES = 12
+"""So many measures are drawn; the table has all."""
+
+
+class Shortlist(Panel):
+    """Designs of an `Explorer` that are worth keeping, in columns.
+
+    ``designs`` are the kept ones by the letter of their place.  ``keep()`` keeps the design in the sliders, ``drop``
+    and ``load`` take a letter.  ``study`` says which measures are to be small or large and what must be kept, so that
+    the best of a line can be marked.
+    """
+
+    def __init__(self, explorer: Explorer, study: Study | None = None) -> None:
+        refuse_arguments(Shortlist.__init__, locals())
+        self.explorer, self.study = explorer, study
+        self.designs: dict[str, Any] = {}
+        self._analyses: dict[str, Any] = {}
+        self._banner, self._table, self._places = banner(), w.HTML(), w.VBox()
+        views = (profiles_overlaid, measures_overlaid) if self._has_profile(explorer.analysis) else (measures_overlaid,)
+        self._measures = _measures(explorer, study)[:MOST_MEASURES]
+        self.picture = LivePicture(views, "Kept designs", width=12.6, height=4.8)
+        keep = w.Button(description="Keep this design", icon="plus", button_style="primary")
+        keep.on_click(lambda _: self.keep())
+        files = [
+            Download("Save as Markdown", "designs.md", "text/markdown", self.markdown),
+            Download("Save as HTML", "designs.html", "text/html", self.html),
+        ]
+        row = w.HBox([keep, *files], layout=w.Layout(flex_flow="row wrap"))
+        super().__init__([row, self._banner, self._places, self.picture.widget, self._table])
+        self._show()
+
+    @staticmethod
+    def _has_profile(analysis: Any) -> bool:
+        return hasattr(getattr(analysis, "whole", analysis), "profile")
+
+    def keep(self) -> None:
+        """Keep the design in the sliders, if there is a place and it is not kept yet."""
+        design = self.explorer.design
+        same = next((place for place, kept in self.designs.items() if kept == design), None)
+        free = [place for place in PLACES if place not in self.designs]
+        if same or not free:
+            full = f"{len(PLACES)} designs are kept already, as many as the tray holds; remove one to make room"
+            show_message(self._banner, f"This design is not kept: {f'it is design {same} already' if same else full}.")
+            return
+        self._put({**self.designs, free[0]: design}, {**self._analyses, free[0]: self.explorer.analysis})
+
+    def drop(self, place: str) -> None:
+        """Keep a design no longer."""
+        rest = [p for p in self.designs if p != place]
+        self._put({p: self.designs[p] for p in rest}, {p: self._analyses[p] for p in rest})
+
+    def load(self, place: str) -> None:
+        """Put a kept design into the sliders."""
+        self.explorer.load(self.designs[place])
+
+    def _put(self, designs: dict[str, Any], analyses: dict[str, Any]) -> None:
+        self.designs, self._analyses = ({p: d[p] for p in PLACES if p in d} for d in (designs, analyses))
+        show_message(self._banner, "")
+        self._show()
+
+    @property
+    def table(self) -> SideBySide:
+        """The kept designs side by side."""
+        named = {f"design {place}": design for place, design in self.designs.items()}
+        return side_by_side(named, self.explorer.measures, self.study, list(self._analyses.values()))
+
+    def markdown(self) -> str:
+        """The table as Markdown."""
+        return self.table.markdown(TITLE)
+
+    def html(self) -> str:
+        """Table and picture as a page that needs no other file."""
+        return self.table.page(TITLE, self.picture.png() if self.designs else b"")
+
+    def _show(self) -> None:
+        for row in self._places.children:
+            _close(row)
+        self._places.children = [self._row(place) for place in self.designs]
+        self.picture.widget.layout.display = "" if self.designs else "none"
+        self.picture.show(Kept(self._analyses, self._measures))
+        self._table.value = tables_html(self.table.html()) if self.designs else ""
+
+    def _row(self, place: str) -> w.HBox:
+        """The letter of a kept design in its colour, and what can be done with it."""
+        load = self._button("Load", "upload", f"put design {place} into the sliders", lambda: self.load(place))
+        drop = self._button("Remove", "times", f"keep design {place} no longer", lambda: self.drop(place))
+        return w.HBox(
+            [w.HTML(bar_html(colour_of(place), 18, f"design {place}"), layout=w.Layout(width="110px")), load, drop]
+        )
+
+    @staticmethod
+    def _button(description: str, icon: str, tooltip: str, act: Callable[[], None]) -> w.Button:
+        button = w.Button(description=description, icon=icon, tooltip=tooltip, layout=w.Layout(width="auto"))
+        button.on_click(lambda _: act())
+        return button
+
+    def summary(self) -> str:
+        """The table as Markdown."""
+        return self.markdown() if self.designs else "no design is kept yet"
+
+
+def _measures(explorer: Explorer, study: Study | None) -> tuple[Any, ...]:
+    """The study's objectives and limits, then the explorer's measures."""
+    told = (*study.minimise, *(m for m, _, _ in study.limits)) if study else ()
+    return tuple(dict.fromkeys(m if m.sign > 0 else -m for m in (*told, *explorer.measures)))
+
+
+def _close(row: w.HBox) -> None:
+    for widget in (*row.children, row):
+        widget.close()
+
+
+def shortlist(explorer: Explorer, study: Study | None = None) -> Shortlist:
+    """A list of up to five designs of ``explorer``, compared in a table and a picture, saved as a file."""
+    return Shortlist(explorer, study)

@@ -1,0 +1,188 @@
+"""`tolerance_panel`: tolerances under sliders, and what the workshop then makes of the design in an explorer."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, runtime_checkable
+
+import ipywidgets as w
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..kinds import refuse_arguments
+from ..markup import Html, table
+from ..quantities import Quantity, declarations, words
+from ..render.tolerances import cloud, deviation, sobol_bars
+from ..search.nsga2 import Front
+from ..study.study import Study
+from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
+from .explore import Explorer
+from .kit.controls import NumberRow, banner, show_message, tables_html
+from .kit.latest_only import Debounced
+from .kit.panel import IMPOSSIBLE, Panel
+from .kit.picture import SETTLE, LivePicture
+
+MOVING, SETTLED = 64, 512
+"""How many parts are made while a slider moves, and when all is quiet."""
+WIDEST = 5
+"""How many times the general tolerance a slider offers."""
+
+
+@runtime_checkable
+class HasFront(Protocol):
+    """A panel or another thing with a front."""
+
+    front: Any
+
+
+class TolerancePanel(Panel):
+    """What tolerances do to the design of an `Explorer`: yield, cloud of parts, bands on curves, Sobol indices.
+
+    ``study`` says what is limited.  ``half_widths`` names the dimensions that spread, with their first tolerance (SI);
+    without them these are the study's free quantities with general tolerances (ISO 2768-1, class m).  ``curves`` are
+    those whose bands are drawn.  ``front`` is anything with a ``.front`` that changes (a `Search`), or a front.
+    ``tolerances`` is what is shown.
+    """
+
+    def __init__(
+        self,
+        explorer: Explorer,
+        study: Study,
+        half_widths: Mapping[str, float] | None = None,
+        curves: Sequence[AnalysisCurve] = (),
+        front: HasFront | Front | None = None,
+    ) -> None:
+        refuse_arguments(TolerancePanel.__init__, locals())
+        self.explorer, self.study = explorer, study
+        self._front: Any = front
+        first = general_tolerances(study) if half_widths is None else dict(half_widths)
+        self.tolerances = Tolerances(study.replace(start=explorer.design), first, parts=SETTLED)
+        self.knobs = {name: self._knob(name, half) for name, half in first.items()}
+        self._first = first
+        self.spread = w.Dropdown(
+            options=SPREADS, description="spread", layout=w.Layout(width="210px"), style={"description_width": "52px"}
+        )
+        self.spread.observe(lambda _: self._moved(), "value")
+        self._later, self._settling = Debounced(self.settle, SETTLE), threading.RLock()
+        self._banner, self._table = banner(), w.HTML()
+        views = (self._cloud, sobol_bars, *map(deviation, curves))
+        self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
+        super().__init__([self._body()])
+        self._show(self.tolerances)
+        explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
+        if follow := getattr(front, "on_front", None):
+            follow(self._later.ask)
+
+    def _knob(self, name: str, half: float) -> NumberRow:
+        nominal = self.tolerances.declared[name]
+        widest = WIDEST * (half or general_tolerance(nominal, getattr(self.explorer.design, name))) / nominal.factor
+        meaning = f"half width of the tolerance of the {words(name)}"
+        declared = Quantity(nominal.symbol, half / nominal.factor, 0, widest, nominal.unit, meaning, at_least=0)
+        return NumberRow(name, declared, half, self._moved, lambda sentence: show_message(self._banner, sentence))
+
+    def _body(self) -> w.Widget:
+        grid = w.Box([knob.row for knob in self.knobs.values()])
+        grid.add_class("camkit-grid")
+        back = w.Button(description="Reset", icon="undo", tooltip="back to the first tolerances")
+        back.layout.width = "auto"
+        back.on_click(lambda _: self.reset())
+        heading = w.HTML("<b>Tolerances</b>&ensp;plus and minus; a normal spread has them at three standard deviations")
+        return w.VBox([heading, grid, w.HBox([self.spread, back]), self._banner, self.picture.widget, self._table])
+
+    def _cloud(self, tolerances: Tolerances, ax: Axes) -> Axes:
+        return cloud(getattr(self._front, "front", self._front))(tolerances, ax)
+
+    @property
+    def half_widths(self) -> dict[str, float]:
+        """The tolerances in the sliders, SI."""
+        return {name: knob.value for name, knob in self.knobs.items()}
+
+    def reset(self) -> None:
+        """Back to the first tolerances."""
+        for name, knob in self.knobs.items():
+            knob.set(self._first[name])
+        self._moved()
+
+    def _moved(self) -> None:
+        """Few parts at once, many when all is quiet."""
+        self._show(self._made(MOVING))
+        self._later.ask()
+
+    def _made(self, parts: int) -> Tolerances | None:
+        """What the workshop makes of the sliders; ``None``, and a sentence in place of the picture, if it cannot."""
+        study = self.study.replace(start=self.explorer.design)
+        try:
+            made = Tolerances(study, self.half_widths, self.spread.value, parts)
+            _ = made.values, made.indices  # now, and not while it is drawn, when nothing else can be
+        except IMPOSSIBLE as refusal:
+            self._refuse(refusal)
+            return None
+        return made
+
+    def _refuse(self, refusal: Exception) -> None:
+        """The sentence in place of the picture and the numbers, which would belong to other tolerances."""
+        show_message(self._banner, f"This cannot be made: {refusal}.")
+        self.picture.widget.layout.display = self._table.layout.display = "none"
+
+    def settle(self) -> None:
+        """Make many parts of what is in the sliders, if that is still to be done."""
+        with self._settling:
+            if self._later.waiting:
+                self._later.cancel()
+                made = self._made(SETTLED)
+                if not self._later.waiting:  # nobody has moved anything since
+                    self._show(made)
+
+    def _show(self, made: Tolerances | None) -> None:
+        if made is None:
+            return
+        try:
+            self.picture.show(made)
+        except IMPOSSIBLE as refusal:
+            self._refuse(refusal)
+            return
+        self.tolerances = made
+        show_message(self._banner, "")
+        self._table.value = self._table_html()
+        self.picture.widget.layout.display = self._table.layout.display = ""
+
+    def _rows(self) -> list[tuple[str, str, str, str, str]]:
+        """Every measure in words: its name, as drawn, where 2.5 % are below and above, which share misses a limit."""
+        made, rows = self.tolerances, []
+        for measure in made.measures:
+            low, high = made.percentiles(measure, (2.5, 97.5))
+            drawn = float(np.ravel(measure(made.nominal))[0])
+            missed = [share for limited, share in made.missed.items() if limited == measure]
+            told = f"{100 * max(missed):.1f} %" if missed else ""
+            rows.append((measure.name, measure.text(drawn), measure.text(low), measure.text(high), told))
+        return rows
+
+    def _table_html(self) -> Html:
+        heads = ("measure", "as drawn", "2.5 % are below", "2.5 % are above", "miss the limit")
+        return tables_html(table(heads, self._rows()))
+
+    def summary(self) -> str:
+        """The tolerances, the yield, and what the parts' measures lie between."""
+        made = self.tolerances
+        half = (f"{words(n)} ± {made.declared[n].text(v)}" for n, v in made.half_widths.items())
+        rows = (f"{name}: {drawn}, parts {low} to {high}" for name, drawn, low, high, _ in self._rows())
+        return "\n".join([f"{', '.join(half)}: {100 * made.share:.1f} % of parts keep all limits", *rows])
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
+        self.settle()
+        return super()._repr_mimebundle_(**kwargs)
+
+
+def general_tolerances(study: Study) -> dict[str, float]:
+    """The general tolerance of every free quantity of a study, SI."""
+    refuse_arguments(general_tolerances, locals())
+    declared: Any = declarations(study.start)
+    return {name: general_tolerance(declared[name], getattr(study.start, name)) for name in study.free}
+
+
+def tolerance_panel(
+    explorer: Explorer, study: Study, half_widths: Mapping[str, float] | None = None, **options: Any
+) -> TolerancePanel:
+    """Sliders for the tolerances of the design in ``explorer``, and what they do to it (see `TolerancePanel`)."""
+    return TolerancePanel(explorer, study, half_widths, **options)

@@ -1,0 +1,62 @@
+"""`try_everything`: move every slider, box and menu of a panel, so that a callback that fails is seen."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from typing import Any
+
+import ipywidgets as w
+
+from ..kinds import refuse_arguments
+from .kit.number import NumberBox
+
+KINDS = (
+    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, NumberBox, w.FloatText, w.BoundedIntText, w.Text,
+    w.Dropdown, w.SelectionSlider, w.Checkbox,
+)  # fmt: skip
+"""What is moved; a button is not, for what it does may not be undone."""
+
+
+def _others(control: Any) -> list[Any]:
+    """Values that a control can take besides its own: a step up for a number, every option for a menu."""
+    if isinstance(control, (w.Dropdown, w.SelectionSlider)):
+        return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
+    if isinstance(control, w.Checkbox):
+        return [not control.value]
+    if isinstance(control, w.Text):
+        return ["" if control.value else "1"]
+    if isinstance(control, w.FloatRangeSlider):
+        return _narrower(control)
+    step, top = control.step or 1, getattr(control, "max", None)
+    up = round(control.value + step, 9)
+    return [up if top is None or up <= top else round(control.value - step, 9)]
+
+
+def _narrower(band: w.FloatRangeSlider) -> list[Any]:
+    """The band without its lower, then without its upper half."""
+    low, high = band.value
+    middle = (low + high) / 2
+    return [(middle, high), (low, middle)]
+
+
+def try_everything(panel: w.Box) -> str:
+    """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
+
+    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back.
+    """
+    refuse_arguments(try_everything, locals())
+    controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
+    with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
+        for control in controls:
+            quiet.enter_context(control.hold_sync())
+        for control in controls:
+            before = control.value
+            for value in [*_others(control), before]:
+                control.value = value
+            assert control.value == before, f"{control.description or type(control).__name__} did not come back"
+    return f"{len(controls)} control{'' if len(controls) == 1 else 's'} moved"
+
+
+def _inside(box: w.Widget) -> list[w.Widget]:
+    """Every widget inside ``box``."""
+    return [box, *(c for child in getattr(box, "children", ()) for c in _inside(child))]

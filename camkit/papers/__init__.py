@@ -1,0 +1,1 @@
+"""What published papers print, beside what is computed."""

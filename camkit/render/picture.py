@@ -1,0 +1,162 @@
+"""Several views in one figure."""
+
+from __future__ import annotations
+
+import inspect
+import io
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from ..kinds import a_number, applied, refuse_arguments
+from ..study.study import refuse_limits
+from ..units import deg
+from .artists import STYLE
+
+View = Callable[..., Axes]
+LARGEST = 100
+"""No figure is wider or higher, inches."""
+
+
+class Picture(Figure):
+    """A figure that shows itself in a notebook, as a small file; pyplot never sees it, so none is left behind."""
+
+    def _repr_png_(self) -> bytes:
+        with rc_context(STYLE):
+            self.canvas.draw()
+        return small_png(self)
+
+
+def small_png(figure: Figure) -> bytes:
+    """The pixels of a drawn figure as a PNG file of 256 colours: a third of the usual size."""
+    return encoded(few_colours(pixels(figure).convert("RGB")), "PNG", optimize=True)
+
+
+def few_colours(image: Image.Image) -> Image.Image:
+    """``image`` in 256 colours."""
+    return image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+
+
+def pixels(figure: Figure) -> Image.Image:
+    """What the canvas of ``figure`` holds, not copied; its fourth channel, opaque, is not used."""
+    buffer = figure.canvas.buffer_rgba()  # type: ignore[attr-defined]
+    return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1)
+
+
+def encoded(image: Image.Image, kind: str, **options: Any) -> bytes:
+    """``image`` as a file of a ``kind`` that Pillow knows."""
+    out = io.BytesIO()
+    image.save(out, kind, **options)
+    return out.getvalue()
+
+
+def layout(
+    views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100
+) -> tuple[Picture, list[Axes]]:
+    """A figure with one pair of axes for each view: the first large on the left, the others in two columns."""
+    if not views:
+        raise ValueError("the picture needs one or more views")
+    for name, size in (("width", width), ("height", height)):
+        a_number(size, f"the {name} of the picture", f"be from 0.1 to {LARGEST} inches", lambda s: 0.1 <= s <= LARGEST)
+    with rc_context(STYLE):
+        figure = Picture(figsize=(width, height), dpi=dpi, layout="constrained")
+        FigureCanvasAgg(figure)
+        rest = len(views) - 1
+        columns = 2 if rest > 3 else 1
+        rows = max(1, -(-rest // columns))
+        grid = figure.add_gridspec(rows, (2 + columns) if rest else 1)
+        axes = [figure.add_subplot(grid[:, :2] if rest else grid[:, :])]
+        axes += [figure.add_subplot(grid[i // columns, 2 + i % columns]) for i in range(rest)]
+    return figure, axes
+
+
+POSITIONS = ("turn", "azimuth", "elevation")
+"""What a view may ask for beside the analysis: where the mechanism stands, from where it is seen (rad)."""
+
+
+def positions_of(view: View) -> tuple[str, ...]:
+    """Which of `POSITIONS` a view takes."""
+    takes = inspect.signature(view).parameters
+    return tuple(name for name in POSITIONS if name in takes)
+
+
+def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
+    """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
+
+    ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` that are at most allowed (a
+    mapping from measures to SI), so that a picture shows the limit that its panel or its study has.
+    """
+    with rc_context(STYLE):
+        for view, ax in zip(views, axes, strict=True):
+            takes = inspect.signature(view).parameters
+            with applied(f"the view {_name(view)}", analysis):
+                view(analysis, ax, **{name: value for name, value in asked.items() if name in takes})
+
+
+def _name(view: View) -> str:
+    return getattr(view, "__name__", "that is given").replace("_", " ")
+
+
+def picture(
+    shown: Any,
+    *views: View,
+    width: float = 12.6,
+    height: float = 7.0,
+    turn: float | None = None,
+    azimuth: float | None = None,
+    elevation: float | None = None,
+    limits: Mapping[Any, float] | None = None,
+) -> Picture:
+    """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
+
+    ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
+    """
+    refuse_arguments(picture, locals())
+    refuse_limits(limits or {})
+    given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
+    asked = {name: value for name, value in given.items() if value is not None}
+    figure, axes = layout(views, width, height)
+    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **asked)
+    return figure
+
+
+def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Picture:
+    """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
+    with rc_context(STYLE):
+        turns = tuple(turns)
+        figure = Picture(figsize=(width, height), dpi=100, layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots(1, len(turns))
+        for ax, turn in zip(axes, turns, strict=True):
+            view(analysis, ax, turn=turn)
+            _bare(ax, f"{turn / deg:.0f}°")
+        limits = [np.array([ax.get_xlim(), ax.get_ylim()]) for ax in axes]
+        low, high = np.min(limits, axis=0)[:, 0], np.max(limits, axis=0)[:, 1]
+        for ax in axes:
+            ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), adjustable="box")
+        figure.canvas.draw()
+    return figure
+
+
+def _bare(ax: Axes, title: str) -> None:
+    """Only what is drawn, and a title: the large picture has the scales and the legend."""
+    ax.set_title(title)
+    ax.set_axis_off()
+    legend = ax.get_legend()
+    if legend:
+        legend.remove()
+
+
+def below(first: bytes, second: bytes) -> bytes:
+    """Two pictures (PNG files) of the same width, one below the other, as one."""
+    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in (first, second)]
+    both = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
+    both.paste(images[0], (0, 0))
+    both.paste(images[1], (0, images[0].height))
+    return encoded(few_colours(both), "PNG", optimize=True)

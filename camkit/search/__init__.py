@@ -1,0 +1,1 @@
+"""Searches for the best designs of a study: the only pymoo."""

@@ -1,0 +1,272 @@
+"""What a search knows after a generation, in one file, so that it can go on after its process was killed.
+
+The file is numpy's ``npz``: plain numbers, a line of JSON and a digest of both; nothing of it is ever run or unpacked.
+With the state of the random generator and pymoo's crowding distances in it (they cannot be computed anew: a front that
+was cut keeps those from before the cut) NSGA-II goes on bit by bit as if it had never stopped.
+"""
+
+from __future__ import annotations
+
+import errno
+import glob
+import hashlib
+import io
+import json
+import os
+import platform
+import stat
+import struct
+import zipfile
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, fields
+from functools import cache
+from importlib.metadata import version
+from math import prod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.lib import format as npy
+from scipy.stats import qmc
+
+from ..study.study import Study
+
+SCHEMA = "camkit-checkpoint/2"
+ALGORITHM = "NSGA-II"
+"""The one search whose state is kept whole."""
+ARRAYS = ("x", "f", "g", "rank", "crowding")
+WORST = 1e12
+"""What a search is told, and a checkpoint holds, of an objective or a limit that is not a number."""
+SAME = 1e-9
+"""Objectives and limits that differ by less, as a share, are the same: processors differ in the last bits."""
+LARGEST = 2**28
+"""Bytes of a checkpoint; a longer one is neither written nor read."""
+LONGEST_NAME, LARGEST_COUNT = 100, 2**128
+"""Of the texts and whole numbers that describe a search."""
+END, LONGEST_LIST = 22, 1000
+"""Bytes: a zip file's last record, and the list of entries before it that this record announces."""
+PROBES = 16
+"""At how many Sobol points a study is recognised."""
+
+
+@cache
+def versions() -> Mapping[str, str]:
+    """Of everything that a search's numbers depend on."""
+    return {
+        "python": platform.python_version(),
+        **{name: version(name) for name in ("camkit", "numpy", "scipy", "pymoo")},
+    }
+
+
+def fingerprint(study: Study) -> str:
+    """What recognises a study: its names, bounds and limits, and what it says of some points of its box.
+
+    A study that says the same to the last bit gives the same search, however it is written down.
+
+    >>> from camkit import door_handle_study
+    >>> fingerprint(door_handle_study()) == fingerprint(door_handle_study())
+    True
+    """
+    points = qmc.scale(qmc.Sobol(len(study.free), rng=0).random(PROBES), *study.bounds)
+    evaluation = study.evaluate(points)
+    names = [
+        *study.free,
+        *(m.label for m in study.minimise),
+        *(f"{m.label} {float(v)!r} {s}" for m, v, s in study.limits),
+    ]
+    numbers = (study.bounds, evaluation.f, evaluation.g)
+    return hashlib.sha256(json.dumps(names).encode() + b"".join(n.tobytes() for n in numbers)).hexdigest()
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A search after ``number`` generations: how it began, its population ``x, f, g``, its random generator."""
+
+    study: str
+    """The study's `fingerprint`."""
+    algorithm: str
+    population: int
+    seed: int
+    number: int
+    seconds: float
+    """How long all generations took."""
+    versions: Mapping[str, str]
+    random: Mapping[str, Any]
+    """State of the random generator."""
+    x: np.ndarray
+    f: np.ndarray
+    g: np.ndarray
+    rank: np.ndarray
+    """Of each design's front, ``(p,)``; ``nan`` for what keeps not every limit."""
+    crowding: np.ndarray
+
+    def write(self, path: str | Path) -> None:
+        """Put it in the place of the file that is there; whoever reads sees the old one or the new one, whole.
+
+        Raises ``OSError`` if that cannot be done; the old one is then still there, and nothing else.
+        """
+        path = Path(path)
+        arrays: Any = {name: np.ascontiguousarray(getattr(self, name), dtype=float) for name in ARRAYS}
+        if sum(array.nbytes for array in arrays.values()) > LARGEST // 2:
+            raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))
+        entries = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ARRAYS}
+        about = json.dumps({"schema": SCHEMA, **entries})
+        content = io.BytesIO()
+        np.savez(content, about=np.array(about), digest=np.array(_digest(about, arrays)), **arrays)
+        part = path.with_name(f".{path.name}.{os.getpid()}.part")
+        try:
+            part.write_bytes(content.getbuffer())
+            part.replace(path)
+        except BaseException:
+            with suppress(OSError):
+                part.unlink()
+            raise
+
+
+def why(error: OSError) -> str:
+    """What stood in the way of a file, to be put into a sentence.
+
+    >>> why(OSError(28, "No space left on device", "search.npz"))
+    'no space left on device'
+    >>> why(OSError("File or stream is not seekable."))
+    'file or stream is not seekable'
+    """
+    said = (error.strerror or str(error)).rstrip(".") or "it cannot be written"
+    return said[0].lower() + said[1:]
+
+
+def remove_parts(path: str | Path) -> None:
+    """Remove what a process that was killed in the midst of `Checkpoint.write` has left beside ``path``."""
+    path = Path(path)
+    with suppress(OSError):
+        for part in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
+            part.unlink(missing_ok=True)
+
+
+class OtherSchema(Exception):
+    """A file does not say that it follows `SCHEMA`."""
+
+
+def read(path: str | Path) -> Checkpoint:
+    """The checkpoint that was written; a damaged file or another schema is refused in a sentence (``ValueError``).
+
+    A file that was changed by hand is damaged: its digest is another.
+    """
+    path = Path(path)
+    damaged = ValueError(f"the checkpoint {path.name} is damaged; delete it to begin anew")
+    try:
+        with _opened(path) as archive:
+            text = str(_entry(archive, "about", "U"))
+            about = json.loads(text)
+            if not isinstance(about, dict) or about.pop("schema", None) != SCHEMA:
+                raise OtherSchema
+            arrays: Any = {name: _entry(archive, name, "f") for name in ARRAYS}
+            digest = str(_entry(archive, "digest", "U"))
+    except FileNotFoundError:
+        raise ValueError(f"there is no checkpoint {path.name}") from None
+    except OtherSchema:
+        raise ValueError(f"the file {path.name} is no checkpoint of the schema {SCHEMA!r}") from None
+    except Exception:  # whatever else a file that somebody made can lead to
+        raise damaged from None
+    if digest != _digest(text, arrays) or not _sound(about, arrays):
+        raise damaged
+    return Checkpoint(**about, **arrays)
+
+
+def _digest(about: str, arrays: Mapping[str, np.ndarray]) -> str:
+    """Of all that a checkpoint says."""
+    parts = [about.encode(), *(part for a in arrays.values() for part in (repr(a.shape).encode(), a.tobytes()))]
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()
+
+
+def _opened(path: Path) -> zipfile.ZipFile:
+    """The file, if its size and kind are those of a checkpoint: a regular file with few entries."""
+    about = path.stat()
+    if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
+        raise ValueError
+    with path.open("rb") as file:
+        file.seek(-END, os.SEEK_END)
+        mark, *_, listed, _, comment = struct.unpack("<4s4H2IH", file.read(END))
+    if mark != b"PK\5\6" or listed > LONGEST_LIST or comment:  # before zipfile reads the whole list
+        raise ValueError
+    return zipfile.ZipFile(path)
+
+
+def _entry(archive: zipfile.ZipFile, name: str, kind: str) -> np.ndarray:
+    """One array, of dtype ``kind``, that is not packed, and exactly as long as its shape says."""
+    info = archive.getinfo(f"{name}.npy")
+    if info.compress_type != zipfile.ZIP_STORED:
+        raise ValueError
+    with archive.open(info) as file:
+        npy.read_magic(file)
+        shape, by_columns, dtype = npy.read_array_header_1_0(file)
+        content = file.read()
+    if dtype.kind != kind or by_columns or len(content) != dtype.itemsize * prod(shape):
+        raise ValueError
+    array = np.frombuffer(content, dtype).reshape(shape)
+    return array.astype(float) if kind == "f" else array
+
+
+def _sound(about: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> bool:
+    """Whether the entries are of the kind, size and range that belong there."""
+    kinds = {f.name: {"int": int, "str": str, "float": float}.get(str(f.type), dict) for f in fields(Checkpoint)}
+    if about.keys() | arrays.keys() != kinds.keys() or not all(type(v) is kinds[n] for n, v in about.items()):
+        return False
+    names = [about["study"], about["algorithm"], *about["versions"].values()]
+    counts = [about["population"], about["seed"], about["number"] - 1]
+    if not all(type(name) is str and len(name) <= LONGEST_NAME for name in names):
+        return False
+    if not all(0 <= count < LARGEST_COUNT for count in counts) or not 0 <= about["seconds"] < np.inf:
+        return False
+    try:
+        generator = np.random.PCG64()
+        generator.state = about["random"]
+    except (TypeError, ValueError, KeyError, OverflowError):
+        return False
+    p = about["population"]
+    shapes = [arrays[name].ndim == 2 and len(arrays[name]) == p for name in "xfg"]
+    shapes += [arrays[name].shape == (p,) for name in ("rank", "crowding")]
+    return generator.state == about["random"] and all(shapes)
+
+
+def _belongs(found: Checkpoint, study: Study) -> bool:
+    """Whether every design lies between the study's bounds and is as good as the study says."""
+    sizes = (len(study.free), len(study.minimise), len(study.limits))
+    if (found.x.shape[1], found.f.shape[1], found.g.shape[1]) != sizes:
+        return False
+    low, high = study.bounds
+    if not ((low <= found.x) & (found.x <= high)).all():
+        return False
+    now = study.evaluate(found.x)
+    pairs = ((found.f, now.f), (found.g, now.g))
+    return all(np.allclose(kept, np.minimum(said, WORST), rtol=SAME, atol=SAME**2) for kept, said in pairs)
+
+
+def taken_up(path: str | Path, study: Study, population: int, generations: int, seed: int) -> Checkpoint:
+    """The checkpoint from which this search can go on faithfully.
+
+    Raises ``ValueError`` in a sentence if the file is damaged or of another search, study or version.
+    """
+    found, name = read(path), Path(path).name
+    if found.algorithm != ALGORITHM:
+        raise ValueError(
+            f"the checkpoint {name} is of the algorithm {found.algorithm!r}, which cannot go on faithfully; "
+            f"{ALGORITHM} alone can"
+        )
+    for what, theirs, wanted in (("population", found.population, population), ("seed", found.seed, seed)):
+        if theirs != wanted:
+            raise ValueError(f"the checkpoint {name} has the {what} {theirs}; here it is {wanted}")
+    if found.number > generations:
+        raise ValueError(f"the checkpoint {name} has {found.number} generations; here are {generations} to be run")
+    for what, here in versions().items():
+        if found.versions.get(what) != here:
+            raise ValueError(
+                f"the checkpoint {name} was written with {what} {found.versions.get(what)}; with {what} {here} "
+                "the search would not go on as it began"
+            )
+    if found.study != fingerprint(study):
+        raise ValueError(f"the checkpoint {name} is of another study; name another file, or delete it to begin anew")
+    if not _belongs(found, study):
+        raise ValueError(f"the checkpoint {name} is damaged; delete it to begin anew")
+    return found

@@ -1,0 +1,248 @@
+"""`quick_front`: the Pareto front of a study with few free quantities, fast enough to follow a slider.
+
+An archive search.  It keeps the designs that no other beats, evenly spread, and tries a batch of others near them in
+every round: between and beyond neighbours where the front has its widest gaps, by the differences of neighbours
+(the step of differential evolution: it has the front's own direction and size), and by steps along one quantity that
+shrink from round to round.  The rounds look roughly, at few angles of each design; the last rounds look exactly.
+
+It knows studies, not mechanisms.  `nsga2` serves any number of free quantities.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.stats import qmc
+
+from ..decision.ahp import normalised
+from ..kinds import refuse_arguments
+from ..quantities import counted
+from ..study.study import Study
+from .checkpoint import versions
+from .nsga2 import Front, dominated, front_of, on_grid
+
+MOST_FREE = 4
+"""A box of more free quantities has too many corners for this search."""
+BATCH = 256
+"""Designs of a round."""
+GAPS, STEPS = 0.1, 0.3
+"""Shares of a batch that go into gaps of the front and along one quantity; the others are differences."""
+NEIGHBOURS = 10
+"""How many places away on the front a neighbour may be."""
+SHRINKING = 0.75
+"""How the steps along one quantity shrink from round to round."""
+LAST_ROUNDS = 2
+"""Rounds on all angles."""
+COARSE, LEAST_ANGLES = 4, 61
+"""The other rounds look at one of so many angles, but not at fewer than these."""
+GROWN = 3
+"""At how many times its size the archive is thinned."""
+DIGITS = 2.0**36
+"""Objectives are compared to 11 digits, so that the last bits of a processor do not grow into another front."""
+
+
+class Pace(NamedTuple):
+    """How thoroughly a search goes: designs all over the box, rounds on few angles, first step as a share."""
+
+    first: int
+    rounds: int
+    step: float
+
+
+COLD, WARM = Pace(512, 24, 0.25), Pace(128, 4, 0.05)
+"""From nothing, and from a front that is near."""
+
+
+class Archive(NamedTuple):
+    """Designs as shares of the bounds ``u``, their objectives ``f`` and by how much they miss their limits."""
+
+    u: np.ndarray
+    f: np.ndarray
+    missed: np.ndarray
+
+
+@dataclass(frozen=True)
+class Round:
+    """Where a search stands after ``number`` of ``of`` rounds."""
+
+    number: int
+    of: int
+    archive: Archive
+    study: Study
+    size: int
+    record: Mapping[str, Any]
+    """Designs looked at, seconds, versions."""
+
+    @cached_property
+    def x(self) -> np.ndarray:
+        """The free values kept so far, ``(p, n)`` SI."""
+        return _x(self.study, _thinned(self.archive, self.size).u)
+
+    @cached_property
+    def front(self) -> Front:
+        """What of them is feasible on all angles of the study."""
+        return replace(front_of(self.study.evaluate(self.x), self.study), record=self.record)
+
+
+def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Front:
+    """The Pareto front of ``study``, up to ``size`` designs, in tenths of a second; the same at every call.
+
+    ``start`` is the front of a study like this one, which saves most of the search.  Every design that is returned
+    was judged on all angles of the study; an empty front says in ``message`` which limit stood in the way.
+
+    >>> from camkit.machines.door_handle import door_handle_study
+    >>> front = quick_front(door_handle_study())
+    >>> len(front), front.study.evaluate(front.x).feasible.all()
+    (100, np.True_)
+
+    Raises ``ValueError`` for a study with one objective or more than four free quantities, and for a start with
+    other free quantities.
+    """
+    *_, last = quick_front_rounds(study, size, start)
+    return last.front
+
+
+def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Round]:
+    """`quick_front` one round at a time; leave the loop to stop."""
+    _refuse(study, start)
+    began, told = time.monotonic(), versions()
+    size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
+    coarse = study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
+    pace = WARM if start is not None and len(start) and coarse.evaluate(start.x).feasible.any() else COLD
+    # The first round goes on from all of these: beside a beaten design may lie a part of the front.
+    archive = _judged(coarse, np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))
+    designs = len(archive.u)
+    for number in range(pace.rounds + LAST_ROUNDS):
+        judge = coarse if number < pace.rounds else study
+        if number == pace.rounds:
+            archive = _best(_judged(study, archive.u), size)
+        tried = _judged(judge, _tried(archive, pace.step * SHRINKING**number, draw))
+        archive, designs = _best(_joined(archive, tried), size), designs + len(tried.u)
+        record = {"designs": designs, "seconds": time.monotonic() - began, "versions": told}
+        yield Round(number + 1, pace.rounds + LAST_ROUNDS, archive, study, size, record)
+
+
+def _refuse(study: Study, start: Front | None) -> None:
+    refuse_arguments(_refuse, locals())
+    n, objectives = len(study.free), len(study.minimise)
+    if n > MOST_FREE:
+        raise ValueError(f"a quick front takes up to {MOST_FREE} free quantities; this study has {n}: take nsga2()")
+    if objectives < 2:
+        raise ValueError("a quick front takes two or more objectives; this study has one: take minimise()")
+    if start is not None and tuple(start.study.free) != tuple(study.free):
+        raise ValueError(
+            f"the start has the free quantities {', '.join(start.study.free)}; this study has {', '.join(study.free)}"
+        )
+
+
+def _x(study: Study, u: np.ndarray) -> np.ndarray:
+    """Free values of shares of the bounds."""
+    low, high = study.bounds
+    return np.clip(low + u * (high - low), low, high)
+
+
+def _near(study: Study, start: Front | None) -> np.ndarray:
+    """A former front as shares of the bounds, ``(p, n)``."""
+    low, high = study.bounds
+    return np.zeros((0, len(low))) if start is None else (start.x - low) / (high - low)
+
+
+def _everywhere(n: int, count: int) -> np.ndarray:
+    """Shares all over the box: Sobol's, and the corners and middles, where limits of the box hold a front."""
+    lattice = np.stack(np.meshgrid(*[[0, 0.5, 1]] * n), axis=-1).reshape(-1, n)
+    return np.vstack([lattice, qmc.Sobol(n, rng=0).random(count)])
+
+
+def _judged(study: Study, u: np.ndarray) -> Archive:
+    """What the study says of shares, moved into the bounds and onto the grid, each once."""
+    u = np.unique(on_grid(np.clip(u, 0, 1)), axis=0)
+    evaluation = study.evaluate(_x(study, u))
+    built = np.isfinite(evaluation.f).all(-1)
+    mantissa, exponent = np.frexp(evaluation.f)
+    f = np.ldexp(np.round(mantissa * DIGITS) / DIGITS, exponent)
+    return Archive(u, f, np.where(built, evaluation.missed.sum(-1), np.inf))
+
+
+def _joined(first: Archive, second: Archive) -> Archive:
+    return Archive(*map(np.concatenate, zip(first, second, strict=True)))
+
+
+def _best(archive: Archive, size: int) -> Archive:
+    """What keeps its limits and is not beaten, in order of the first objective; thinned if it has grown too large.
+
+    As long as nothing keeps its limits: what misses them least.
+    """
+    kept = np.flatnonzero(archive.missed == 0)
+    if not len(kept):
+        return _of(archive, np.argsort(archive.missed, kind="stable")[:size])
+    found = _of(archive, kept[_unbeaten(archive.f[kept])])
+    return found if len(found.f) <= GROWN * size else _thinned(found, size)
+
+
+def _of(archive: Archive, rows: np.ndarray) -> Archive:
+    return Archive(*(values[rows] for values in archive))
+
+
+def _unbeaten(f: np.ndarray) -> np.ndarray:
+    """Indices of the rows that no other beats, of equal rows one, in order of the first objective."""
+    _, once = np.unique(f, axis=0, return_index=True)
+    f = f[once]
+    if f.shape[1] > 2:
+        return once[~dominated(f)]
+    before = np.concatenate([[np.inf], np.minimum.accumulate(f[:-1, 1])])
+    return once[f[:, 1] < before]
+
+
+def _thinned(archive: Archive, size: int) -> Archive:
+    """An even spread of ``size`` designs: again and again the one farthest from those that are taken."""
+    if len(archive.f) <= size:
+        return archive
+    f = normalised(archive.f)
+    taken = list(dict.fromkeys(f.argmin(0).tolist()))
+    gap = ((f[:, None] - f[taken]) ** 2).sum(-1).min(1)
+    while len(taken) < size:
+        taken.append(int(gap.argmax()))
+        gap = np.minimum(gap, ((f - f[taken[-1]]) ** 2).sum(-1))
+    return _of(archive, np.sort(taken))
+
+
+def _tried(archive: Archive, step: float, draw: np.random.Generator) -> np.ndarray:
+    """The shares of a round."""
+    gaps, steps = int(GAPS * BATCH), int(STEPS * BATCH)
+    return np.vstack(
+        [
+            _in_gaps(archive, gaps, draw),
+            _along_one(archive.u, steps, step, draw),
+            _by_differences(archive.u, BATCH - gaps - steps, draw),
+        ]
+    )
+
+
+def _in_gaps(archive: Archive, count: int, draw: np.random.Generator) -> np.ndarray:
+    """Between and beyond neighbours (in the order of each objective) that lie far apart on the front."""
+    f, u = normalised(np.where(np.isfinite(archive.f), archive.f, 0)), archive.u
+    order = np.argsort(f, axis=0, kind="stable").T
+    first, second = order[:, :-1].ravel(), order[:, 1:].ravel()
+    widest = np.argsort(-((f[first] - f[second]) ** 2).sum(-1), kind="stable")[:count]
+    share = draw.uniform(-0.5, 1.5, (len(widest), 1))
+    share[::2] = 0.5
+    return u[first[widest]] * (1 - share) + u[second[widest]] * share
+
+
+def _along_one(u: np.ndarray, count: int, step: float, draw: np.random.Generator) -> np.ndarray:
+    """Steps of up to twice ``step`` along one quantity."""
+    base = np.resize(draw.permutation(len(u)), count)
+    direction = np.eye(u.shape[1])[draw.integers(u.shape[1], size=count)]
+    return u[base] + 2 * step * draw.uniform(-1, 1, (count, 1)) * direction
+
+
+def _by_differences(u: np.ndarray, count: int, draw: np.random.Generator) -> np.ndarray:
+    """Moves by the difference, whole or half, of two neighbours on the front, which is in order of an objective."""
+    base = draw.integers(len(u), size=count)
+    first, second = np.clip(base + draw.integers(-NEIGHBOURS, NEIGHBOURS + 1, (2, count)), 0, len(u) - 1)
+    return u[base] + draw.choice([0.5, 1.0], (count, 1)) * (u[first] - u[second])

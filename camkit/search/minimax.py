@@ -1,0 +1,182 @@
+"""The smooth form of a study whose objective or limits are largest values of curves, and its descent by SLSQP.
+
+A maximum over angles has a ridge wherever two angles share it, and there a gradient method stalls.  In epigraph
+form a number ``t`` of its own bounds the whole curve, every angle becomes an inequality, and ``t`` is made small:
+all functions are smooth again.  Limits on peaks become inequalities at every angle in the same way.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ..quantities import Measure, PeakMeasure
+from ..study.study import KEPT, Study, WeightedSum
+
+STEP = 1e-6
+"""Step of a central difference, as a share of the bounds' width."""
+BAD = 1e3
+"""What stands for a design that cannot be built, in sizes of the objective at the start."""
+SEEN, NEAR = 100, 0.02
+"""Of each curve SLSQP sees at least so many points, evenly, and all that come this near to their bound."""
+ROUNDS, STEPS = 20, 100
+"""How often points are added at most, and how many steps SLSQP may take each time."""
+
+
+def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
+    """A measure as a sum of factor times part: the parts of a weighted sum, or the measure alone."""
+    if isinstance(measure, WeightedSum) and measure.sign > 0:
+        shares = zip(measure.weights, measure.reference, measure.parts, strict=True)
+        return [(w / r, part) for w, r, part in shares if w > 0]
+    return [(1.0, measure)]
+
+
+def points_of(measure: Measure, analysis: Any, factor: float, p: int) -> np.ndarray:
+    """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
+    if isinstance(measure, PeakMeasure) and factor * measure.sign > 0:
+        curve = np.asarray(abs(factor) * measure.curve(analysis))
+        return np.broadcast_to(curve, (p, curve.shape[-1]))
+    return np.broadcast_to(factor * measure(analysis), p)[:, None]
+
+
+class Descent(NamedTuple):
+    """Where a descent ended: ``u`` are free values as shares of their bounds."""
+
+    u: np.ndarray
+    steps: int
+    finished: bool
+
+
+class Epigraph:
+    """A study in ``(u, t)``: free values as shares of their bounds, and one ``t`` for each part of the objective.
+
+    Points of curves and single numbers stand side by side as columns, first those of the objective over ``scale``,
+    then those of the limits, which are kept where <= 0.  ``margins`` says for each limit how far inside it, as a
+    share of it, the solution shall lie.  ``evaluations`` counts designs.
+    """
+
+    def __init__(self, study: Study, scale: float = 1.0, margins: Any = 0.0) -> None:
+        self.study, self.scale = study, scale
+        self.margins = np.broadcast_to(margins, len(study.limits))
+        self.evaluations = 0
+        self._last: tuple[bytes, np.ndarray] = b"", np.empty(0)
+
+    def x(self, u: np.ndarray) -> np.ndarray:
+        """Free values from shares of their bounds."""
+        low, high = self.study.bounds
+        return low + np.clip(u, 0, 1) * (high - low)
+
+    def u(self, x: np.ndarray) -> np.ndarray:
+        """Shares of the bounds from free values."""
+        low, high = self.study.bounds
+        return np.clip((x - low) / (high - low), 0, 1)
+
+    def _blocks(self, u: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """The points of each part of the objective and of each limit, for designs ``(p, n)``."""
+        self.evaluations += len(u)
+        p, analysis, heads = len(u), self.study.analyse(self.x(u)), []
+        for factor, part in parts_of(self.study.minimise[0]):
+            heads.append(points_of(part, analysis, factor / self.scale, p))
+        limits = [
+            points_of(m, analysis, sense / (abs(v) or 1.0), p) - (sense * np.sign(v) - margin)
+            for (m, v, sense), margin in zip(self.study.limits, self.margins, strict=True)
+        ]
+        return heads, limits
+
+    @cached_property
+    def _sizes(self) -> tuple[list[int], list[int]]:
+        """How many columns each part of the objective has, and each limit."""
+        heads, limits = self._blocks(np.full((1, len(self.study.free)), 0.5))
+        return [block.shape[1] for block in heads], [block.shape[1] for block in limits]
+
+    @cached_property
+    def owner(self) -> np.ndarray:
+        """The number of the ``t`` that bounds each column, -1 where 0 does."""
+        heads, limits = self._sizes
+        return np.append(np.repeat(np.arange(len(heads)), heads), np.full(sum(limits), -1))
+
+    @cached_property
+    def even(self) -> np.ndarray:
+        """Some of the columns, evenly from each part and limit."""
+        sizes = [*self._sizes[0], *self._sizes[1]]
+        return np.concatenate([np.arange(size) % (size // SEEN + 1) == 0 for size in sizes])
+
+    def columns(self, u: np.ndarray) -> np.ndarray:
+        """All columns of designs ``(p, n)``; of a design that cannot be built all are ``BAD``."""
+        heads, limits = self._blocks(u)
+        c = np.concatenate([*heads, *limits], axis=-1)
+        return np.where(np.isfinite(c).all(-1, keepdims=True), c, BAD)
+
+    def at(self, u: np.ndarray) -> np.ndarray:
+        """The columns of one design; the last one is remembered."""
+        if self._last[0] != u.tobytes():
+            self._last = u.tobytes(), self.columns(u[None])[0]
+        return self._last[1]
+
+    def slopes(self, u: np.ndarray) -> np.ndarray:
+        """Derivatives of the columns by ``u``: central differences within the bounds, all designs in one call."""
+        steps, here = STEP * np.eye(len(u)), self.at(u)
+        up, down = np.clip(u + steps, 0, 1), np.clip(u - steps, 0, 1)
+        above, below = np.split(self.columns(np.concatenate([up, down])), 2)
+        up, above = _only_built(above, (up, u), (above, here))
+        down, below = _only_built(below, (down, u), (below, here))
+        width = (up - down).sum(-1)
+        return (above - below).T / np.where(width == 0, 1, width)
+
+    def tops(self, c: np.ndarray) -> np.ndarray:
+        """The least ``t`` that bound the columns."""
+        return np.array([c[self.owner == k].max() for k in range(self.owner.max() + 1)])
+
+    def excess(self, c: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """By how much each column lies above its bound."""
+        return c - np.append(t, 0.0)[self.owner]
+
+    def descend(self, u: np.ndarray, precision: float = 1e-12) -> Descent:
+        """SLSQP from ``u``, on the columns that matter; whichever turns out to matter is added until all are kept."""
+        c = self.at(u)
+        t = self.tops(c)
+        seen = self.even | (self.excess(c, t) > -NEAR)
+        steps = 0
+        for _ in range(ROUNDS):
+            found = self._slsqp(u, t, np.flatnonzero(seen), precision)
+            u, t = np.split(found.x, [len(u)])
+            steps += found.nit
+            broken = self.excess(self.at(u), t) > KEPT
+            if not (broken & ~seen).any():
+                return Descent(u, steps, bool(found.success))
+            seen |= broken
+            t = self.tops(self.at(u))
+        return Descent(u, steps, False)
+
+    def _slsqp(self, u: np.ndarray, t: np.ndarray, seen: np.ndarray, precision: float) -> Any:
+        slope = np.concatenate([np.zeros_like(u), np.ones_like(t)])
+        by_t = (self.owner[seen, None] == np.arange(len(t))).astype(float)
+
+        def total(z: np.ndarray) -> float:
+            return BAD if (self.at(z[: len(u)]) == BAD).all() else float(z[len(u) :].sum())
+
+        def room(z: np.ndarray) -> np.ndarray:
+            return -self.excess(self.at(z[: len(u)]), z[len(u) :])[seen]
+
+        return minimize(
+            total,
+            np.concatenate([u, t]),
+            jac=lambda z: slope,
+            bounds=[(0, 1)] * len(u) + [(None, None)] * len(t),
+            constraints={
+                "type": "ineq",
+                "fun": room,
+                "jac": lambda z: np.hstack([-self.slopes(z[: len(u)])[seen], by_t]),
+            },
+            method="SLSQP",
+            options={"maxiter": STEPS, "ftol": precision},
+        )
+
+
+def _only_built(c: np.ndarray, *pairs: tuple[np.ndarray, np.ndarray]) -> list[np.ndarray]:
+    """The first of each pair, or the second where the design with the columns ``c`` cannot be built."""
+    bad = (c == BAD).all(-1, keepdims=True)
+    return [np.where(bad, second, first) for first, second in pairs]

@@ -1,0 +1,1 @@
+"""What is asked of a design: free quantities, objectives, limits; over ranges, maps and tolerances."""

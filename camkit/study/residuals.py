@@ -1,0 +1,59 @@
+"""Measures that are a sum of residuals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..kinds import applied
+from ..quantities import Measure, PeakMeasure
+from .study import WeightedSum
+
+
+@dataclass(frozen=True)
+class SumOfResiduals(Measure):
+    """The sum of ``|r|``: ``function`` gives the signed residuals ``r`` of an analysis, ``(..., m)``.
+
+    ``above_only``: the sum of ``max(r, 0)`` instead, where a residual below 0 is no fault.
+
+    >>> missed = SumOfResiduals("missed", "", lambda shot: shot - np.array([1.0, 2.0, 3.0]))
+    >>> float(missed(np.array([1.5, 2.0, 1.0])))
+    2.5
+    """
+
+    above_only: bool = False
+
+    def sides(self, analysis: Any) -> np.ndarray:
+        """Both numbers of which the larger one counts for each residual, ``(..., m, 2)``."""
+        with applied(f"the {self.name}", analysis):
+            r = self.function(analysis)
+        return np.stack([r, 0 * r if self.above_only else -r], axis=-1)
+
+    def __call__(self, analysis: Any) -> Any:
+        return self.sign * self.sides(analysis).max(-1).sum(-1)
+
+    def spelled_out(self, analysis: Any) -> WeightedSum:
+        """The same sum as one peak for each residual of ``analysis``, which `Epigraph` bounds one by one."""
+        sides = _remembered(self.sides)
+        m = sides(analysis).shape[-2]
+        peaks = tuple(PeakMeasure(f"{self.name}, {i}", self.unit, _row(sides, i)) for i in range(m))
+        return WeightedSum(self.name, self.unit, self.function, 1, peaks, (1.0,) * m, (1.0,) * m)
+
+
+def _row(sides: Callable[[Any], np.ndarray], i: int) -> Callable[[Any], np.ndarray]:
+    return lambda analysis: sides(analysis)[..., i, :]
+
+
+def _remembered(function: Callable[[Any], np.ndarray]) -> Callable[[Any], np.ndarray]:
+    """``function``, computed once for each analysis in a row: every residual asks for it."""
+    last: list[Any] = [None, None]
+
+    def of(analysis: Any) -> np.ndarray:
+        if last[0] is not analysis:
+            last[:] = analysis, function(analysis)
+        return np.asarray(last[1])
+
+    return of

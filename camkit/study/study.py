@@ -1,0 +1,287 @@
+"""A study: which numbers of a design are free, what is to be small, what must be kept.
+
+It knows measures, not mechanisms: it carries a design from numbers to measures and back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from inspect import signature
+from typing import Any
+
+import numpy as np
+
+from ..kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
+from ..quantities import Measure, Quantity, can_be_analysed, counted, quantities, unremarked, words
+
+Space = Mapping[str, tuple[float, float]]
+"""Free quantities by name, with their lower and upper bounds in SI."""
+
+
+@dataclass(frozen=True)
+class WeightedSum(Measure):
+    """Measures divided by their values at a reference design, weighted and added (see `weighted`)."""
+
+    parts: tuple[Measure, ...] = ()
+    weights: tuple[float, ...] = ()
+    reference: tuple[float, ...] = ()
+
+    def with_weights(self, weights: Any) -> WeightedSum:
+        """The same sum with other weights."""
+        return replace(weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference), sign=self.sign)
+
+
+def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[float]) -> WeightedSum:
+    """The measure ``sum(w_i * measure_i / reference_i)``; 1 at the reference if the weights add to 1.
+
+    >>> a, b = Measure("a", "", lambda x: x[0]), Measure("b", "", lambda x: x[1])
+    >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
+    1.75
+    """
+    if not isinstance(weights, Mapping):
+        raise ValueError(f"the weights are {shown(weights)}; they must be a mapping from measures to numbers")
+    reference = listed(reference, "the reference", "measure")
+    if not weights or len(weights) != len(reference):
+        raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
+    for measure, value in zip(weights, reference, strict=True):
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the weighted sum has {shown(measure)} where a Measure belongs")
+        value = one_number(value, f"the {measure.name} at the reference design", "be finite and not 0")
+        if not np.isfinite(value) or value == 0:
+            raise ValueError(f"the {measure.name} at the reference design is {value:g}; it must be finite and not 0")
+    for measure, weight in weights.items():
+        if not one_number(weight, f"the weight of the {measure.name}", "be 0 or more") >= 0:
+            raise ValueError(f"the weight of the {measure.name} is {weight:g}; it must be 0 or more")
+
+    def total(analysis: Any) -> Any:
+        return sum(w * part(analysis) / r for (part, w), r in zip(weights.items(), reference, strict=True))
+
+    return WeightedSum(
+        name, "", total, 1, tuple(weights), tuple(map(float, weights.values())), tuple(map(float, reference))
+    )
+
+
+KEPT = 1e-9
+"""A limit is kept if it is missed by no more than this share of it (of 1, if it is 0): in all of the package."""
+
+
+def keeps(value: Any, limit: float, sense: int) -> Any:
+    """Whether ``value`` keeps a limit: at most (``sense`` +1) or at least (-1) ``limit``.
+
+    >>> keeps(2.0, 2.0 * (1 - 1e-10), 1), keeps(2.0, 1.99, 1), keeps(float("nan"), 2.0, 1)
+    (True, False, False)
+    """
+    return sense * (value - limit) <= KEPT * (abs(limit) or 1.0)
+
+
+def _number(value: Any) -> bool:
+    known = number(value)
+    return known is not None and np.ndim(known) == 0
+
+
+def refuse_bounds(declared: Mapping[str, Quantity], space: Mapping[str, Any]) -> None:
+    """``ValueError`` in a sentence for bounds that are no two possible numbers, the first below the second."""
+    for name, bounds in space.items():
+        if not hasattr(bounds, "__len__") or len(bounds) != 2 or not all(map(_number, bounds)):
+            raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
+        _check_bounds(name, declared[name], *bounds)
+
+
+def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> None:
+    told = f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}"
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise ValueError(f"{told}; they must be finite, the first below the second")
+    if not (declared.allows(low) and declared.allows(high)):
+        possible = declared.possible if declared.allows(high) else declared.possible_for(high)
+        raise ValueError(f"{told}; each must be {possible}")
+    declared.remark(name, float(low))
+    declared.remark(name, float(high))
+
+
+def refuse_limits(*limits: Mapping[Any, Any]) -> None:
+    """``ValueError`` in a sentence for limits that are no finite number for a measure."""
+    for measure, limit in (item for each in limits for item in each.items()):
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
+        if not _number(limit) or not finite(limit):
+            raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
+
+
+def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
+    """The study that ``make(*given, **named)`` gives; ``ValueError`` where it cannot, or gives something else."""
+    name = getattr(make, "__name__", "that is given")
+    try:
+        signature(make).bind(*given, **named)
+    except TypeError as unfit:
+        raise ValueError(f"the function {name} cannot make a study for this panel: {unfit}") from None
+    study = make(*given, **named)
+    if not isinstance(study, Study):
+        raise ValueError(f"the function {name} makes {shown(study)}; it must make a Study")
+    return study
+
+
+def _numbers(measure: Measure, analysis: Any, p: int) -> Any:
+    """A measure of ``p`` designs, ``(p,)``."""
+    value = measure(analysis)
+    try:
+        return np.broadcast_to(value, p)
+    except ValueError:
+        shape = " x ".join(map(str, np.shape(value)))
+        raise ValueError(
+            f"the {measure.name} gives {shape} numbers for {p} designs; a measure gives one for each design"
+        ) from None
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What a study says of ``p`` designs; what cannot be built has ``inf`` objectives and is infeasible."""
+
+    x: np.ndarray
+    """Free values, ``(p, n_free)``, SI."""
+    f: np.ndarray
+    """Objectives, all to be small, ``(p, n_objectives)``."""
+    g: np.ndarray
+    """Limits as ``(value - limit) / |limit|`` with a sign so that <= 0 is kept, ``(p, n_limits)``."""
+
+    @property
+    def missed(self) -> np.ndarray:
+        """By how much each limit is missed, as a share of it; 0 where it is kept (see `KEPT`), ``(p, n_limits)``."""
+        return np.where(self.g > KEPT, self.g, 0.0)
+
+    @property
+    def feasible(self) -> np.ndarray:
+        """Which designs keep every limit, ``(p,)``."""
+        return np.isfinite(self.f).all(-1) & (self.missed == 0).all(-1)
+
+
+@dataclass(frozen=True)
+class Study:
+    """Search space, objectives and limits around a starting design.
+
+    ``free`` names fields of the design, with bounds in SI or, as a bare name, with the range that its
+    declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
+    ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.  A ``rough`` study
+    is for the first rounds of a search: where an analysis can find its peaks more quickly and less exactly, it does.
+
+    Raises ``ValueError`` for what is no design that can be analysed, for a name that is not a number of the design,
+    for bounds that are reversed, not finite or impossible, for a limit that is not finite, and for no free quantity or
+    no objective at all.  `evaluate` does for a measure that does not apply to the design.
+    """
+
+    start: Any
+    free: Any
+    minimise: tuple[Measure, ...]
+    at_most: Mapping[Measure, float] | None = None
+    at_least: Mapping[Measure, float] | None = None
+    angles: int = 361
+    rough: bool = False
+
+    def __post_init__(self) -> None:
+        if not can_be_analysed(self.start):
+            raise ValueError(
+                f"a study needs a design that can be analysed, such as a cam; it was given {shown(self.start)}"
+            )
+        given: Any = self.free
+        if not isinstance(given, (tuple, list, Mapping)) or not given:
+            raise ValueError("a study needs the names of one or more free quantities")
+        declared = quantities(self.start, self.free)
+        if not isinstance(self.free, Mapping):
+            ranges = {
+                k: (declared[k].low * declared[k].factor, declared[k].high * declared[k].factor) for k in self.free
+            }
+            object.__setattr__(self, "free", ranges)
+        if not isinstance(self.minimise, (tuple, list)) or not self.minimise:
+            raise ValueError("a study needs a tuple of one or more measures to minimise")
+        object.__setattr__(self, "minimise", tuple(self.minimise))
+        counted(self.angles, "cam angles of a study")
+        refuse_kinds(self, but=("minimise", "angles"))
+        object.__setattr__(self, "at_most", dict(self.at_most or {}))
+        object.__setattr__(self, "at_least", dict(self.at_least or {}))
+        refuse_bounds(declared, self.free)
+        for measure in self.minimise:
+            if not isinstance(measure, Measure):
+                raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
+        refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Lower and upper bounds, ``(2, n_free)``, SI."""
+        return np.array(list(self.free.values()), dtype=float).T
+
+    @property
+    def x0(self) -> np.ndarray:
+        """The starting design's free values, ``(n_free,)``, SI."""
+        return np.array([getattr(self.start, name) for name in self.free], dtype=float)
+
+    @cached_property
+    def limits(self) -> tuple[tuple[Measure, float, int], ...]:
+        """Every limit as measure, value, sense: +1 for at most, -1 for at least."""
+        assert self.at_most is not None and self.at_least is not None
+        return (
+            *((m, v, 1) for m, v in self.at_most.items()),
+            *((m, v, -1) for m, v in self.at_least.items()),
+        )
+
+    @property
+    def measures(self) -> tuple[Measure, ...]:
+        """Every measure of the objectives and limits, of a weighted sum its parts."""
+        told = (*self.minimise, *(measure for measure, _, _ in self.limits))
+        return tuple(part for m in told for part in (m.parts if isinstance(m, WeightedSum) else (m,)))
+
+    def design(self, x: Any) -> Any:
+        """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
+        x = numbers(x, "the free values")
+        if np.shape(x)[-1:] != (len(self.free),):
+            raise ValueError(f"the design has {np.size(x)} values; this study has {len(self.free)} free quantities")
+        columns = (
+            [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
+        )
+        with unremarked():
+            return self.start.replace(**dict(zip(self.free, columns, strict=True)))
+
+    def analyse(self, x: Any) -> Any:
+        """The analysis of the design or population ``x``."""
+        analysis = self.design(x).analyse(self.angles)
+        return replace(analysis, rough=True) if self.rough and hasattr(analysis, "rough") else analysis
+
+    def evaluate(self, x: Any) -> Evaluation:
+        """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
+        try:
+            x = np.atleast_2d(numbers(x, "the free values"))
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError("x must be a table of numbers, a row for each design") from None
+        if x.ndim > 2:
+            raise ValueError(f"x has the shape {x.shape}; it must be a table, a row for each design")
+        if x.shape[1] != len(self.free):
+            raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
+        return self.judge(x, self.analyse(x))
+
+    def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
+        """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
+        f = self._columns([_numbers(measure, analysis, len(x)) for measure in self.minimise], len(x))
+        limits = [(_numbers(m, analysis, len(x)), v, sense) for m, v, sense in self.limits]
+        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
+        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
+
+    @staticmethod
+    def _columns(values: list[Any], p: int) -> np.ndarray:
+        return np.stack(values, axis=-1) if values else np.zeros((p, 0))
+
+    def worst_miss(self, g: np.ndarray) -> str:
+        """Which limit one design, with ``g`` of an `Evaluation`, misses by most and by how much, in words."""
+        i = int(np.argmax(g))
+        measure, limit, sense = self.limits[i]
+        missed = g[i] * (abs(limit) or 1.0)
+        bound = "at most" if sense > 0 else "at least"
+        return f"the {measure.name} of {bound} {measure.text(limit)} by {measure.text(missed)}"
+
+    def weighing(self, weights: Any) -> Study:
+        """The same study with other weights in the objectives that are weighted sums."""
+        changed = (m.with_weights(weights) if isinstance(m, WeightedSum) else m for m in self.minimise)
+        return replace(self, minimise=tuple(changed))
+
+    def replace(self, **changes: Any) -> Study:
+        """The same study with some fields changed."""
+        return replace(self, **changes)

@@ -1,0 +1,273 @@
+"""Files for the workshop: a table or a drawing holds the profile that was analysed, or what the tool leaves of it."""
+
+import csv
+import io
+
+import ezdxf
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial import cKDTree
+
+from camkit import (
+    DoorHandleCam,
+    HighSpeedCam,
+    OscillatingFlatCam,
+    OscillatingRollerCam,
+    TranslatingFlatCam,
+    TranslatingRollerCam,
+    ValveCam,
+    profile_csv,
+    profile_dxf,
+)
+from camkit.cam.flank import flanks
+from camkit.machines.valve_train import ROLLER
+from camkit.motion import Cycloidal, Dwell, FreePolynomial, MotionProgram, Poly345, Return, Rise
+from camkit.units import deg, mm
+
+WHOLE_DOOR = DoorHandleCam(lift_arm=45 * mm, relief_arm=80 * mm, relief_cam_angle=75 * deg, roller_radius=3 * mm)
+"""A groove that its roller can make."""
+
+# ---------------------------------------------------------------- CSV
+
+
+@pytest.mark.parametrize("design", [WHOLE_DOOR, OscillatingRollerCam()], ids=lambda d: type(d).__name__)
+def test_the_table_holds_the_analysis(design):
+    analysis = design.analyse(181)
+    rows = list(csv.DictReader(profile_csv(analysis).splitlines()))
+    assert len(rows) == analysis.pitch.shape[-1]
+    assert [row["stretch"] for row in rows] == analysis.stretch.tolist()
+    column = {name: np.array([float(row[name]) for row in rows]) for name in rows[0] if name != "stretch"}
+    assert_allclose(column["cam_angle_deg"], analysis.profile_angle / deg, rtol=0, atol=0.5e-6 + 1e-12)
+    for name in ("pitch", "profile", "outer_profile"):
+        for axis, values in zip("xy", getattr(analysis, name), strict=True):
+            assert_allclose(column[f"{name}_{axis}_mm"], values / mm, rtol=0, atol=0.5e-6 + 1e-12)
+
+
+@pytest.mark.parametrize("cam", [WHOLE_DOOR, TranslatingRollerCam(groove=False), ValveCam()])
+def test_a_drawing_holds_the_points_of_the_profile_in_mm(cam):
+    """Read back by ezdxf: every point of the profile, in order, closed exactly where the whole cam is."""
+    analysis = cam.analyse()
+    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
+    assert drawing.units == ezdxf.units.MM
+    assert not drawing.audit().errors
+    (curve,) = drawing.modelspace().query('LWPOLYLINE[layer=="profile"]')
+    points = 1e3 * getattr(analysis, "whole", analysis).profile.T
+    assert curve.closed == (np.hypot(*(points[0] - points[-1])) < 1e-6)
+    assert_allclose(np.array(curve.get_points("xy")), points[: len(points) - curve.closed], atol=1e-9)
+
+
+def test_a_population_is_not_drawn():
+    many = TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]]))
+    with pytest.raises(ValueError, match="this is a population; the profile of one design can be written"):
+        profile_dxf(many.analyse())
+
+
+# ---------------------------------------------------------------- what the tool leaves
+
+
+def program(lift, angle=60 * deg, law=Cycloidal()):  # noqa: B008
+    return MotionProgram(
+        (Rise(angle, lift, law), Dwell(20 * deg), Return(angle, lift, Cycloidal()), Dwell(340 * deg - 2 * angle))
+    )
+
+
+JOLT = FreePolynomial(start=(0, 0, 0), end=(1, 1.5))
+"""Ends with a velocity that drops to 0 at once."""
+UNDERCUT = {
+    "flat face": TranslatingFlatCam(program(25 * mm), 20 * mm),
+    "face on an arm": OscillatingFlatCam(program(8 * deg), face_offset=-4 * mm, arm_length=200 * mm),
+    "roller": TranslatingRollerCam(
+        program(25 * mm, 40 * deg), base_radius=15 * mm, roller_radius=16 * mm, groove=False
+    ),
+    "groove": TranslatingRollerCam(program(25 * mm), base_radius=15 * mm, roller_radius=12 * mm),
+    "roller on an arm": OscillatingRollerCam(program(25 * deg, 45 * deg), roller_radius=16 * mm),
+    "drop of speed": TranslatingRollerCam(program(15 * mm, 90 * deg, JOLT), base_radius=30 * mm, roller_radius=8 * mm),
+    "door handle": DoorHandleCam(),
+    "high speed": HighSpeedCam(roller_radius=118 * mm),
+    "valve, flat face": ValveCam(base_radius=12 * mm),
+    "valve, roller": ValveCam(follower=ROLLER, roller_radius=20 * mm, base_radius=12 * mm, half_angle=40 * deg),
+    "open groove": OscillatingRollerCam(
+        MotionProgram((Rise(45 * deg, 25 * deg, Cycloidal()), Return(45 * deg, 25 * deg, Cycloidal()))),
+        roller_radius=16 * mm,
+    ),
+    "second cam of a pair": TranslatingRollerCam(program(25 * mm, 40 * deg), groove=False).conjugate(80 * mm, 16 * mm),
+}
+every_undercut = pytest.mark.parametrize("name", UNDERCUT)
+
+
+def whole(cam, n):
+    analysis = cam.analyse(n)
+    return getattr(analysis, "whole", analysis)
+
+
+def depth_in_tool(cam, points, n=20_001):
+    """How deep points lie in the roller or the face at any of many cam angles, m; by distances alone."""
+    fine = whole(cam, n)
+    normals = getattr(fine, "face_normal", None)
+    if normals is None:
+        return cam.roller_radius - cKDTree(fine.pitch.T).query(points.T)[0]
+    return np.array([(normals.T @ p - (normals * fine.profile).sum(0)).max() for p in points.T])
+
+
+def distance_to(pieces, points):
+    """From points to polylines, m."""
+    least = np.full(points.shape[1], np.inf)
+    for piece in pieces:
+        line = np.column_stack([piece.points, piece.points[:, :1]]) if piece.closed else piece.points
+        start, along = line[:, :-1], np.diff(line)
+        along = np.where(abs(along).max(0) > 0, along, 1e-15)
+        for k, p in enumerate(points.T):
+            share = np.clip(((p[:, None] - start) * along).sum(0) / (along**2).sum(0), 0, 1)
+            least[k] = min(least[k], np.hypot(*(p[:, None] - start - share * along)).min())
+    return least
+
+
+def crossings(pieces):
+    """How often polylines cross themselves or each other, by the sides on which ends of segments lie."""
+    lines = [np.column_stack([p.points, p.points[:, :1]]) if p.closed else p.points for p in pieces]
+    a, b = (np.hstack([line[:, i : i - 1 or None] for line in lines]) for i in (0, 1))
+
+    def side(r):
+        along = b - a
+        return along[0][:, None] * (r[1] - a[1][:, None]) - along[1][:, None] * (r[0] - a[0][:, None])
+
+    divided = side(a) * side(b) < 0
+    divided &= divided.T
+    return int(divided.sum()) // 2
+
+
+@pytest.mark.slow
+@every_undercut
+def test_the_tool_covers_nothing_of_what_it_leaves_and_leaves_nothing_out(name):
+    cam = UNDERCUT[name]
+    made = flanks(whole(cam, 2001))
+    assert made.cuts
+    for piece in made.left:
+        assert depth_in_tool(cam, piece.points).max() <= 1e-6, piece.flank
+    assert crossings(made.left) == 0
+    for flank, theory in flanks(whole(cam, 401)).theory.items():
+        free = theory[:, depth_in_tool(cam, theory) < 1e-8]
+        assert distance_to([p for p in made.left if p.flank == flank], free).max() < 5e-6, flank
+    covered = [depth_in_tool(cam, piece.points[:, 1:-1]).max() for piece in made.lost if piece.points.shape[1] > 3]
+    assert max(covered) > 1e-6
+
+
+@every_undercut
+def test_the_follower_stays_from_its_place_by_as_much_as_is_said(name):
+    cam = UNDERCUT[name]
+    analysis = whole(cam, 721)
+    made = flanks(analysis)
+    for cut in made.cuts:
+        flank = [piece for piece in made.left if piece.flank == cut.flank]
+        angle = analysis.profile_angle
+        after, before = angle >= cut.start, angle <= cut.end
+        inside = np.flatnonzero((after & before if cut.start <= cut.end else after | before) & made.cut_away[cut.flank])
+        normals = getattr(analysis, "face_normal", None)
+        if normals is None:
+            gap = distance_to(flank, analysis.pitch[:, inside]).max() - cam.roller_radius
+        else:
+            left = np.hstack([piece.points for piece in flank])
+            reach = (normals * analysis.profile).sum(0)[inside]
+            gap = (reach - (normals[:, inside].T @ left).max(1)).max()
+        assert cut.gap == pytest.approx(gap, rel=0.01, abs=3e-6)
+        assert str(cut) in made.message
+
+
+@every_undercut
+def test_an_undercut_cam_is_marked_in_table_and_drawing(name):
+    analysis = whole(UNDERCUT[name], 721)
+    made = flanks(analysis)
+    rows = list(csv.DictReader(profile_csv(analysis).splitlines()))
+    assert len(rows) == len(analysis.profile_angle)
+    for flank, away in made.cut_away.items():
+        assert [flank in row["undercut"].split(" and ") for row in rows] == away.tolist()
+        key = flank.replace(" ", "_")
+        table, theory = (
+            np.array([[float(row[f"{k}_{axis}_mm"]) for row in rows] for axis in "xy"]) * mm
+            for k in (key, f"theory_{key}")
+        )
+        assert_allclose(theory, made.theory[flank], rtol=0, atol=1e-9)
+        assert_allclose(table[:, ~away], theory[:, ~away], rtol=0, atol=1e-9)
+        assert depth_in_tool(UNDERCUT[name], table).max() <= 1e-6
+        assert distance_to([p for p in made.left if p.flank == flank], table).max() < 1e-8
+    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
+    assert not drawing.audit().errors
+    drawn = drawing.modelspace().query('LWPOLYLINE[layer=="profile"]')
+    lines = [np.array(line.get_points("xy")).T * mm for line in drawn]
+    left = [piece for piece in made.left if piece.flank == "profile"]
+    assert [line.shape for line in lines] == [piece.points.shape for piece in left]
+    for line, piece in zip(lines, left, strict=True):
+        assert_allclose(line, piece.points, rtol=0, atol=1e-12)
+    assert len(drawing.modelspace().query('LWPOLYLINE[layer=="FAULT"]')) == len(made.lost)
+    (sentence,) = drawing.modelspace().query('TEXT[layer=="FAULT"]')
+    assert sentence.dxf.text == made.message
+
+
+@pytest.mark.parametrize(
+    "cam",
+    [
+        TranslatingRollerCam(),
+        TranslatingFlatCam(base_radius=40 * mm),
+        OscillatingRollerCam(),
+        OscillatingFlatCam(),
+        HighSpeedCam(),
+        ValveCam(follower=ROLLER),
+        WHOLE_DOOR,
+        TranslatingRollerCam(roller_radius=0.0),
+    ],
+    ids=lambda cam: type(cam).__name__,
+)
+def test_a_cam_that_its_tool_can_make_is_written_as_it_is(cam):
+    analysis = whole(cam, 721)
+    made = flanks(analysis)
+    assert not made.cuts
+    assert not made.lost
+    assert made.message == ""
+    assert "undercut" not in profile_csv(analysis)
+    assert "FAULT" not in profile_dxf(analysis)
+    for flank, points in made.points.items():
+        assert_array_equal(points, made.theory[flank])
+
+
+@pytest.mark.parametrize("first", [40 * deg, 0.0], ids=["in the turn", "where it begins"])
+def test_a_roller_turns_about_a_corner_of_its_path(first):
+    """A rise of speed at once: the inner flank has an arc of the roller there, not its chord."""
+    rise = Rise(90 * deg, 15 * mm, FreePolynomial(start=(0, 1.5), end=(1, 0, 0)))
+    moves = (rise, Dwell(50 * deg), Return(90 * deg, 15 * mm, Poly345()), Dwell(130 * deg - first))
+    motion = MotionProgram((Dwell(first), *moves) if first else moves)
+    cam = TranslatingRollerCam(motion, base_radius=30 * mm, roller_radius=10 * mm, groove=False)
+    made = flanks(cam.analyse())
+    (piece,) = made.left
+    assert piece.closed
+    assert not made.cuts
+    assert depth_in_tool(cam, piece.points).max() < 1e-6
+    ends = np.column_stack([piece.points, piece.points[:, :1]])
+    assert depth_in_tool(cam, (ends[:, :-1] + ends[:, 1:]) / 2).max() < 5e-6  # the chord would lie 0.17 mm deep
+    assert (distance_to([piece], cam.analyse(20_001).profile) < 5e-6).all()
+
+
+@pytest.mark.parametrize("kind", [TranslatingRollerCam, TranslatingFlatCam])
+def test_a_drop_of_speed_where_the_turn_begins_is_cut(kind):
+    moves = (Dwell(90 * deg), Return(90 * deg, 15 * mm, Poly345()), Dwell(90 * deg), Rise(90 * deg, 15 * mm, JOLT))
+    motion = MotionProgram(moves, 15 * mm)
+    cam = kind(motion=motion, base_radius=45 * mm)
+    made = flanks(cam.analyse())
+    (cut,) = [cut for cut in made.cuts if cut.flank == "profile"]
+    assert cut.start > 340 * deg
+    assert cut.end < 20 * deg
+    for piece in made.left:
+        assert piece.closed
+        assert depth_in_tool(cam, piece.points).max() <= 1e-6
+    assert crossings(made.left) == 0
+
+
+def test_the_walls_of_a_groove_that_meets_itself_merge():
+    """Rise over 350 deg by 5 mm, roller of 8 mm: its ends lie in each other's way."""
+    cam = TranslatingRollerCam(MotionProgram((Rise(350 * deg, 5 * mm, Cycloidal()),)), roller_radius=8 * mm)
+    made = flanks(cam.analyse())
+    assert made.cuts
+    assert {piece.flank for piece in made.lost} == {"profile", "groove end"}
+    for piece in made.left:
+        assert depth_in_tool(cam, piece.points).max() <= 1e-6
+    assert crossings(made.left) == 0

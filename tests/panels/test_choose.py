@@ -1,0 +1,455 @@
+"""The decision panel and its views against the package's own winners, weights and numbers."""
+
+import re
+from dataclasses import dataclass
+
+import ipywidgets as w
+import numpy as np
+import pytest
+from ipywidgets.widgets.widget import _instances
+from matplotlib.colors import to_rgb
+from matplotlib.path import Path
+from numpy.testing import assert_allclose
+
+from camkit import DoorHandleCam, Measure, Study, ahp, ahp_panel, door_handle_study, explore, try_everything
+from camkit.decision.ahp import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
+from camkit.files.designs import Work, from_json, to_json
+from camkit.panels.choose import choose_panel
+from camkit.panels.kit.picture import ImageWidget
+from camkit.quantities import Design, quantity
+from camkit.render.artists import _find, moving
+from camkit.render.decision import APART, MARKS, decision, front_winners, judgement_bars, triangle, winners_by_weight
+from camkit.render.parallel import Column, Designs, parallel_coordinates
+from camkit.render.picture import draw, layout
+from camkit.search.nsga2 import Front, front_of
+from camkit.units import mm
+
+
+@dataclass(frozen=True)
+class Plate(Design):
+    """A plate of two lengths."""
+
+    width: float = quantity("b", 30, 10, 60, "mm", "its width")
+    height: float = quantity("h", 30, 10, 60, "mm", "its height")
+
+    def analyse(self, n=1):
+        return self
+
+
+def flat(x):
+    return np.sum(x, axis=-1) if np.ndim(x) else x
+
+
+area = Measure("area", "mm^2", lambda p: flat(p.width * p.height))
+slim = Measure("width", "mm", lambda p: flat(p.width))
+tall = Measure("height", "mm", lambda p: flat(p.height))
+round_ = Measure("edge", "mm", lambda p: flat(2 * (p.width + p.height)))
+slope = Measure("slope", "", lambda p: flat(p.height / p.width))
+GOALS = ((slim,), (slim, -area), (slim, -area, slope), (slim, -area, slope, -tall))
+
+
+def a_front(k, n=9):
+    study = Study(Plate(), ("width", "height"), GOALS[k - 1], at_most={round_: 200 * mm})
+    grid = np.stack(np.meshgrid(*[np.linspace(*b, n) for b in study.bounds.T]), -1).reshape(-1, 2)
+    return front_of(study.evaluate(grid), study)
+
+
+UPPERS = {1: None, 2: [2], 3: [2, 3, None], 4: [2, 3, 4, 2, 2, 1]}
+
+
+def drawn(shown, view):
+    _, axes = layout((view,), width=6, height=5)
+    draw(shown, axes, (view,))
+    axes[0].figure.canvas.draw()
+    return axes[0]
+
+
+def xy(ax, key):
+    return np.array(_find(ax, key).get_data(), dtype=float)
+
+
+# --- the views --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_a_decision_is_what_the_package_says(k):
+    front = a_front(k)
+    shown = decision(front, UPPERS[k])
+    weights = np.ones(1) if k == 1 else ahp(UPPERS[k]).weights
+    assert_allclose(shown.weights, weights)
+    assert shown.winners == {rule: CHOOSERS[rule](front, weights) for rule in MARKS}
+    assert set(shown.colours) == set(shown.winners.values())
+    assert len(set(shown.colours.values())) == len(shown.colours)
+    for rule in WEIGHING:
+        assert shown.ranges[rule] == (() if k == 1 else judgement_ranges(front, UPPERS[k], CHOOSERS[rule]))
+        assert (shown.maps[rule].winners == winner_map(front, CHOOSERS[rule]).winners).all()
+    names = [*(m.name for m in front.study.minimise), "width", "height", "edge"]
+    assert [column.name for column in shown.designs.columns] == names
+    values = shown.designs.values
+    assert_allclose(values[:, k : k + 2], front.x / mm)
+    assert_allclose(values[:, k + 2], 2 * front.x.sum(1) / mm)
+    assert_allclose(values[:, 0], front.f[:, 0] / mm)
+    if k > 1:
+        assert_allclose(values[:, 1], -front.f[:, 1] / mm**2)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+@pytest.mark.parametrize("view", [front_winners, winners_by_weight, judgement_bars])
+@pytest.mark.filterwarnings("error")
+def test_every_view_of_one_to_four_objectives_is_moved_and_not_drawn_again(k, view):
+    shown = decision(a_front(k), UPPERS[k])
+    ax = drawn(shown, view)
+    artists = moving(ax)
+    other = shown.judged(None if k == 1 else np.ones((k, k)))
+    draw(other, [ax], (view,))
+    ax.figure.canvas.draw()
+    assert moving(ax) == artists
+
+
+def test_marks_are_at_the_winners_in_their_designs_colours():
+    front = a_front(2)
+    shown = decision(front, [5])
+    ax = drawn(shown, front_winners)
+    for rule in MARKS:
+        i = CHOOSERS[rule](front, ahp([5]).weights)
+        assert_allclose(xy(ax, rule).ravel(), [front.f[i, 0] / mm, -front.f[i, 1] / mm**2])
+        assert _find(ax, rule).get_markeredgecolor() == shown.colours[i]
+
+
+def colour_at(ax, key, x, y):
+    """The colour of the region of a map at a point, if one of ``key`` is there."""
+    found = [a for a in ax.patches if a.get_gid().startswith(f"{key} ") and _covers(a, x, y)]
+    return to_rgb(found[0].get_facecolor()) if found else None
+
+
+def _covers(patch, x, y):
+    pieces = np.split(patch.get_xy(), np.flatnonzero(np.isnan(patch.get_xy()[:, 0])))
+    pieces = [piece[np.isfinite(piece).all(1)] for piece in pieces]
+    return any(len(piece) > 2 and Path(piece).contains_point((x, y)) for piece in pieces)
+
+
+def test_the_triangle_has_the_winners_colour_at_every_weighting():
+    front = a_front(3)
+    shown = decision(front, [2, 3, None])
+    ax = drawn(shown, winners_by_weight)
+    for weights in 0.05 + 0.85 * np.random.default_rng(5).dirichlet(np.ones(3), 12):
+        for k, (rule, choose) in enumerate((("weighted sum", weighted_sum), ("TOPSIS", topsis))):
+            near = weights + 0.012 * (np.eye(3) - 1 / 3)  # nothing else wins near by
+            if len({choose(front, v) for v in (weights, *near, *(2 * weights - near))}) > 1:
+                continue
+            x, y = triangle(weights) + np.array([k * APART, 0])
+            winner = choose(front, weights)
+            colour = colour_at(ax, rule, x, y)
+            assert shown.winner_at(x, y) == winner
+            assert (colour == to_rgb(shown.colours[winner])) if winner in shown.colours else colour is not None
+    x, y = xy(ax, "weighted sum now").ravel()
+    assert_allclose((x, y), triangle(ahp([2, 3, None]).weights))
+    assert_allclose(triangle(np.eye(3)[1]), (0, 0), atol=1e-12)
+
+
+def test_the_line_of_weights_changes_colour_where_the_winner_changes():
+    front = a_front(2)
+    shown = decision(front, [1])
+    ax = drawn(shown, winners_by_weight)
+    told = judgement_ranges(front, [1])[0]
+    for ratio in np.geomspace(told.low * 1.02, told.high * 0.98, 5):
+        colour = colour_at(ax, "weighted sum", 100 * ratio / (1 + ratio), 0)
+        assert colour == to_rgb(shown.colours[shown.winners["weighted sum"]])
+    for ratio in (told.low * 0.95, told.high * 1.05):
+        assert shown.winner_at(100 * ratio / (1 + ratio), 0) == weighted_sum(front, [ratio, 1])
+        assert shown.winner_at(100 * ratio / (1 + ratio), 0) != shown.winners["weighted sum"]
+    assert_allclose(xy(ax, "now")[0], 50)
+
+
+def test_bars_end_where_the_winner_changes():
+    shown = decision(a_front(3), [2, 3, None])
+    ax = drawn(shown, judgement_bars)
+    for rule in WEIGHING:
+        for p, told in enumerate(shown.ranges[rule]):
+            assert_allclose(xy(ax, f"{p} {rule}")[0], (told.low, told.high))
+            assert_allclose(xy(ax, f"{p} {rule} now")[0], told.judged)
+            beyond = "stays" if told.above is None else f"then {told.above}"
+            assert _find(ax, f"{p} {rule} above").get_text() == beyond
+
+
+VALUES = np.array([[1.0, 40, 7], [2, 30, 7], [4, 20, 7], [5, 10, 7]])
+COLUMNS = (Column("one", "mm", 1), Column("two", "", -1), Column("three", "N"))
+
+
+def test_parallel_coordinates_part_what_the_bands_keep():
+    shown = Designs(COLUMNS, VALUES, bands={0: (1.5, 5), 1: (15, 50)}, marked={3: "#E69F00"}, selected=1)
+    assert shown.kept.tolist() == [False, True, True, False]
+    ax = drawn(shown, parallel_coordinates)
+    heights = np.array([[0, 1, 0.5], [0.25, 2 / 3, 0.5], [0.75, 1 / 3, 0.5], [1, 0, 0.5]])
+    for key, rows in (("kept", [1, 2]), ("left out", [0, 3]), ("in the sliders", [1]), ("marked 0", [3])):
+        x, y = xy(ax, key)
+        assert_allclose(y[np.isfinite(x)].reshape(-1, 3), heights[rows])
+        assert_allclose(x[np.isfinite(x)].reshape(-1, 3), [[0, 1, 2]] * len(rows))
+    assert_allclose(_find(ax, "band 0").get_xy()[:4, 1], [0.125, 0.125, 1, 1])
+    assert np.isnan(_find(ax, "band 2").get_xy()[:, 1]).all()
+    assert _find(ax, "name 0").get_text() == "one\n[mm]\n↓ better"
+    assert (_find(ax, "low 1").get_text(), _find(ax, "high 1").get_text()) == ("10", "40")
+    assert shown.value(1, 0.5) == 25
+    assert shown.nearest(0.5, 0.46) == 1  # halfway from 0.25 to 2/3
+    assert shown.nearest(0, 0.1) == 1  # design 0 is nearer, but left out
+    assert Designs(COLUMNS, VALUES, bands={0: (9, 10)}).nearest(0, 0) is None
+
+
+# --- the panel --------------------------------------------------------------------------------------------------------
+
+
+class Source:
+    """What a decision asks of a panel with a front."""
+
+    def __init__(self, front, importance=None):
+        self.front, self.importance, self.followers = front, importance, []
+        self.explorer = explore(Plate(), lambda analysis, ax: ax, width=3, height=2)
+
+    def on_front(self, act):
+        self.followers.append(act)
+
+    def select(self, i):
+        self.explorer.load(self.front[i])
+
+    def show(self, front):
+        self.front = front
+        for act in self.followers:
+            act()
+
+
+@pytest.fixture
+def source():
+    return Source(a_front(3), ahp_panel([m.name for m in GOALS[2]], [2, 3, None]))
+
+
+def rows(panel):
+    found = [re.findall("<td>(.*?)</td>", row) for row in panel._table.value.split("<tr>")[2:]]
+    return {re.sub("<.*?>", "", cells[0]): cells[1:] for cells in found}
+
+
+def inside(box, kind):
+    children = getattr(box, "children", ())
+    return [c for c in children if isinstance(c, kind)] + [x for c in children for x in inside(c, kind)]
+
+
+def press(panel, words):
+    next(b for b in inside(panel, w.Button) if b.description == words).click()
+
+
+def at(panel, x, y, picture=0):
+    """A point of the picture as the page tells it."""
+    width, height = panel._pictures[picture].figure.canvas.get_width_height()
+    across, up = panel._pictures[picture].axes[0].transData.transform((x, y))
+    return across / width, 1 - up / height
+
+
+def test_the_table_has_every_rules_winner(source):
+    panel = choose_panel(source)
+    for rule in MARKS:
+        i = CHOOSERS[rule](source.front, source.importance.weights)
+        f, x = source.front.f[i], source.front.x[i]
+        assert rows(panel)[rule][:6] == [
+            str(i), slim.text(f[0]), area.text(-f[1]), slope.text(f[2]), f"{x[0] / mm:.5g} mm", f"{x[1] / mm:.5g} mm",
+        ]  # fmt: skip
+    share = winner_map(source.front, topsis).shares[panel.shown.winners["TOPSIS"]]
+    assert rows(panel)["TOPSIS"][6] == f"{100 * share:.0f} %"
+
+
+def test_a_judgement_moves_winners_and_ranges(source):
+    panel = choose_panel(source)
+    before = panel._pictures[1].widget.data
+    source.importance.boxes[(0, 1)].value = "1/7"
+    weights = ahp([1 / 7, 3, None]).weights
+    assert_allclose(panel.shown.weights, weights)
+    assert rows(panel)["weighted sum"][0] == str(weighted_sum(source.front, weights))
+    assert panel.shown.ranges["TOPSIS"] == judgement_ranges(source.front, [1 / 7, 3, None], topsis)
+    assert panel._pictures[1].widget.data != before
+    source.importance.method.value = "geometric"
+    assert_allclose(panel.shown.weights, ahp([1 / 7, 3, None], "geometric").weights)
+
+
+def test_each_winner_can_be_loaded_and_is_marked(source):
+    panel = choose_panel(source)
+    for rule, i in panel.shown.winners.items():
+        press(panel, rule)
+        assert source.explorer.design == source.front[i]
+        assert panel.designs.selected == i
+    source.explorer.load(Plate(width=11.1 * mm))
+    assert panel.designs.selected is None
+
+
+def test_a_dragged_band_keeps_what_is_inside_and_a_click_drops_it(source):
+    panel = choose_panel(source)
+    values = panel.designs.values[:, 0]
+    low, high = values.min(), values.max()
+    panel._pointer("press", *at(panel, 0.02, 0.3))
+    panel._pointer("drag", *at(panel, 0.02, 0.6))
+    panel._pointer("drag", *at(panel, 0.30, 0.8))
+    panel._pointer("release", *at(panel, 0.30, 0.8))
+    band = panel.designs.bands[0]
+    assert_allclose(band, (low + 0.3 * (high - low), low + 0.8 * (high - low)), rtol=1e-6)
+    inside_band = (band[0] <= values) & (values <= band[1])
+    assert (panel.designs.kept == inside_band).all()
+    assert f"{inside_band.sum()} of {len(values)} designs kept" in panel._count.value
+    assert_allclose(panel.band.value, band)
+    panel._pointer("press", *at(panel, 0, 0.5))
+    panel._pointer("click", *at(panel, 0, 0.5))
+    assert panel.designs.bands == {}
+    assert panel.designs.kept.all()
+
+
+def test_a_band_can_be_set_with_the_keys_too(source):
+    panel = choose_panel(source)
+    panel.axis.value = 3
+    values = panel.designs.values[:, 3]
+    assert (panel.band.min, panel.band.max) == (values.min(), values.max())
+    panel.band.value = (values.min(), 30)
+    assert (panel.designs.kept == (values <= 30)).all()
+    press(panel, "Keep all")
+    assert panel.designs.kept.all()
+    assert panel.band.value == (values.min(), values.max())
+
+
+def test_a_click_on_a_line_loads_its_design(source):
+    panel = choose_panel(source)
+    heights = panel.designs.height(panel.designs.values)
+    for i in (0, 5):
+        y = heights[i, 0] + 0.5 * (heights[i, 1] - heights[i, 0])
+        expected = panel.designs.nearest(0.5, y)
+        panel._pointer("press", *at(panel, 0.5, y))
+        panel._pointer("click", *at(panel, 0.5, y))
+        assert source.explorer.design == source.front[expected]
+
+
+def test_a_click_on_the_map_loads_the_winner_there(source):
+    panel = choose_panel(source)
+    weights = np.array([0.1, 0.1, 0.8])
+    panel._clicked_map(*at(panel, *triangle(weights), picture=1))
+    assert source.explorer.design == source.front[weighted_sum(source.front, weights)]
+    shown = source.explorer.design
+    panel._clicked_map(*at(panel, 1.3, 0.5, picture=1))  # beside the triangles
+    assert source.explorer.design == shown
+
+
+def test_bands_stay_with_a_new_front_of_the_same_study_and_go_with_another(source):
+    panel = choose_panel(source)
+    panel._keep(0, (20.0, 40.0))
+    source.show(a_front(3, n=7))
+    assert panel.designs.bands == {0: (20.0, 40.0)}
+    source.show(a_front(2))
+    assert panel.designs.bands == {}
+    assert_allclose(panel.shown.weights, 0.5)  # the judgements are for three objectives
+
+
+def test_without_a_front_there_is_a_sentence(source):
+    full, study = source.front, source.front.study
+    source.front = Front(study, np.zeros((0, 2)), np.zeros((0, 3)), "no design can be built")
+    panel = choose_panel(source)
+    assert "There is no front to choose from yet: run a search. no design can be built" in panel._banner.value
+    assert panel._body.layout.display == "none"
+    assert panel._repr_mimebundle_()["text/plain"].startswith("There is no front")
+    source.show(full)
+    assert panel._body.layout.display == ""
+    assert panel.summary().startswith("weighted sum: design ")
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_one_to_four_objectives(k):
+    source = Source(a_front(k))
+    panel = choose_panel(source, measures=(round_, slope))
+    assert_allclose(panel.shown.weights, 1 / k)
+    assert panel._repr_mimebundle_()["image/png"]
+    assert len(panel.sureness) == (0 if k == 1 else 2)
+    press(panel, "knee")
+    assert source.explorer.design == source.front[panel.shown.winners["knee"]]
+    assert try_everything(panel) == ("1 control moved" if k == 1 else "2 controls moved")  # one design has no band
+    assert panel.designs.bands == {}
+
+
+def test_pictures_are_built_once_and_closed_when_others_take_their_place(source):
+    def alive():
+        return [x for x in _instances.values() if isinstance(x, ImageWidget)]
+
+    before = alive()
+    panel = choose_panel(source)
+    first = [picture.widget for picture in panel._pictures]
+    assert [x for x in alive() if x not in before] == first
+    source.show(a_front(3, n=7))
+    assert [picture.widget for picture in panel._pictures] == first
+    for k in (2, 3, 2):
+        source.show(a_front(k))
+        assert [x for x in alive() if x not in before] == [picture.widget for picture in panel._pictures]
+    assert not set(first) & set(alive())
+
+
+def test_an_empty_front_between_two_studies_leaves_no_axes_of_the_first(source):
+    panel = choose_panel(source)
+    drawn_for_three = panel._pictures[0]
+    study = a_front(2).study
+    source.show(Front(study, np.zeros((0, 2)), np.zeros((0, 2)), "stopped"))
+    source.show(a_front(2))
+    assert panel._pictures[0] is not drawn_for_three
+
+
+def test_the_band_is_called_after_its_axis(source):
+    panel = choose_panel(source)
+    for name, unit in (("width", "mm"), ("slope", "")):
+        panel.axis.value = [c.name for c in panel.designs.columns].index(name)
+        assert f"data-name='{name}{', ' * bool(unit)}{unit}'" in panel._count.value
+
+
+# --- judgements typed and left open -----------------------------------------------------------------------------------
+
+
+def test_a_typed_judgement_counts_exactly_and_moves_the_slider():
+    panel = ahp_panel(["a", "b", "c"], [1, 1, 1])
+    for words, value in (("3.7", 3.7), ("1/3", 1 / 3), (" 2 / 5 ", 0.4), ("0,25", 0.25)):
+        panel.boxes[(0, 1)].value = words
+        assert panel.upper == [value, 1, 1]
+        assert panel.sliders[(0, 1)].value == value
+    assert panel.boxes[(0, 1)].value == "1/4"
+    panel.sliders[(0, 1)].value = 5.0
+    assert panel.boxes[(0, 1)].value == "5"
+    assert_allclose(panel.weights, ahp([5, 1, 1]).weights)
+
+
+def test_an_empty_box_leaves_a_pair_open():
+    panel = ahp_panel(["a", "b", "c"], [2, 8, 4])
+    panel.boxes[(0, 2)].value = ""
+    assert panel.upper == [2, None, 4]
+    assert_allclose(panel.weights, ahp([2, None, 4]).weights)
+    assert panel.sliders[(0, 2)].value == 8
+    assert "camkit-unjudged" in panel.sliders[(0, 2)]._dom_classes
+    assert "<td>(8)</td>" in panel._matrix.value
+    assert "not judged: 1" in panel.summary()
+    panel.boxes[(0, 1)].value = "?"
+    assert panel.upper == [2, None, 4]
+    assert "The judgement of a against b stays as it was: no judgement connects criterion 1" in panel._banner.value
+    assert panel.boxes[(0, 1)].value == "2"
+    panel.sliders[(0, 2)].value = 7.0
+    assert panel.upper == [2, 7, 4]
+    assert "camkit-unjudged" not in panel.sliders[(0, 2)]._dom_classes
+
+
+@pytest.mark.parametrize(
+    "words", ["many", "-3", "0", "1/0", "inf", "3;4", "1 2", "1_0", "1/2/3", "1,234", "nan", "--5", "2 in", "∞"]
+)
+def test_what_is_no_judgement_is_refused_in_a_sentence(words):
+    panel = ahp_panel(["a", "b"], [3])
+    panel.boxes[(0, 1)].value = words
+    assert (
+        f"The judgement of a against b stays as it was: {words!r} is no number above 0"
+        in panel._banner.value.replace("&#x27;", "'")
+    )
+    assert panel.upper == [3]
+    assert panel.boxes[(0, 1)].value == "3"
+
+
+def test_an_open_judgement_goes_to_a_file_and_back():
+    panel = ahp_panel(["a", "b", "c"], [2, None, 4])
+    work = Work(door_handle_study(), DoorHandleCam(), {"importance": panel.upper})
+    again = from_json(to_json(work)).judgements["importance"]
+    assert list(again) == [2, None, 4]
+    panel.load([1, 1, 1])
+    panel.load(again)
+    assert panel.upper == [2, None, 4]

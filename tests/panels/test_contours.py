@@ -1,0 +1,305 @@
+"""The survey of a study over two quantities: its picture against the study, its panel against the package."""
+
+import itertools
+from dataclasses import dataclass
+from functools import partial
+
+import ipywidgets as w
+import numpy as np
+import pytest
+from matplotlib.path import Path
+from numpy.testing import assert_allclose
+
+from camkit import Measure, Study, explore, try_everything
+from camkit.machines.valve_cam import ValveCam
+from camkit.machines.valve_study import corrected_valve_study, valve_study
+from camkit.panels.contours import contour_panel, optimum
+from camkit.quantities import Design, quantity
+from camkit.render.artists import _find, moving
+from camkit.render.contours import BANDS, ShownPlane, objective_plane
+from camkit.render.picture import draw, layout
+from camkit.render.valve import lift
+from camkit.search.minimise import minimise
+from camkit.study.design_map import DesignMap
+from camkit.units import mm, rpm
+
+WIDE = ValveCam(base_radius=24.5 * mm)
+
+
+def drawn(shown):
+    _, axes = layout((objective_plane,), width=6, height=5)
+    draw(shown, axes, (objective_plane,))
+    return axes[0]
+
+
+def xy(ax, key):
+    return np.array(_find(ax, key).get_data(), dtype=float)
+
+
+def legend(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+# --- the picture ------------------------------------------------------------------------------------------------------
+
+
+def test_each_shade_covers_the_same_area_and_darker_is_better():
+    plane = DesignMap(valve_study(), n=61)
+    ax = drawn(ShownPlane(plane))
+    bands = sorted((a for a in moving(ax) if a.get_gid().startswith("band")), key=lambda a: a.get_gid())
+    assert len(bands) == BANDS
+    assert (np.diff([band.get_facecolor()[0] for band in bands]) > 0).all()
+    assert (np.diff([band.get_zorder() for band in bands]) < 0).all()
+    x = np.random.default_rng(1).uniform(*plane.study.bounds, (4000, 2))
+    f = plane.study.evaluate(x).f[:, 0]
+    inside = np.array([Path(band.get_xy()).contains_points(x) for band in bands])
+    assert_allclose(inside.mean(1), np.arange(1, BANDS + 1) / BANDS, atol=0.03)
+    for lower, upper in itertools.pairwise(inside):
+        assert f[lower].max() < f[upper & ~lower].max() + 1e-3
+
+
+def test_levels_are_where_the_objective_has_the_value_that_is_told():
+    study = corrected_valve_study(WIDE, (0.9, 0.1))
+    ax = drawn(ShownPlane(DesignMap(study, n=61)))
+    for i in range(0, BANDS - 1, 2):
+        told = float(_find(ax, f"value {i}").get_text())
+        points = xy(ax, f"level {i}").T
+        points = points[np.isfinite(points).all(1)]
+        assert_allclose(study.evaluate(points).f[:, 0], told, atol=2e-3)
+
+
+def test_the_veil_covers_what_misses_the_limit():
+    study = corrected_valve_study(WIDE)
+    ax = drawn(ShownPlane(DesignMap(study, n=61)))
+    x = np.random.default_rng(2).uniform(*study.bounds, (4000, 2))
+    feasible = study.evaluate(x).feasible
+    veiled = Path(_find(ax, "missed").get_xy()).contains_points(x)
+    assert 0.2 < feasible.mean() < 0.8
+    assert (veiled == ~feasible).mean() > 0.99
+    edge = xy(ax, "limit").T
+    assert abs(study.evaluate(edge[np.isfinite(edge).all(1)]).g).max() < 0.02
+
+
+def test_marks_and_legend():
+    study = valve_study()
+    ax = drawn(ShownPlane(DesignMap(study, n=21), here=(6, 16), best=(20, 20)))
+    assert_allclose(xy(ax, "in the sliders").ravel(), (6, 16))
+    assert_allclose(xy(ax, "optimum").ravel(), (20, 20))
+    assert legend(ax) == ["radius at the nose (flat follower) at least 4.5 mm", "in the sliders", "optimum"]
+    assert ax.get_xlabel() == "n"
+    assert ax.get_title(loc="left") == "Fullness against nose deceleration"
+    draw(ShownPlane(DesignMap(corrected_valve_study(), n=21)), [ax], (objective_plane,))
+    assert np.isnan(xy(ax, "optimum")).all()
+    assert legend(ax) == ["least convex radius anywhere at least 4.5 mm", "optimum"]
+    assert ax.get_title(loc="left") == "Fullness against peak positive acceleration"
+
+
+@pytest.mark.filterwarnings("error")
+def test_drawing_again_moves_what_was_drawn():
+    planes = [DesignMap(s, n=21) for s in (valve_study(), corrected_valve_study(WIDE), valve_study(weights=(0, 1)))]
+    ax = drawn(ShownPlane(planes[0], (5, 5), (20, 20)))
+    artists, first = set(moving(ax)), xy(ax, "level 3")
+    for plane in planes[1:]:
+        draw(ShownPlane(plane), [ax], (objective_plane,))
+        assert set(moving(ax)) == artists
+        ax.figure.canvas.draw()
+    draw(ShownPlane(planes[0], (5, 5), (20, 20)), [ax], (objective_plane,))
+    assert_allclose(xy(ax, "level 3"), first)
+
+
+@dataclass(frozen=True)
+class Plate(Design):
+    """A plate of two lengths; a long one cannot be built."""
+
+    width: float = quantity("b", 30, 10, 60, "mm", "its width")
+    height: float = quantity("h", 30, 10, 60, "mm", "its height")
+
+    def analyse(self, n=1):
+        return self
+
+
+area = Measure("area", "mm^2", lambda p: (p.width * p.height).sum(-1) if np.ndim(p.width) else p.width * p.height)
+slim = Measure("width", "mm", lambda p: np.where(p.width < 50 * mm, p.width, np.nan).sum(-1))
+tall = Measure("height", "mm", lambda p: p.height.sum(-1))
+
+
+def test_lengths_are_shown_in_their_units_and_what_grows_is_read_as_it_is():
+    study = Study(Plate(), ("width", "height"), (-area,), at_most={slim: 40 * mm}, at_least={tall: 20 * mm})
+    ax = drawn(ShownPlane(DesignMap(study, n=41), here=(0.03, 0.03), best=(0.04, 0.06)))
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("width  b  [mm]", "height  h  [mm]")
+    assert ax.get_title(loc="left") == "Area  [mm^2]"
+    assert legend(ax) == ["a limit", "in the sliders", "optimum"]
+    assert_allclose(xy(ax, "in the sliders").ravel(), (30, 30))
+    b, h = xy(ax, "level 2")
+    assert_allclose((b * h)[np.isfinite(b)], float(_find(ax, "value 2").get_text()), rtol=5e-3)
+    veil = Path(_find(ax, "missed").get_xy())
+    assert veil.contains_points([(55, 40), (45, 40), (30, 15)]).all()  # cannot be built, too wide, too low
+    assert not veil.contains_points([(35, 40)]).any()
+
+
+def test_without_a_limit_nothing_is_veiled():
+    ax = drawn(ShownPlane(DesignMap(Study(Plate(), ("width", "height"), (area,)), n=11)))
+    assert np.isnan(xy(ax, "limit")).all()
+    assert legend(ax) == ["optimum"]
+
+
+@pytest.mark.parametrize("w", [0.4, 0.55, 0.557, 0.558, 0.6])
+def test_the_optimum_is_the_lower_of_two_valleys(w):
+    study = valve_study(weights=(w, 1 - w), printed_sign=True)
+    assert_allclose(optimum(DesignMap(study, n=21)), (4.827593 if w < 0.5577 else 20, 20), atol=1e-5)
+    assert_allclose(optimum(DesignMap(study, n=21)), minimise(study, "de").x, atol=1e-3)
+
+
+def test_an_optimum_inside_the_plane_and_one_that_is_not_there():
+    study = corrected_valve_study(WIDE, (0.9, 0.1))
+    x = optimum(DesignMap(study, n=21))
+    near = study.evaluate(x + 0.05 * np.array([(1, 0), (-1, 0), (0, 1), (0, -1), (0, 0)])).f[:, 0]
+    assert near.argmin() == 4
+    assert optimum(DesignMap(corrected_valve_study(), n=21)) is None
+
+
+# --- the panel --------------------------------------------------------------------------------------------------------
+
+PROBLEMS = {
+    "nose deceleration": valve_study,
+    "sign as printed": partial(valve_study, printed_sign=True),
+    "corrected": corrected_valve_study,
+}
+
+
+@pytest.fixture(scope="module")
+def workshop():
+    app = explore(ValveCam(), lift, free=["n", "m", "base_radius", "speed"], width=4, height=3)
+    panel = contour_panel(app, PROBLEMS, weights={"fullness": 0.5, "wear": 0.5}, steps=21)
+    yield panel
+    settled(panel)
+    app.picture.settle()
+    panel.picture.settle()
+
+
+@pytest.fixture
+def panel(workshop):
+    """The panel as it is when it has just been opened."""
+    workshop.menu.value = "nose deceleration"
+    for knob in workshop.knobs:
+        knob.box.value = 0.5
+    workshop.explorer.load(ValveCam())
+    return settled(workshop)
+
+
+def settled(panel):
+    panel._later.ask()
+    panel.settle()
+    return panel
+
+
+def mark(panel, name):
+    return xy(panel.picture.axes[0], name).ravel()
+
+
+def press(panel, words):
+    def inside(box):
+        return [box, *(c for child in getattr(box, "children", ()) for c in inside(child))]
+
+    next(b for b in inside(panel) if isinstance(b, w.Button) and b.description == words).click()
+
+
+def test_it_opens_with_the_optimum(panel):
+    assert_allclose(mark(panel, "optimum"), (20, 20))
+    assert_allclose(mark(panel, "in the sliders"), (6, 16))
+    assert panel.summary() == (
+        "nose deceleration: W_1 0.5, W_2 0.5\noptimum: n 20, m 20\nfullness: 0.6384\n"
+        "nose deceleration: 862.7 m/s^2\nradius at the nose (flat follower): 9.719 mm"
+    )
+
+
+def test_weights_move_the_optimum(panel):
+    panel.menu.value = "sign as printed"
+    for typed, best in ((0.5, 4.827593), (0.62, 4.827593), (0.65, 20)):  # jumps at W1 = 0.5577: 0.5 of 0.8966
+        panel.knobs[0].box.value = typed
+        settled(panel)
+        assert_allclose(panel.optimum, (best, 20), atol=1e-5)
+        assert_allclose(mark(panel, "optimum"), (best, 20), atol=1e-5)
+        assert_allclose(panel.weights, (typed / (typed + 0.5), 0.5 / (typed + 0.5)))
+        assert panel.plane.study.minimise[0].weights == panel.weights
+
+
+def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(panel):
+    before = xy(panel.picture.axes[0], "level 3")
+    panel.menu.value = "sign as printed"
+    assert panel.optimum is None
+    assert "looking for the optimum" in panel.summary()
+    f, shown = panel.plane.evaluation.f[:, 0], panel.plane.study.evaluate(mark(panel, "optimum"))  # the grid's best
+    assert shown.feasible.all()
+    assert_allclose(shown.f[0, 0], f[panel.plane.evaluation.feasible].min(), rtol=1e-12)
+    assert panel.take.disabled
+    assert xy(panel.picture.axes[0], "level 3").shape != before.shape
+    panel.settle()
+    assert not panel.take.disabled
+    assert panel.optimum is not None
+
+
+def test_the_design_in_the_sliders_counts(panel):
+    panel.menu.value = "corrected"
+    settled(panel)
+    assert panel.optimum is None
+    assert panel.summary().endswith("no design between the bounds keeps every limit")
+    panel.explorer.controls["base_radius"].box.value = 24.5
+    settled(panel)
+    assert_allclose(panel.optimum, DesignMap(corrected_valve_study(WIDE), n=21).best, rtol=1e-6)
+    assert_allclose(panel.optimum, (4.0305, 20), atol=1e-4)
+    assert "least convex radius anywhere: 4.5 mm" in panel.summary()
+
+
+def test_free_quantities_move_the_mark_and_nothing_else(panel):
+    plane = panel.plane
+    panel.explorer.controls["n"].box.value = 9
+    settled(panel)
+    assert panel.plane is plane
+    assert_allclose(mark(panel, "in the sliders"), (9, 16))
+    panel.explorer.controls["speed"].box.value = 1500
+    settled(panel)
+    assert panel.plane is not plane
+    assert_allclose(panel.plane.study.start.speed, 1500 * rpm)
+
+
+def test_a_design_outside_the_bounds_is_surveyed_too(panel):
+    panel.explorer.controls["n"].box.value = 30
+    settled(panel)
+    assert_allclose(mark(panel, "in the sliders"), (30, 16))
+    assert_allclose(panel.optimum, (20, 20))
+
+
+def test_the_optimum_and_a_clicked_point_are_loaded(panel):
+    press(panel, "Load the optimum")
+    assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (20, 20), rtol=1e-12)
+    width, height = panel.picture.figure.canvas.get_width_height()
+    x, y = panel.picture.axes[0].transData.transform((8.0, 12.0))
+    panel._clicked(x / width, 1 - y / height)
+    assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (8, 12), rtol=1e-9)
+    panel._clicked(0.01, 0.99)  # beside the axes
+    assert_allclose(panel.explorer.design.n, 8, rtol=1e-9)
+
+
+def test_weights_that_are_all_0_are_refused_in_a_sentence(panel):
+    panel.knobs[0].box.value = 0
+    settled(panel)
+    assert panel.weights == (0, 1)
+    panel.knobs[1].box.value = 0
+    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel._banner.value
+    settled(panel)
+    assert_allclose(panel.optimum, (20, 20))
+    assert "W_1 0, W_2 1" in panel.summary()
+    panel.knobs[1].box.value = 0.5
+    assert panel._banner.value == ""
+
+
+def test_every_control_comes_back(panel):
+    assert try_everything(panel) == "5 controls moved"
+
+
+def test_a_study_of_three_quantities_is_refused():
+    app = explore(ValveCam(), lift, free=["n"], width=4, height=3)
+    three = {"three": lambda start, weights: Study(start, ("n", "m", "speed"), valve_study(start, weights).minimise)}
+    with pytest.raises(ValueError, match="a plane shows two free quantities; this study has 3"):
+        contour_panel(app, three, weights={"fullness": 0.5, "wear": 0.5})

@@ -1,0 +1,388 @@
+"""Panels that optimise in the background, driven in this process: what they find, how they stop, what they refuse."""
+
+import threading
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from camkit import Measure, explore, try_everything
+from camkit.machines.cam_lever import CamLever, cam_lever_study
+from camkit.machines.high_speed_cam import HighSpeedCam
+from camkit.machines.high_speed_study import (
+    GEOMETRY,
+    high_speed_study,
+    max_pressure_angle,
+    min_radius,
+    peak_stress,
+    peak_wear,
+)
+from camkit.panels.cycle_time import cycle_time_panel
+from camkit.panels.optimise import optimise_panel
+from camkit.render.artists import _find
+from camkit.render.high_speed import contact_stress
+from camkit.render.progress import unit_text
+from camkit.search.cycle_time import shortest_interval
+from camkit.search.minimise import minimise
+from camkit.search.protocol import Monitor, SearchStopped, monitored
+from camkit.study.study import KEPT, Study
+from camkit.units import cm, deg, mm
+
+FIRST = HighSpeedCam()
+GOALS = {"stress": peak_stress, "wear": peak_wear}
+
+
+def sizes(start, method, minimise):
+    return high_speed_study(start, minimise, angles=101)
+
+
+def app_of(design):
+    return explore(design, contact_stress, free=["arm_length", "roller_radius", "max_radius"], width=4, height=3)
+
+
+PATIENCE = 60
+"""How long, in seconds, something is waited for that happens at once on an idle machine."""
+
+
+@pytest.fixture
+def app():
+    return app_of(FIRST)
+
+
+def xy(ax, key):
+    return np.array(_find(ax, key).get_data(), dtype=float)
+
+
+class Gate:
+    """A measure that stands still once it has been asked ``after`` times, until it may go on."""
+
+    def __init__(self, measure, after):
+        self.measure, self.left = measure, after
+        self.reached, self.open = threading.Event(), threading.Event()
+
+    def __call__(self, analysis):
+        self.left -= 1
+        if self.left == 0:
+            self.reached.set()
+            assert self.open.wait(PATIENCE)
+        return self.measure(analysis)
+
+    def stop(self, panel):
+        """Run ``panel`` to the gate and stop it there."""
+        panel.run()
+        assert self.reached.wait(PATIENCE)
+        assert panel.runner.run_button.disabled
+        assert not panel.runner.stop_button.disabled
+        panel.stop()
+        self.open.set()
+        panel.wait(PATIENCE)
+        assert not panel.runner.run_button.disabled
+        assert panel.runner.stop_button.disabled
+
+
+# --- a watched study --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", ["slsqp", "de"])
+def test_a_watched_search_finds_the_same(method):
+    study, watch = high_speed_study(angles=101), Monitor()
+    best, seen = minimise(study, method, designs=1000), minimise(monitored(study, watch), method, designs=1000)
+    assert_allclose(seen.x, best.x, rtol=1e-12)
+    assert seen.message == best.message
+    assert watch.looked >= best.evaluations
+    assert watch.f == pytest.approx(best.f, rel=1e-6)
+    assert watch.looks[-1].looked == watch.looked
+    assert min(look.f for look in watch.looks if look.kept) == watch.f
+
+
+def test_what_a_watch_counts_as_the_best():
+    study, watch = high_speed_study(), Monitor()
+    start, better, broken, unbuilt = study.x0, study.x0 * [1, 1.5, 1], study.x0 * [1, 1, 0.85], study.x0 * [1, 0.1, 9]
+    evaluation = study.evaluate([start, better, broken, unbuilt])
+    assert evaluation.feasible.tolist() == [True, True, False, False]
+    assert evaluation.f[2, 0] < np.inf == evaluation.f[3, 0]
+    for x in ([broken, unbuilt], [start, broken], [unbuilt, better], [start]):
+        monitored(study, watch).evaluate(x)
+    assert [look.kept for look in watch.looks] == [False, True, True, True]
+    assert [look.looked for look in watch.looks] == [2, 4, 6, 7]
+    assert_allclose(watch.best, better)
+    assert watch.f == evaluation.f[1, 0]
+
+
+def test_a_limit_may_be_missed_by_a_millionth():
+    study, kept = high_speed_study(), []
+    radius = float(min_radius(FIRST.analyse()))
+    for share in (0.5, 2):
+        watch = Monitor()
+        limit = {min_radius: radius * (1 + share * KEPT)}
+        monitored(study.replace(at_least=limit), watch).evaluate([study.x0])
+        kept.append(watch.looks[0].kept)
+    assert kept == [True, False]
+
+
+def test_a_limit_of_0_may_be_missed_by_the_tolerance_of_all_limits():
+    study, kept = high_speed_study(), []
+    radius = float(min_radius(FIRST.analyse()))
+    for shift in (0.5, 2):
+        below = Measure("radius less 44.6", "", lambda a, shift=shift: a.min_radius - radius + shift * KEPT)
+        watch = Monitor()
+        monitored(study.replace(at_most={below: 0.0}, at_least={}), watch).evaluate([study.x0])
+        kept.append(watch.looks[0].kept)
+    assert kept == [True, False]
+
+
+def test_a_stopped_watch_lets_nothing_more_through():
+    watch, study = Monitor(), high_speed_study()
+    watch.stop()
+    with pytest.raises(SearchStopped):
+        minimise(monitored(study, watch))
+    assert watch.looked == 0
+
+
+# --- optimise from here -----------------------------------------------------------------------------------------------
+
+
+def test_the_optimum_comes_into_the_sliders_with_the_reason(app):
+    panel = optimise_panel(app, sizes, minimise=GOALS)
+    assert panel.summary().endswith("not run yet")
+    panel.run()
+    panel.wait(PATIENCE)
+    best = minimise(high_speed_study(angles=101))
+    assert panel.minimum.f == pytest.approx(best.f, rel=1e-9)
+    for name, value in zip(GEOMETRY, best.x, strict=True):
+        assert getattr(app.design, name) == pytest.approx(value, rel=1e-9)
+        assert app.controls[name].value == pytest.approx(value, rel=1e-9)
+    first = high_speed_study(angles=101).evaluate([best.study.x0]).f[0, 0]
+    lines = panel.summary().split("\n")
+    assert lines[0] == "minimise: stress, method: slsqp"
+    assert lines[1] == f"contact stress F_sigma: {peak_stress.text(first)} → {peak_stress.text(best.f)}"
+    assert lines[2] == best.message
+    assert "max radius 140 mm (upper bound)" in panel.verdict.value
+    assert f"best so far {peak_stress.text(best.f)}" in panel.runner.status.value
+    panel.back.click()
+    assert app.design == FIRST
+
+
+def test_it_starts_from_the_sliders_and_takes_what_is_chosen(app):
+    panel = optimise_panel(app, sizes, minimise=GOALS, methods=("slsqp", "de"))
+    app.controls["roller_radius"].box.value = 50
+    panel.choices.menus["minimise"].label = "wear"
+    panel.run()
+    panel.wait(PATIENCE)
+    start = FIRST.replace(roller_radius=50 * mm)
+    assert_allclose(panel.study.x0[1], 50 * mm)
+    assert panel.minimum.f == pytest.approx(minimise(high_speed_study(start, peak_wear, angles=101)).f, rel=1e-9)
+    assert panel.picture.axes[0].get_ylabel().startswith("wear F_wear")
+    panel.back.click()
+    assert app.design == start
+
+
+def test_an_arm_that_passes_its_start_can_be_optimised():
+    app = app_of(HighSpeedCam(rise_c0=-0.6))
+    panel = optimise_panel(app, lambda start, method: high_speed_study(start, free_laws=True, angles=101))
+    panel.run()
+    panel.wait(PATIENCE)
+    assert panel.runner.banner.value == ""
+    assert panel.minimum.feasible
+    assert not app.analysis.passes_start
+    assert panel.summary().split("\n")[1] == f"contact stress F_sigma: none → {peak_stress.text(panel.minimum.f)}"
+
+
+def test_several_starts_are_asked_of_slsqp_alone(app):
+    panel = optimise_panel(app, sizes, minimise=GOALS, methods=("slsqp", "de"))
+    states = [panel.starts.disabled]
+    for method in ("de", "slsqp"):
+        panel.choices.menus["method"].value = method
+        states.append(panel.starts.disabled)
+    assert states == [False, True, False]
+
+
+def test_the_search_is_drawn_in_the_measures_unit(app):
+    panel = optimise_panel(app, sizes, minimise=GOALS)
+    panel.run()
+    panel.wait(PATIENCE)
+    x, y = xy(panel.picture.axes[0], "best")
+    assert y[0] == pytest.approx(2.478, abs=5e-3)
+    assert y[-1] == pytest.approx(panel.minimum.f * mm**0.5, rel=1e-5)
+    assert (np.diff(y) <= 0).all()
+    assert (np.diff(x) > 0).all()
+    assert x[-1] == panel.runner.watch.looked
+    shown = len(xy(panel.picture.axes[0], "keeps all limits")[0]) + len(xy(panel.picture.axes[0], "misses a limit")[0])
+    assert 10 < shown <= len(x)
+
+
+@pytest.mark.parametrize("method", ["slsqp", "de"])
+def test_stop_keeps_the_best_so_far(app, method):
+    gate = Gate(peak_stress, 40)
+    blocked = Measure("stress", "N^0.5 mm^-0.5", gate)
+    panel = optimise_panel(app, sizes, minimise={"stress": blocked}, methods=(method,))
+    gate.stop(panel)
+    watch = panel.runner.watch
+    assert panel.minimum is None
+    assert panel.summary().endswith(f"The search was stopped after {watch.looked} designs.")
+    assert watch.looked < (1000 if method == "de" else 200)
+    assert_allclose([getattr(app.design, name) for name in GEOMETRY], watch.best)
+    study = high_speed_study(app.design, angles=101)
+    assert study.evaluate([study.x0]).f[0, 0] < 78.3  # that of the first design is 78.36
+    panel.back.click()
+    assert app.design == FIRST
+    panel.run()
+    panel.wait(PATIENCE)
+    assert panel.minimum.feasible
+
+
+def test_stopped_without_a_design_that_keeps_the_limits_the_sliders_stay(app):
+    gate = Gate(peak_stress, 2)
+    blocked = Measure("stress", "", gate)
+
+    def strict(start, method):
+        return high_speed_study(start, blocked, at_most={max_pressure_angle: 20 * deg}, angles=101)
+
+    panel = optimise_panel(app, strict)
+    gate.stop(panel)
+    assert app.design == FIRST
+    assert panel.summary().endswith("None of them keeps every limit; the design in the sliders stays.")
+
+
+def test_what_cannot_be_searched_is_said_in_a_sentence(app):
+    def refusing(start, method, minimise):
+        study = sizes(start, method, minimise)
+        if start.roller_radius > 40 * mm:
+            raise ValueError("the roller is too large")
+        return study.replace(minimise=(peak_stress, peak_wear))
+
+    panel = optimise_panel(app, refusing, minimise=GOALS)
+    panel.run()
+    panel.wait(PATIENCE)
+    assert "This cannot be searched: the study has 2 objectives; minimise takes one" in panel.runner.banner.value
+    assert not panel.runner.run_button.disabled
+    app.controls["roller_radius"].box.value = 45
+    panel.run()
+    assert "This cannot be searched: the roller is too large." in panel.runner.banner.value
+    assert app.design.roller_radius == 45 * mm
+
+
+def test_an_error_in_the_thread_is_shown():
+    def broken(analysis):
+        if threading.current_thread() is not threading.main_thread():
+            raise RuntimeError("out of order")
+        return analysis.min_radius
+
+    app = app_of(FIRST)
+    panel = optimise_panel(app, lambda start, method: Study(start, GEOMETRY, (Measure("r", "mm", broken),)))
+    panel.run()
+    panel.wait(PATIENCE)
+    assert "The search ended early: out of order." in panel.runner.banner.value
+    assert not panel.runner.run_button.disabled
+
+
+def test_every_control_of_the_panels_comes_back(app):
+    assert try_everything(optimise_panel(app, sizes, minimise=GOALS, methods=("slsqp", "de"))) == "3 controls moved"
+    limit = 2 / mm**0.5
+    panel = cycle_time_panel(app, lambda start: high_speed_study(start), limit, 60 * deg, 90 * deg)
+    assert try_everything(panel) == "6 controls moved"
+    assert panel.limit.value == pytest.approx(limit)
+
+
+# --- the cycle time ---------------------------------------------------------------------------------------------------
+
+
+def lever(start, max_radius):
+    return cam_lever_study(start, max_radius=max_radius, free_laws=False, angles=101)
+
+
+LIMIT = 9 / cm**0.5
+RADII = {"110 mm": 110 * mm, "120 mm": 120 * mm}
+
+
+def press_app():
+    return app_of(CamLever())
+
+
+def test_the_shortest_interval_and_its_design():
+    app = press_app()
+    panel = cycle_time_panel(app, lever, LIMIT, 50 * deg, 61 * deg, max_radius=RADII)
+    panel.run()
+    panel.wait(PATIENCE)
+    *_, last = shortest_interval(lever(CamLever(), 110 * mm), LIMIT, 50 * deg, 61 * deg)
+    assert panel.step.high == pytest.approx(last.high, rel=1e-12)
+    assert panel.summary() == f"maximum radius: 110 mm\n{last.message}"
+    assert last.message in panel.verdict.value
+    assert app.design == CamLever()
+    panel.take.click()
+    assert app.design.rise_angle == app.design.return_angle == pytest.approx(last.high)
+    assert app.design.max_radius == pytest.approx(110 * mm)
+    study = lever(app.design, 110 * mm)
+    assert study.evaluate([study.x0]).f[0, 0] <= LIMIT * (1 + 1e-9)
+    assert panel.progress.value <= panel.progress.max
+
+
+def test_the_intervals_are_drawn():
+    panel = cycle_time_panel(press_app(), lever, LIMIT, 50 * deg, 61 * deg, max_radius=RADII)
+    panel.run()
+    panel.wait(PATIENCE)
+    ax = panel.picture.axes[0]
+    kept, missed = xy(ax, "keeps the limit"), xy(ax, "does not")
+    assert len(kept[0]) + len(missed[0]) == len(panel.steps)
+    assert (kept[1] <= 9).all()
+    assert (missed[1] > 9).all()
+    assert kept[0].min() == pytest.approx(panel.step.high / deg)
+    assert missed[0].max() == pytest.approx(panel.step.low / deg)
+    assert_allclose(xy(ax, "limit")[1], 9)
+    assert "N$^{0.5}$ cm$^{-0.5}$" in ax.get_ylabel()
+
+
+def test_stop_keeps_the_shortest_so_far():
+    app = press_app()
+    gate = Gate(lever(CamLever(), 110 * mm).minimise[0], 10**9)
+
+    def blocked(start):
+        study = lever(start, 110 * mm)
+        return study.replace(minimise=(Measure("stress", "N^0.5 cm^-0.5", gate),))
+
+    panel = cycle_time_panel(app, blocked, LIMIT, 50 * deg, 61 * deg)
+    show = panel._show
+
+    def fourth_step_is_the_last(step):
+        show(step)
+        if len(panel.steps) == 4:
+            gate.left = 1
+
+    panel._show = fourth_step_is_the_last
+    gate.stop(panel)
+    assert len(panel.steps) == 4
+    assert panel.runner.status.value.endswith("(stopped)")
+    assert panel.step.best is not None
+    assert panel.step.high < 61 * deg
+    panel.take.click()
+    assert app.design.rise_angle == pytest.approx(panel.step.high)
+
+
+def test_a_limit_that_not_even_the_longest_interval_keeps():
+    app = press_app()
+    panel = cycle_time_panel(app, lever, 5 / cm**0.5, 50 * deg, 61 * deg, max_radius=RADII)
+    panel.run()
+    panel.wait(PATIENCE)
+    assert panel.take.disabled
+    assert "does not keep the contact stress F_sigma of at most 5 N^0.5 cm^-0.5" in panel.verdict.value
+    panel.load()
+    assert app.design == CamLever()
+
+
+def test_reversed_intervals_are_refused_in_a_sentence():
+    panel = cycle_time_panel(press_app(), lever, LIMIT, 50 * deg, 61 * deg, max_radius=RADII)
+    panel.longest.box.value = 45
+    panel.run()
+    assert "This cannot be searched: the interval is to lie between 50 and 45 deg" in panel.runner.banner.value
+    assert not panel.steps
+    panel.longest.box.value = 61
+    panel.limit.box.value = 9.3
+    panel.run()
+    panel.wait(PATIENCE)
+    assert panel.runner.banner.value == ""
+    assert panel.step.limit == pytest.approx(9.3 / cm**0.5)
+
+
+def test_powers_of_units_are_raised():
+    assert unit_text("MPa") == "MPa"
+    assert unit_text("m/s^2") == "m/s$^{2}$"

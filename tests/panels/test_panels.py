@@ -1,0 +1,466 @@
+"""What every panel does with numbers as people type them, however large: a sentence, and never another design."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import partial
+from operator import attrgetter
+
+import ipywidgets as w
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from camkit import (
+    DoorHandleCam,
+    OscillatingFlatCam,
+    OscillatingRollerCam,
+    Study,
+    TranslatingFlatCam,
+    TranslatingRollerCam,
+    deg,
+    door_handle_study,
+    explore,
+    mm,
+)
+from camkit.cam.measures import max_pressure_angle
+from camkit.cam.undercut import undercut_in_words
+from camkit.decision.summary import side_by_side
+from camkit.linkage.universal_joint import DoubleUniversalJoint
+from camkit.machines.cabin_door import CabinDoorLinkage
+from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever
+from camkit.machines.high_speed_cam import HighSpeedCam
+from camkit.machines.high_speed_study import HIGH_SPEED_MEASURES, high_speed_study
+from camkit.machines.shaft import UniversalJointShaft
+from camkit.machines.valve_cam import ValveCam
+from camkit.machines.valve_study import VALVE_MEASURES
+from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise
+from camkit.panels import (
+    compare_fronts,
+    contour_panel,
+    cycle_time_panel,
+    edit_program,
+    live_pareto_panel,
+    optimise_panel,
+    pareto_panel,
+    presets,
+    shortlist,
+    tolerance_panel,
+)
+from camkit.panels.kit.number import NumberBox, WholeBox
+from camkit.quantities import Measure, PeakMeasure
+from camkit.render.beside import Beside, cams_beside, curves_beside
+from camkit.render.cam import DOOR_HANDLE_VIEWS, cam_mechanism, contact_force, curvature, efficiency, pressure_angle
+from camkit.render.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
+from camkit.render.linkage import CURVES, linkage_in_space
+from camkit.render.picture import picture
+from camkit.render.shaft import SHAFT_VIEWS
+from camkit.render.sweep import limit_sweep
+from camkit.render.tolerances import sobol_bars
+from camkit.render.universal_joint import JOINT_VIEWS
+from camkit.render.valve import VALVE_VIEWS
+from camkit.study.sweep import Sweep
+from camkit.study.tolerances import Tolerances
+from camkit.typed import typed_number, typed_whole
+
+# ---------------------------------------------------------------- numbers as people type them
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("48.09", 48.09), ("48,09", 48.09), (" 12 ", 12), ("1e3", 1000), ("1E-3", 0.001), ("2,5e2", 250), ("-3", -3),
+        ("−3,5", -3.5), ("–3", -3), ("+7", 7), (".5", 0.5), (",5", 0.5), ("5.", 5), ("5,", 5), ("0,125", 0.125),
+        ("1,5", 1.5), ("1234,5", 1234.5), ("1,2345", 1.2345), ("1.234", 1.234), ("\u00a012\u00a0", 12), ("0", 0),
+        ("-0,000", 0), ("1e300", 1e300),
+    ],
+)  # fmt: skip
+def test_a_number_is_read_as_it_is_meant(typed, meant):
+    assert typed_number(typed) == meant
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "", "  ", "1/2", "2 in", "60,5mm", "abc", "12abc", "--5", "+-5", "1.234,5", "1,234.5", "1,234,567", "1.234.567",
+        "1 234", "1_000", "0x10", "∞", "inf", "nan", "1e", "e3", ".", ",", "-", "1,,5", "½", "٣", "１２", "1e999",
+        "1e-999", "1\n2", "5%", "1,234", "-12,500", "9" * 41, "$5", "1'000",
+    ],
+)  # fmt: skip
+def test_what_is_no_number_is_refused_in_a_sentence(typed):
+    with pytest.raises(ValueError, match=r"is no number|may be|for a computer") as refusal:
+        typed_number(typed)
+    assert "\n" not in str(refusal.value)
+    assert len(str(refusal.value)) < 130
+
+
+@pytest.mark.parametrize("typed", ["", "1.5", "1,5", "1e3", "1.000", "1,000", "abc", "-1", "1001", "9" * 39])
+def test_a_count_is_a_whole_number_in_its_range(typed):
+    with pytest.raises(ValueError, match="a whole number from 1 to 1000 is wanted"):
+        typed_whole(typed, 1, 1000)
+    assert typed_whole(" 1000 ", 1, 1000) == 1000
+
+
+def test_a_box_keeps_its_last_number():
+    told, seen = [], []
+    box = NumberBox(1.5, told.append)
+    box.observe(lambda change: seen.append(change.new), "value")
+    assert box.text == "1.5"
+    box.text = "48,09"
+    assert (box.value, box.text, told, seen) == (48.09, "48.09", [], [48.09])
+    box.text = "1/2"
+    assert (box.value, box.text, seen) == (48.09, "48.09", [48.09])
+    assert told == ["'1/2' is no number; 48.09, 48,09 and 1e3 are"]
+    box.text = "48.090"
+    assert (box.text, told[1:]) == ("48.09", [""])
+    box.value = 2.0
+    assert box.text == "2"
+
+
+def test_a_box_for_a_count_refuses_what_a_program_may_set_only_in_range():
+    told = []
+    box = WholeBox(10, 4, 1000, told.append)
+    box.text = "5000"
+    assert (box.value, box.text) == (10, "10")
+    assert told == ["'5000' is out of range; a whole number from 4 to 1000 is wanted"]
+    box.value = 5000
+    assert (box.value, box.text) == (1000, "1000")
+
+
+# ---------------------------------------------------------------- every box of every panel
+
+TYPED = ("1e160", "-1e300", "1e308", "0")
+LEVER = (cam_mechanism, pressure_angle, curvature, contact_force)
+PANELS = {
+    "door handle": (DoorHandleCam(), DOOR_HANDLE_VIEWS, DoorHandleCam.measures),
+    "arm with roller": (OscillatingRollerCam(), (*LEVER, efficiency), OscillatingRollerCam.measures),
+    "arm with face": (OscillatingFlatCam(), LEVER, OscillatingFlatCam.measures),
+    "slide with roller": (TranslatingRollerCam(groove=False), LEVER, TranslatingRollerCam.measures),
+    "slide with face": (TranslatingFlatCam(), (cam_mechanism, curvature), TranslatingFlatCam.measures),
+    "high speed": (HighSpeedCam(), HIGH_SPEED_VIEWS, HIGH_SPEED_MEASURES),
+    "lever": (CamLever(), CAM_LEVER_VIEWS, CAM_LEVER_MEASURES),
+    "valve": (ValveCam(), VALVE_VIEWS, VALVE_MEASURES),
+    "linkage": (CabinDoorLinkage(), (linkage_in_space, *CURVES), CabinDoorLinkage.measures),
+    "shaft": (UniversalJointShaft(), SHAFT_VIEWS, UniversalJointShaft.measures),
+    "joint": (DoubleUniversalJoint(), JOINT_VIEWS, DoubleUniversalJoint.measures),
+}
+
+
+def inside(widget, kind):
+    found = [widget] if isinstance(widget, kind) else []
+    return found + [inner for child in getattr(widget, "children", ()) for inner in inside(child, kind)]
+
+
+def press(panel, words):
+    next(button for button in inside(panel, w.Button) if button.description == words).click()
+
+
+def sentence(box):
+    return "" if box.layout.display == "none" else box.value
+
+
+def assert_shows_its_design(panel):
+    """Controls and picture say the same, or a sentence stands in place of the picture."""
+    if panel.picture.widget.layout.display == "none":
+        assert sentence(panel._banner).startswith("<div role='alert'>This cannot be built")
+        assert panel._table.layout.display == "none"
+        return
+    for name, knob in panel.controls.items():
+        assert knob.value == attrgetter(name)(panel.design), name
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*encountered in:RuntimeWarning")
+@pytest.mark.parametrize("name", PANELS)
+def test_no_number_makes_a_panel_show_another_design(name):
+    design, views, measures = PANELS[name]
+    panel = explore(design, *views, measures=measures)
+    for knob in [*panel.controls.values(), *panel.positions.values()]:
+        for typed in TYPED if hasattr(knob, "box") else ():
+            before, first = panel.design, knob.value
+            knob.box.text = typed
+            assert_shows_its_design(panel)
+            taken = knob.value == pytest.approx(float(typed) * knob.declared.factor)
+            assert taken or (knob.value == first and panel.design == before and sentence(panel._banner))
+        press(panel, "Reset")
+        assert sentence(panel._banner) == ""
+        assert panel.design == design
+        assert panel.picture.widget.layout.display == ""
+
+
+def test_a_number_far_too_large_is_refused_in_one_sentence_and_the_picture_stays():
+    panel = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=["base_radius"])
+    shown = panel.picture.widget.data
+    panel.controls["base_radius"].box.text = "1e300"
+    said = sentence(panel._banner)
+    assert said.startswith(
+        "<div role='alert'>The base radius stays as before: 1e+300 mm was typed; it must be a finite"
+    )
+    assert panel.controls["base_radius"].box.text == "30"
+    assert panel.picture.widget.data == shown
+    assert panel.picture.widget.layout.display == ""
+
+
+def test_a_number_that_only_its_unit_makes_infinite_is_refused_too():
+    spring = "load.spring_rate"
+    panel = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=[spring])
+    knob = panel.controls[spring]
+    first, shown = knob.value, knob.box.text
+    assert 1e308 * knob.declared.factor == math.inf
+    for typed in ("1e308", "-1e308"):
+        knob.box.text = typed
+        said = sentence(panel._banner)
+        assert f"{float(typed):g} {knob.declared.unit} was typed; it must be a finite number" in said
+        assert (knob.value, knob.box.text) == (first, shown)
+    knob.box.text = "2"
+    assert panel.design.load.spring_rate == 2 * knob.declared.factor
+
+
+def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():
+    panel = explore(DoorHandleCam(), pressure_angle, free=["lift_arm", "friction"])
+    panel.controls["lift_arm"].box.text = "48,5"
+    good, analyse = panel.design, DoorHandleCam.analyse
+    for error in (OverflowError("math range error"), np.linalg.LinAlgError("Singular matrix")):
+
+        def broken(self, n=721, error=error):
+            raise error
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(DoorHandleCam, "analyse", lambda self, n=721: broken(self) if self != good else analyse(self))
+            panel.controls["lift_arm"].slider.value = 47.0
+        assert panel.design is good
+        assert panel.controls["lift_arm"].box.text == "48.5"
+        assert f"so the last one stays: {error}" in sentence(panel._banner)
+        assert panel.picture.widget.layout.display == ""
+
+
+def test_a_curve_beyond_all_bounds_is_not_drawn():
+    far = [1.0]
+
+    def view(analysis, ax):
+        from camkit.render.artists import line
+
+        line(ax, "far", [0, 1], [0, far[0]])
+        return ax
+
+    panel = explore(TranslatingFlatCam(), view, free=["base_radius"])
+    before = panel.design
+    far[0] = 1e200
+    panel.controls["base_radius"].slider.value += 1
+    far[0] = 1.0
+    panel.load(before)
+    assert sentence(panel._banner) == ""
+    assert panel.design is before
+
+
+def test_a_follower_that_fails_stops_no_other():
+    panel, seen = explore(TranslatingFlatCam(), cam_mechanism, free=["base_radius"]), []
+
+    def fails(design):
+        raise OverflowError("too large")
+
+    panel.on_change(fails)
+    panel.on_change(seen.append)
+    panel.controls["base_radius"].slider.value += 1
+    assert seen == [panel.design]
+    assert "too large" in sentence(panel._banner)
+
+
+def plane_study(start, weights=None, reference=None, space=None):
+    return door_handle_study(
+        start=start, space=space or {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
+    )
+
+
+def one_goal(start, weights):
+    return plane_study(start).replace(minimise=plane_study(start).minimise[:1])
+
+
+SPACE = {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
+
+
+def other_panels(app):
+    """Every panel that belongs to a door handle's, by name."""
+    fast = explore(HighSpeedCam(), cam_mechanism, free=["rise_angle"])
+    make = partial(high_speed_study)
+    program = (Rise(2.0, 20 * mm, Cycloidal()), Dwell(1.0), Return(2.0, 20 * mm, Cycloidal()))
+    return {
+        "survey": lambda: contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7),
+        "tolerate": lambda: tolerance_panel(app, door_handle_study(space=SPACE)),
+        "live front": lambda: live_pareto_panel(app, {"door": plane_study}, SPACE),
+        "search": lambda: pareto_panel(app, {"door": plane_study}, space=SPACE, free=["lift_arm"]),
+        "improve": lambda: optimise_panel(fast, lambda design, method: make(design)),
+        "shorten": lambda: cycle_time_panel(fast, lambda design: make(design), 2.0, 40 * deg, 120 * deg),
+        "program": lambda: edit_program(MotionProgram(program)),
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*encountered in:RuntimeWarning")
+@pytest.mark.parametrize("name", ["survey", "tolerate", "live front", "search", "improve", "shorten", "program"])
+def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm", "door_torque"])
+    panel = other_panels(app)[name]()
+    box_of = getattr(panel, "runner", None)
+    banner = box_of.banner if box_of else panel._banner
+    for box in inside(panel, NumberBox):
+        first = box.value
+        for typed in (*TYPED, "48,09x"):
+            box.text = typed
+            taken = box.value == pytest.approx(float(typed.strip("x").replace(",", ".")))
+            assert taken or (box.value == first and sentence(banner)), (typed, box.value)
+            box.value = first
+        if hasattr(panel, "settle"):
+            panel.settle()
+        assert "cannot" not in sentence(banner)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*encountered in:RuntimeWarning")
+def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm", "door_torque", "handle_speed"])
+    space = {"lift_arm": (40 * mm, 50 * mm), "relief_cam_angle": (50 * deg, 75 * deg)}  # some of it is feasible
+    study = door_handle_study(space=space)
+    kept, made = shortlist(app, study), live_pareto_panel(app, {"door": plane_study}, space)
+    panels = [contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7), tolerance_panel(app, study), made]
+    compare_fronts(app, given={"quick": made.front})
+    presets(app, {"arm": {"long": lambda cam: cam.replace(lift_arm=60 * mm)}})
+    for knob in app.controls.values():
+        for typed in TYPED:
+            knob.box.text = typed
+            kept.keep()
+            for panel in panels:
+                panel.settle()
+            press(app, "Reset")
+            for panel in panels:
+                panel.settle()
+                assert sentence(panel._banner) == ""
+    assert app.design == app.start
+
+
+# ---------------------------------------------------------------- what pictures and tables say
+
+
+def test_a_sixth_tolerance_has_a_name_and_a_colour():
+    lengths = ("lift_arm", "relief_arm", "lift_centre_distance", "relief_centre_distance", "roller_radius")
+    widths = dict.fromkeys(lengths, 0.3 * mm) | {"lift_start_angle": 0.5 * deg}
+    made = Tolerances(door_handle_study(), widths, parts=64)
+    (ax,) = picture(made, sobol_bars).axes
+    told = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert told == [*(name.replace("_", " ") for name in made.half_widths), "together"]
+    colours = {handle.get_color() for handle in ax.get_legend().get_lines()}
+    assert len(colours) == 7
+    bars = {line.get_gid(): line.get_xdata() for line in ax.lines if line.get_gid()}
+    shares = [np.ptp(bars[f"{name} 0"]) if len(bars[f"{name} 0"]) else 0.0 for name in made.half_widths]
+    alone = np.clip(made.indices.first[0], 0, 1)
+    expected = 100 * alone[list(made.names).index("lift_start_angle")] / max(alone.sum(), 1)
+    assert shares[-1] == pytest.approx(expected)
+    assert shares[-1] > 10
+
+
+def test_five_limits_are_swept_and_five_cams_stand_beside_each_other():
+    limits = {
+        Measure(f"limit {i}", "", lambda a, i=i: np.ravel(a.cam.base_radius / mm - 10 * i)): 0.5 for i in range(1, 6)
+    }
+    study = Study(TranslatingFlatCam(), {"base_radius": (10 * mm, 60 * mm)}, (max_pressure_angle,), at_most=limits)
+    ax = Figure().subplots()
+    limit_sweep(Sweep(study, n=9), ax)
+    drawn = [line for line in ax.lines if str(line.get_gid()).startswith("limit ")]
+    assert [line.get_gid() for line in drawn] == [m.name for m in limits]
+    assert len({line.get_color() for line in drawn}) == 5
+
+    cams = {f"cam {i}": OscillatingRollerCam(roller_radius=(4 + i) * mm).analyse() for i in range(5)}
+    peak = PeakMeasure("force", "N", lambda a: abs(a.contact_force), angle=lambda a: a.cam_angle)
+    drawn = picture(Beside(cams, peak), cams_beside, curves_beside)
+    assert {t.get_text() for t in drawn.axes[0].texts} >= set(cams)
+    assert {line.get_gid() for line in drawn.axes[1].lines} >= {f"{name} curve" for name in cams}
+
+
+def test_a_measure_without_a_limit_has_no_verdict():
+    endless = Measure("endless", "mm", lambda a: np.inf)
+    table = side_by_side({"a": TranslatingFlatCam(), "b": TranslatingFlatCam(base_radius=40 * mm)}, (endless,))
+    assert table.lines[-1].texts == ("inf mm", "inf mm")
+    assert table.lines[-1].missed == (False, False)
+    assert "not met" not in table.markdown() + table.html()
+
+
+def band(ax):
+    """The limits that a picture of the pressure angle draws, deg."""
+    return sorted({abs(line.get_ydata()[0]) for line in ax.lines if line.get_gid() is None})
+
+
+def test_the_limit_that_is_drawn_is_that_of_the_panel():
+    cam = TranslatingRollerCam(groove=False)
+    assert band(explore(cam, pressure_angle, at_most={max_pressure_angle: 25 * deg}).picture.axes[0]) == pytest.approx(
+        [25]
+    )
+    assert band(explore(cam, pressure_angle).picture.axes[0]) == []
+    assert band(picture(cam, pressure_angle, limits={max_pressure_angle: 30 * deg}).axes[0]) == pytest.approx([30])
+    door = door_handle_study()
+    panel = explore(DoorHandleCam(), pressure_angle, at_most=door.at_most)
+    assert band(panel.picture.axes[0]) == pytest.approx([45])
+
+
+# ---------------------------------------------------------------- undercut
+
+
+def test_a_sound_cam_is_not_spoken_of():
+    for cam in (TranslatingRollerCam(groove=False), OscillatingRollerCam(), TranslatingFlatCam(), ValveCam()):
+        assert undercut_in_words(cam.analyse()) == ""
+    for design in (UniversalJointShaft(), CabinDoorLinkage()):
+        assert undercut_in_words(design.analyse()) == ""
+
+
+def test_the_sentence_says_what_is_undercut_where_and_by_how_much():
+    """The flat face's radius of curvature is ``r_0 + s + a``: its least value by brute force."""
+    cam = TranslatingFlatCam(base_radius=8 * mm)
+    angle = np.linspace(0, 2 * np.pi, 200_001)
+    s, _, a, _ = cam.motion(angle)
+    radius = 8 * mm + s + a
+    said = undercut_in_words(cam.analyse())
+    found = re.fullmatch(
+        r"Undercut: the follower cuts away the profile at ([\d.]+) deg, "
+        r"where its radius of curvature is ([\d.]+) mm too small\.",
+        said,
+    )
+    assert found
+    assert np.interp(float(found[1]) * deg, angle, radius) == pytest.approx(radius.min(), abs=1e-6)  # there are two
+    assert float(found[2]) == pytest.approx(-radius.min() / mm, rel=0.005)
+
+
+def test_a_knife_edge_is_not_undercut():
+    """A speed that drops to 0 makes a convex corner, into which an edge without a radius fits."""
+    motion = MotionProgram(
+        (Rise(90 * deg, 10 * mm, HalfCycloidalStart()), Dwell(90 * deg), Return(180 * deg, 10 * mm, Cycloidal()))
+    )
+    cam = TranslatingRollerCam(motion, roller_radius=2 * mm)
+    assert "the profile" in undercut_in_words(cam.replace(groove=False).analyse())
+    for groove in (True, False):
+        assert undercut_in_words(cam.replace(roller_radius=0, groove=groove).analyse()) == ""
+
+
+def test_walls_that_merge_are_told():
+    """350 deg with a rise of 5 mm: a groove 16 mm wide ends 5 mm outside its start, and no flank is too sharp."""
+    cam = TranslatingRollerCam(MotionProgram((Rise(350 * deg, 5 * mm, Cycloidal()),)))
+    assert undercut_in_words(cam.analyse()) == "Walls merge: two parts of the groove overlap by 7.36 mm."
+    for sound in (cam.replace(groove=False), cam.replace(roller_radius=3 * mm)):
+        assert undercut_in_words(sound.analyse()) == ""
+
+
+def test_the_panel_says_it_and_takes_it_back():
+    panel = explore(TranslatingFlatCam(), cam_mechanism, free=["base_radius"])
+    assert sentence(panel._undercut) == ""
+    panel.controls["base_radius"].box.text = "8"
+    assert sentence(panel._undercut) == f"<div role='status'>{undercut_in_words(panel.analysis)}</div>"
+    assert math.isclose(panel.design.base_radius, 8 * mm)
+    press(panel, "Reset")
+    assert sentence(panel._undercut) == ""
+
+
+def test_a_groove_names_its_flanks():
+    said = undercut_in_words(DoorHandleCam(roller_radius=12 * mm).analyse())
+    assert "the inner flank of the relief curve at" in said
+    assert "the outer flank of the relief curve at" in said

@@ -1,0 +1,83 @@
+"""`make app`: what it binds to, and the limits of the kernels that it starts."""
+
+import asyncio
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from camkit.panels.kit import search_files
+from camkit.panels.kit.published import PublishedKernels
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="no make here")
+@pytest.mark.parametrize(
+    ("arguments", "host"), [([], "127.0.0.1"), (["HOST=0.0.0.0"], "0.0.0.0"), (["HOST=::1"], "::1")]
+)
+def test_pages_are_shown_to_this_machine_unless_told_otherwise(arguments, host):
+    """On the command line: some shells export a HOST of their own."""
+    said = subprocess.run(
+        ["make", "-n", "app", *arguments],
+        cwd=REPOSITORY, env=os.environ | {"HOST": "example.org"}, capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    assert f" --Voila.ip={host} " in said
+    assert " --Voila.config_file_paths=notebooks" in said
+
+
+def test_the_limits_of_published_pages_are_known_by_these_names():
+    limits = json.loads((REPOSITORY / "notebooks" / "voila.json").read_text())
+    name = PublishedKernels.__name__
+    assert limits["VoilaConfiguration"] == {"multi_kernel_manager_class": f"{PublishedKernels.__module__}.{name}"}
+    kernels = PublishedKernels(**limits[name])
+    assert {key: getattr(kernels, key) for key in limits[name]} == limits[name]
+    assert kernels.most > 0
+    assert kernels.cull_idle_timeout > 0
+    assert kernels.cull_connected
+
+
+def test_a_page_that_never_opens_gives_its_place_back():
+    """A plain GET runs the notebook and never connects; neither a running notebook nor an open page is ended."""
+
+    async def visits():
+        kernels = PublishedKernels(closed_for=1)
+        crawled, opened, running = [await kernels.start_kernel() for _ in range(3)]
+        try:
+            kernels.notify_connect(opened)
+            kernels.stop_watching_activity(running)
+            kernels.get_kernel(running).execution_state = "busy"
+            async with asyncio.timeout(60):
+                while crawled in kernels:
+                    await asyncio.sleep(0.2)
+            await asyncio.sleep(2 * kernels.closed_for)
+            assert {opened, running} == set(kernels.list_kernel_ids())
+            kernels.get_kernel(running).execution_state = "idle"
+            async with asyncio.timeout(60):
+                while running in kernels:
+                    await asyncio.sleep(0.2)
+            assert kernels.list_kernel_ids() == [opened]
+        finally:
+            await kernels.shutdown_all(now=True)
+
+    asyncio.run(visits())
+
+
+def test_a_published_page_keeps_its_searches_to_itself(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    beside = search_files.keep("kind-1", "{}")
+    beside.checkpoint.write_bytes(b"")
+    beside.let_go()
+    monkeypatch.setenv("VOILA_BASE_URL", "/")
+    assert search_files.unfinished("kind") is None
+    own = search_files.keep("kind-1", "{}")
+    assert own.page.parent != beside.page.parent
+    assert own.page.parent.stat().st_mode & 0o077 == 0
+    own.checkpoint.write_bytes(b"")
+    own.let_go()
+    again = search_files.unfinished("kind")
+    assert again.page == own.page
+    again.remove()

@@ -1,0 +1,290 @@
+"""Bad input, and the sentence that each must give: what it is, its value, what is possible.
+
+The sentences are the contract with the person who typed the number, so they are compared word for word.
+"""
+
+import json
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from camkit import (
+    ArmLoad,
+    Cycloidal,
+    DoorHandleCam,
+    Dwell,
+    Friction,
+    Measure,
+    MotionProgram,
+    OscillatingRollerCam,
+    Return,
+    Rise,
+    Study,
+    ahp,
+    door_handle_study,
+    lift_curve_study,
+    load,
+    most_isolated,
+    nsga2,
+    picture,
+    profile_csv,
+    topsis,
+    weighted,
+    weighted_sum,
+)
+from camkit.data import load as reference
+from camkit.decision.ahp import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
+from camkit.files.designs import Work, from_json, to_json
+from camkit.panels import ahp_panel, explore
+from camkit.quantities import Quantity, declarations
+from camkit.render.cam import pressure_angle
+from camkit.search.nsga2 import Front
+from camkit.units import deg, factor, mm
+
+NAN, INF = float("nan"), float("inf")
+height = Measure("height", "mm", lambda analysis: analysis)
+CAM = DoorHandleCam()
+GOOD = json.loads(to_json(CAM))
+FREE = ", ".join(name for name, declared in declarations(CAM).items() if isinstance(declared, Quantity))
+
+
+def a_study(free=("lift_arm",), minimise=(height,), **more):
+    return Study(CAM, free, minimise, **more)
+
+
+def a_front(f=0.5):
+    """A front of one design and two objectives."""
+    level = Measure("level", "mm", lambda analysis: 0.0)
+    return Front(a_study(minimise=(level, -level)), np.array([[0.05]]), np.array([[f, 0.5]]))
+
+
+def a_file(**entries):
+    """The default cam's file with other entries; ``...`` leaves one out."""
+    design = {k: v for k, v in (GOOD["design"] | entries).items() if v is not ...}
+    return from_json(json.dumps(GOOD | {"design": design}))
+
+
+# fmt: off
+REFUSALS = [
+    # one number of a design
+    (lambda: DoorHandleCam(lift_arm=NAN),
+     "the lift arm l_1 (lift arm: pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
+    (lambda: DoorHandleCam(relief_arm=-75 * mm),
+     "the relief arm l_2 (relief arm: pivot to roller centre) is -75 mm; it must be a finite number above 0 mm"),
+    (lambda: DoorHandleCam(lift_centre_distance=INF),
+     "the lift centre distance a_1 (cam axis to lift pivot) is inf mm; it must be a finite number above 0 mm"),
+    (lambda: DoorHandleCam(roller_radius=0),
+     "the roller radius r_T (both rollers) is 0 mm; it must be a finite number above 0 mm"),
+    (lambda: DoorHandleCam(lift_start_angle="22"),
+     "the lift start angle psi_0 is '22'; it must be a finite number above 0 deg"),
+    (lambda: DoorHandleCam(lift_arm=True), "the lift arm l_1 is True; it must be a finite number above 0 mm"),
+    (lambda: DoorHandleCam(handle_speed=-90 * deg),
+     "the handle speed omega (speed of the handle) is -90 deg/s; it must be a finite number of at least 0 deg/s"),
+    (lambda: DoorHandleCam(door_torque=INF),
+     "the door torque T_d (constant torque of the door on the lift crank) is inf N m; it must be a finite number"),
+    (lambda: CAM.replace(lift_swing=-69 * deg),
+     "the lift swing tau_1 (swing of the lift crank) is -69 deg; it must be a finite number above 0 deg"),
+    (lambda: OscillatingRollerCam(roller_radius=-1 * mm),
+     "the roller radius r_T (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
+    (lambda: OscillatingRollerCam(start_angle=-3 * deg),
+     "the start angle psi_0 (arm's angle from the line of centres at the level 0) is -3 deg; "
+     "it must be a finite number above 0 deg"),
+    (lambda: OscillatingRollerCam(rotation=0), "the rotation is 0; it must be +1 or -1"),
+    (lambda: ArmLoad(mass=-1), "the mass m (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),
+    (lambda: Friction(coefficient=NAN),
+     "the coefficient f (friction between cam and roller) is nan; it must be a finite number of at least 0"),
+    (lambda: ArmLoad(torque_table=((0.0, NAN),)),
+     "the torque table has an entry that is not a finite number; it holds (travel, torque)"),
+
+    # numbers that do not go together
+    (lambda: DoorHandleCam(relief_arm=20 * mm),
+     "the relief roller has to rest on the lift curve's base circle of 33.59 mm; "
+     "an arm of 20 mm at 100 mm reaches 80 to 120 mm"),
+    (lambda: DoorHandleCam(relief_cam_angle=180 * deg),
+     "the relief cam angle is 180 deg of 180 deg handle angle; it must leave some for the lift crank"),
+    (lambda: DoorHandleCam(handle_angle=200 * deg),
+     "relief curve, transition arc and lift curve need 370 deg of the cam; there are 360 deg"),
+    (lambda: DoorHandleCam(lift_swing=160 * deg).analyse(),
+     "the arm swings from 22 to 182 deg from the line of centres; it must stay between 0 and 180 deg"),
+    (lambda: OscillatingRollerCam(roller_radius=100 * mm).analyse(),
+     "the roller of radius 100 mm comes within 36.05 mm of the cam axis; it must stay outside it"),
+    (lambda: DoorHandleCam(motion_law="cycloidal").analyse(),
+     "the motion law is 'cycloidal'; it must be one of simple harmonic, parabolic, cycloidal, modified trapezoid, "
+     "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial or another like them"),
+
+    # motion programs
+    (lambda: Rise(0, 1, Cycloidal()), "the angle of the rise is 0 deg; it must be a finite angle above 0 deg"),
+    (lambda: Rise(1, NAN, Cycloidal()),
+     "the lift of the rise is nan; it must be a finite number of at least 0 (less is a return)"),
+    (lambda: Dwell(-90 * deg), "the angle of the dwell is -90 deg; it must be a finite angle above 0 deg"),
+    (lambda: MotionProgram(()), "the program is empty; it needs at least one rise, return or dwell"),
+    (lambda: MotionProgram((Rise(4, 1, Cycloidal()), Return(3, 1, Cycloidal()))),
+     "the program spans 401.07 deg; it can span at most 360 deg"),
+
+    # studies
+    (lambda: a_study(free=("wing",)), f"'wing' is not a quantity of DoorHandleCam; there are {FREE}"),
+    (lambda: a_study(free=("motion_law",)), f"'motion_law' is not a quantity of DoorHandleCam; there are {FREE}"),
+    (lambda: a_study(free=()), "a study needs the names of one or more free quantities"),
+    (lambda: a_study(minimise=()), "a study needs a tuple of one or more measures to minimise"),
+    (lambda: a_study(free={"lift_arm": (60 * mm, 50 * mm)}),
+     "the bounds of the lift arm are 60 mm and 50 mm; they must be finite, the first below the second"),
+    (lambda: a_study(free={"lift_arm": (50 * mm, NAN)}),
+     "the bounds of the lift arm are 50 mm and nan mm; they must be finite, the first below the second"),
+    (lambda: a_study(free={"lift_arm": (-5 * mm, 50 * mm)}),
+     "the bounds of the lift arm are -5 mm and 50 mm; each must be a finite number above 0 mm"),
+    (lambda: a_study(at_most={height: NAN}), "the limit of the height is nan; it must be a finite number"),
+    (lambda: door_handle_study().evaluate([[1.0, 2.0]]), "x has 2 columns; this study has 3 free quantities"),
+    (lambda: lift_curve_study(space={"relief_arm": (70 * mm, 80 * mm)}),
+     "the relief arm has no effect on the lift curve; it must not be free"),
+    (lambda: lift_curve_study(DoorHandleCam(lift_arm_mass=0)),
+     "the peak contact force, lift at the reference design is 0; it must be finite and not 0"),
+    (lambda: weighted("sum", {height: -2}, (1,)), "the weight of the height is -2; it must be 0 or more"),
+
+    # searches
+    (lambda: nsga2(door_handle_study(), population=3), "the population is 3; it must be a whole number of at least 4"),
+    (lambda: nsga2(door_handle_study(), population=9.5),
+     "the population is 9.5; it must be a whole number of at least 4"),
+    (lambda: nsga2(door_handle_study(), seed=-1), "the seed is -1; it must be a whole number of at least 0"),
+    (lambda: nsga2(door_handle_study(), seed=None), "the seed is None; it must be a whole number of at least 0"),
+
+    # judgements
+    (lambda: ahp([[1, 5], [1 / 4, 1]]),
+     "judgement (1, 2) is 5 and (2, 1) is 0.25; one must be 1 over the other "
+     "(text such as '1/3' is exact, None leaves a place open)"),
+    (lambda: ahp([[2, 5], [1 / 5, 1]]), "judgement (1, 1) is 2 and (1, 1) is 2; the diagonal must be 1"),
+    (lambda: ahp([]), "there are no judgements; those of a single criterion are [[1]]"),
+    (lambda: ahp([NAN]), "no judgement connects criterion 1 with criterion 2; judge one such pair"),
+    (lambda: ahp(["1/0"]), "'1/0' is no number above 0; 3, 1/5 or 0.4 are"),
+    (lambda: ahp([1e300]), "judgement (1, 2) is 1e+300; nobody tells apart more than 1e+06 to 1"),
+    (lambda: ahp([[1, -5], [-1 / 5, 1]]), "judgement (1, 2) is -5; it must be a positive number"),
+    (lambda: ahp([5, 0, 1]), "judgement (1, 3) is 0; it must be a positive number"),
+    (lambda: ahp([5, INF, 1]), "judgement (1, 3) is inf; it must be a positive number"),
+    (lambda: ahp([[1, 2, 3], [1, 2, 3]]), "the judgements have the shape (2, 3); they must be a square matrix"),
+    (lambda: ahp([5, 1]), "2 judgements are no upper triangle; 1, 3, 6, 10, ... are"),
+    (lambda: ahp([[1, 2], [1]]), "the judgements must be a square matrix of numbers or its upper triangle"),
+    (lambda: ahp([5], "mean"), "the method is 'mean'; there are 'eigenvector' and 'geometric'"),
+    (lambda: ahp_panel(["a", "b"], [1, 2, 3]), "there are 3 rows of judgements for 2 criteria"),
+
+    # choosing
+    (lambda: most_isolated(np.zeros((0, 2))), "the front is empty; there is no design to choose"),
+    (lambda: most_isolated([1, 2]), "the front has the shape (2,); it must be a table, a row for each design"),
+    (lambda: crowding_distance([[1, NAN], [2, 1]]), "the front has an objective that is not a finite number"),
+    (lambda: topsis([[1, 2], [2, 1]], scale="sum"), "the scale is 'sum'; there are 'vector' and 'range'"),
+    (lambda: weight_lattice(2, 2.5), "the number of steps is 2.5; it must be a whole number of at least 1"),
+    (lambda: a_front().hypervolume(NAN),
+     "the reference point is nan; it must be 2 finite numbers"),
+    (lambda: a_front().hypervolume((1, NAN)),
+     "the reference point is (1, nan); it must be 2 finite numbers"),
+    (lambda: a_front(NAN).hypervolume((1, 1)), "the front has an objective that is not a finite number"),
+    (lambda: topsis([[1, NAN]]), "the front has an objective that is not a finite number"),
+    (lambda: topsis([[1, 2], [2, 1]], [1, 2, 3]), "there are 3 weights for 2 objectives"),
+    (lambda: weighted_sum([[1, 2], [2, 1]], [1, -1]), "the weights must be finite, none negative, not all 0"),
+
+    # files
+    (lambda: from_json("[1, 2"), "the file is damaged: it is no JSON at line 1 (Expecting ',' delimiter)"),
+    (lambda: from_json("{}"), "the file is JSON of another kind: it does not say which camkit schema it follows"),
+    (lambda: from_json('{"schema": "camkit/2"}'),
+     "the file follows the schema 'camkit/2'; this camkit reads 'camkit/1'"),
+    (lambda: from_json('{"schema": "camkit/1"}'), 
+     "the file is damaged: beside its schema it must hold one design, one work or one front"),
+    (lambda: a_file(kind="Boat"), "the file names a 'Boat', which this camkit does not know"),
+    (lambda: a_file(wing=3), "the file has 'wing', which a DoorHandleCam does not have"),
+    (lambda: a_file(**{"lift_arm [mm]": "50"}),
+     "the file says '50' for 'lift_arm [mm]'; it must be a finite number above 0 mm"),
+    (lambda: a_file(**{"lift_arm [mm]": NAN}), "the file is damaged: it says NaN; every number must be finite"),
+    (lambda: a_file(motion_law="wobbly"),
+     "the file says 'wobbly' for 'motion_law'; there are simple harmonic, parabolic, cycloidal, modified trapezoid, "
+     "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial"),
+    (lambda: from_json(to_json(CAM), Work), "the file holds a DoorHandleCam; a Work is wanted here"),
+
+    # names
+    (lambda: ArmLoad().replace(weight=1),
+     f"ArmLoad has no weight; it has {', '.join(field.name for field in fields(ArmLoad))}"),
+    (lambda: explore(CAM, pressure_angle, free=["arm"]),
+     f"DoorHandleCam has no 'arm'; it has {', '.join(declarations(CAM))}"),
+]
+# fmt: on
+
+
+def _name(case):
+    return case if isinstance(case, str) else ""
+
+
+@pytest.mark.parametrize(("bad", "sentence"), REFUSALS, ids=_name)
+def test_bad_input_gives_its_sentence(bad, sentence):
+    with pytest.raises(ValueError) as refused:  # noqa: PT011  the whole sentence is compared
+        bad()
+    assert str(refused.value) == sentence
+
+
+def test_there_are_sentences_for_at_least_25_kinds_of_bad_input():
+    assert len({sentence for _, sentence in REFUSALS}) >= 25
+
+
+def test_an_unknown_reference_is_refused_with_those_there_are():
+    with pytest.raises(ValueError, match=r"^there is no reference 'boat'; there are .*door_handle"):
+        reference("boat")
+
+
+def test_an_unknown_unit_is_refused_with_the_units_there_are():
+    with pytest.raises(ValueError, match=r"^the unit 'furlong' is not known; there are %, m, cm, mm, .*, W, kW"):
+        factor("furlong")
+
+
+PYTHON = (
+    r"object|NoneType|zip|\(\)|float:|inhomogeneous|unpack|ufunc|ambiguous|reshape|sequence|zero-size|argument|iter"
+)
+"""What a person who never programmed should not read."""
+
+IN_WORDS = {
+    "a torque table of three columns": lambda: DoorHandleCam(door_torque_table=((0, 1, 2),)),
+    "a torque table of text": lambda: DoorHandleCam(door_torque_table="abc"),
+    "a ragged torque table": lambda: DoorHandleCam(door_torque_table=((0, 1), (2,))),
+    "a torque table that goes back": lambda: DoorHandleCam(door_torque_table=((0, 1), (0, 2))),
+    "no cam angles": lambda: OscillatingRollerCam().analyse(0),
+    "a negative number of cam angles": lambda: DoorHandleCam().analyse(-5),
+    "one handle angle": lambda: DoorHandleCam().analyse(1),
+    "a rotation for each": lambda: OscillatingRollerCam(rotation=np.array([[1], [-1]])),
+    "a law that is none": lambda: DoorHandleCam(motion_law="cycloidal"),
+    "one bound": lambda: a_study(free={"lift_arm": 50 * mm}),
+    "three bounds": lambda: a_study(free={"lift_arm": (1, 2, 3)}),
+    "bounds of text": lambda: a_study(free={"lift_arm": ("a", "b")}),
+    "an objective that is a name": lambda: a_study(minimise=("height",)),
+    "an objective by itself": lambda: a_study(minimise=height),
+    "a limit of text": lambda: a_study(at_most={height: "45"}),
+    "a limit on a name": lambda: a_study(at_most={"height": 45}),
+    "no angles": lambda: a_study(angles=0),
+    "too few weights": lambda: door_handle_study(weights=(1, 1)),
+    "too many references": lambda: weighted("sum", {height: 1}, (1, 2)),
+    "too few free values": lambda: door_handle_study().design([0.05, 0.38]),
+    "a reference point of three": lambda: nsga2(door_handle_study(), 8, 1).hypervolume((1, 2, 3)),
+    "judgements that are true or false": lambda: ahp([True]),
+    "complex judgements": lambda: ahp([2 + 1j]),
+    "judgements that are one number": lambda: ahp(5),
+    "a judgement too large for a number": lambda: ahp([10**400]),
+    "a stack of judgements": lambda: ahp(np.ones((2, 3, 3))),
+    "judgements inside a judgement": lambda: ahp([[1, [2]], [3, 1]]),
+    "a rule that is none": lambda: winner_map([[1, 2], [2, 1]], "TOPSIS"),
+    "a rule for ranges that is none": lambda: judgement_ranges([[1, 2], [2, 1]], [3], None),
+    "scales in a list": lambda: topsis([[1, 2], [2, 1]], scale=["vector"]),
+    "weights of a matrix that is not square": lambda: judged_weights([[1, 2, 3], [1, 2, 3]]),
+    "weights of a matrix of text": lambda: judged_weights("3"),
+    "a front too large for numbers": lambda: topsis([[10**400, 1]]),
+    "designs of text": lambda: a_study().evaluate("x"),
+    "designs in a cube": lambda: a_study().evaluate(np.zeros((2, 2, 1))),
+    "more weightings than there is room for": lambda: weight_lattice(30, 10**6),
+    "a complex front": lambda: topsis([[1, 2j], [2, 1]]),
+    "a ragged front": lambda: topsis([[1, 2], [1]]),
+    "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),
+    "a picture without a view": lambda: picture(CAM),
+    "a profile of many": lambda: profile_csv(DoorHandleCam(lift_arm=np.array([[0.05], [0.06]])).analyse(31)),
+    "a file that is not there": lambda: load("no such file.json"),
+}
+
+
+@pytest.mark.parametrize("bad", IN_WORDS.values(), ids=IN_WORDS.keys())
+def test_bad_input_is_refused_in_words(bad):
+    """Whatever the wording: a ``ValueError`` (or that a file is missing) in a person's language, when it is given."""
+    with pytest.raises((ValueError, FileNotFoundError), match=rf"^(?!.*({PYTHON})).*"):
+        bad()

@@ -1,0 +1,179 @@
+"""Jobs in threads, and what becomes of them when a notebook's cell is run again."""
+
+import subprocess
+import sys
+import threading
+import time
+from functools import partial
+from types import SimpleNamespace
+
+import pytest
+
+from camkit import Measure, Study, explore
+from camkit.machines.cam_lever import CamLever, cam_lever_study
+from camkit.panels.cycle_time import cycle_time_panel
+from camkit.panels.fronts import compare_fronts
+from camkit.panels.kit import running
+from camkit.panels.kit.runner import named
+from camkit.panels.kit.running import RUNNING, Job, Place, here, left_behind
+from camkit.panels.optimise import optimise_panel
+from camkit.search.nsga2 import nsga2_generations
+from camkit.units import deg, mm
+
+VIEW = {"width": 3.0, "height": 2.0}
+
+
+def slow(analysis):
+    if threading.current_thread() is not threading.main_thread():
+        time.sleep(0.02)
+    return analysis.min_radius
+
+
+least = Measure("least radius", "mm", slow)
+GEOMETRY = {"max_radius": (100 * mm, 120 * mm), "lever": (210 * mm, 290 * mm)}
+
+
+def view(analysis, ax):
+    return ax
+
+
+def one_wish(start, method="de"):
+    return Study(start, GEOMETRY, (least,), angles=31)
+
+
+def two_wishes(start):
+    return one_wish(start).replace(minimise=(least, Measure("largest radius", "mm", slow)))
+
+
+def interval(start):
+    return cam_lever_study(start, free_laws=False, angles=31).replace(minimise=(least,))
+
+
+def endless(study):
+    return nsga2_generations(study, 20, 10_000, 1)
+
+
+PANELS = {
+    "improve": lambda app: optimise_panel(app, one_wish, methods=("de",)),
+    "shorten": lambda app: cycle_time_panel(app, interval, 1 * mm, 50 * deg, 61 * deg),
+    "trade": lambda app: compare_fronts(app, {"all at once": (two_wishes, endless)}),
+}
+
+
+@pytest.fixture(autouse=True)
+def _nothing_goes_on():
+    yield
+    for job in RUNNING[:]:
+        job.stop()
+        job.thread.join(20)
+
+
+def an_explorer(**changes):
+    return explore(CamLever(**changes), view, **VIEW)
+
+
+def underway(panel):
+    panel.run()
+    assert panel.runner.banner.layout.display == "none", panel.runner.banner.value
+    until = time.monotonic() + 20
+    while panel.runner.watch.looked < 5 and time.monotonic() < until:
+        time.sleep(0.01)
+    assert panel.runner.stop_button.disabled is False
+    return RUNNING[-1]
+
+
+@pytest.mark.parametrize("make", PANELS.values(), ids=PANELS)
+@pytest.mark.parametrize("cell", ["", "cell"], ids=["no cell", "a cell"])
+def test_a_panel_that_is_made_anew_ends_the_job_of_the_one_before(make, cell, monkeypatch):
+    at = iter([Place(cell, "first"), Place(cell, "first"), Place(cell, "second")])
+    module = sys.modules["camkit.panels.kit.runner"]
+    monkeypatch.setattr(module, "here", lambda: next(at))
+    panel, beside = make(an_explorer()), make(an_explorer(lever=251 * mm))
+    job = underway(panel)
+    assert RUNNING[:] == [job]
+    other = make(an_explorer())
+    job.thread.join(20)
+    assert not job.thread.is_alive()
+    assert not RUNNING
+    assert panel.runner.stop_button.disabled
+    for one in (panel, beside, other):
+        one.stop()
+        one.wait(20)
+
+
+def test_another_panel_leaves_a_job_alone():
+    panel = optimise_panel(an_explorer(), one_wish, methods=("de",))
+    job = underway(panel)
+    optimise_panel(an_explorer(lever=251 * mm), one_wish, methods=("de",))
+    optimise_panel(an_explorer(), lambda start, method: one_wish(start), methods=("de",))
+    assert not panel.runner.watch._stop.is_set()
+    assert RUNNING[:] == [job]
+    panel.stop()
+    panel.wait(20)
+    assert not RUNNING
+
+
+def test_which_jobs_a_panel_replaces():
+    def job(kind, cell, run):
+        return Job(kind, Place(cell, run), lambda: None, lambda: None)
+
+    jobs = [
+        job("a", "1", "x"),
+        job("a", "2", "x"),
+        job("b", "1", "x"),
+        job("b", "1", "y"),
+        job("a", "", ""),
+        job("b", "", ""),
+    ]
+    RUNNING.extend(jobs)
+    try:
+        assert left_behind("a", Place("1", "y")) == [jobs[0], jobs[2], jobs[4]]
+        assert left_behind("a", Place("1", "z")) == [jobs[0], jobs[2], jobs[3], jobs[4]]
+        assert left_behind("b", Place("3", "z")) == [jobs[5]]
+        assert left_behind("b", Place("", "")) == [jobs[2], jobs[3], jobs[5]]
+    finally:
+        RUNNING.clear()
+
+
+def test_a_job_that_breaks_is_not_running(monkeypatch):
+    monkeypatch.setattr(threading, "excepthook", lambda _: None)
+    job = Job("a", here(), lambda: 1 / 0, lambda: None)
+    job.start()
+    job.thread.join(10)
+    assert not RUNNING
+
+
+def test_a_cell_is_known_by_what_the_notebook_says(monkeypatch):
+    assert here() == Place("", "")
+    message = {"header": {"msg_id": "7"}, "metadata": {"cellId": "abc"}}
+    monkeypatch.setattr(running, "get_ipython", lambda: SimpleNamespace(parent_header=message))
+    assert here() == Place("abc", "7")
+    del message["metadata"]
+    assert here() == Place("", "7")
+    monkeypatch.setattr(running, "get_ipython", lambda: SimpleNamespace())
+    assert here() == Place("", "")
+
+
+def test_a_function_is_the_same_when_its_cell_runs_again():
+    def one():
+        pass
+
+    two = one
+
+    def one():
+        pass
+
+    assert one is not two
+    assert named(one) == named(two) == named(partial(one, 1))
+    assert named(3 * mm) == "0.003"
+
+
+ENDS = """
+import time
+from camkit.panels.kit.running import Job
+Job("a", ("", ""), lambda: time.sleep(0.1), lambda: None).start()
+"""
+
+
+def test_a_python_that_ends_waits_for_a_job():
+    assert subprocess.run([sys.executable, "-c", ENDS], timeout=60).returncode == 0

@@ -1,0 +1,286 @@
+"""Designs side by side: the table against the designs' own numbers, the files, the tray and its picture."""
+
+import base64
+import io
+import re
+from html.parser import HTMLParser
+
+import ipywidgets as w
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from PIL import Image
+
+from camkit import DoorHandleCam, Measure, UniversalJointShaft, explore, lift_curve_study, shaft_study
+from camkit.decision.summary import side_by_side
+from camkit.machines.door_handle import CURVE_TABLE, stroke_radius
+from camkit.motion import Poly345
+from camkit.panels.kit.controls import Download
+from camkit.panels.shortlist import shortlist
+from camkit.render.artists import _find
+from camkit.render.cam import pressure_angle
+from camkit.render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
+from camkit.render.picture import draw, layout
+from camkit.units import mm
+
+ARMS = (50 * mm, 46 * mm, 54 * mm)
+DESIGNS = {f"arm {arm / mm:.0f}": DoorHandleCam(lift_arm=arm) for arm in ARMS}
+STUDY = lift_curve_study()
+STEEPEST, BASE = CURVE_TABLE[:2]
+
+
+def line_of(table, name):
+    return next(line for line in table.lines if line.name == name)
+
+
+# --- the table --------------------------------------------------------------------------------------------------------
+
+
+def test_the_table_has_what_differs_and_every_measure_as_the_designs_have_it():
+    table = side_by_side(DESIGNS, CURVE_TABLE[:7], STUDY)
+    assert table.names == tuple(DESIGNS)
+    names = [line.name for line in table.lines]
+    assert names[:3] == ["lift arm", "effort", stroke_radius.name]
+    assert len(set(names)) == len(names) == 1 + 2 + 7
+    assert line_of(table, "lift arm").texts == ("50 mm", "46 mm", "54 mm")
+    for measure in CURVE_TABLE[:7]:
+        expected = tuple(measure.text(measure(design.analyse())) for design in DESIGNS.values())
+        assert line_of(table, measure.name).texts == expected
+
+
+def test_the_best_is_least_or_largest_as_the_study_says_and_a_missed_limit_is_told():
+    table = side_by_side(DESIGNS, CURVE_TABLE[:7], STUDY)
+    analyses = [design.analyse() for design in DESIGNS.values()]
+    for measure, best in ((STEEPEST, np.argmin), (BASE, np.argmax), (stroke_radius, np.argmax)):
+        line = line_of(table, measure.name)
+        assert np.flatnonzero(line.best) == best([measure(a) for a in analyses])
+    steep = line_of(table, STEEPEST.name)
+    assert steep.limit == "at most 45 deg"
+    assert list(steep.missed) == [STEEPEST(a) > STUDY.at_most[STEEPEST] for a in analyses] == [False, False, True]
+    assert not any(line_of(table, "lift arm").best)
+    assert not any(line_of(table, CURVE_TABLE[6].name).best)  # nobody said that a small torque is better
+
+
+@pytest.mark.parametrize("side", ["at_most", "at_least"])
+def test_a_number_that_is_not_there_keeps_no_limit(side):
+    unknown = Measure(STEEPEST.name, STEEPEST.unit, lambda analysis: np.nan)
+    study = STUDY.replace(**({"at_most": {}, "at_least": {}} | {side: {unknown: 1.0}}))
+    assert line_of(side_by_side(DESIGNS, (), study), STEEPEST.name).missed == (True, True, True)
+
+
+def test_designs_that_are_alike_have_no_best():
+    table = side_by_side({"one": DoorHandleCam(), "other": DoorHandleCam(relief_arm=76 * mm)}, (), STUDY)
+    assert [line.name for line in table.lines if line.texts[0] != line.texts[1]] == ["relief arm"]
+    assert not any(any(line.best) for line in table.lines)
+
+
+def test_a_choice_that_differs_is_told_by_name():
+    law = Poly345()
+    table = side_by_side({"one": DoorHandleCam(), "other": DoorHandleCam(motion_law=law)})
+    assert line_of(table, "motion law").texts == (DoorHandleCam().motion_law.name, law.name)
+
+
+def test_designs_of_two_kinds_are_refused():
+    with pytest.raises(ValueError, match="the designs are DoorHandleCam and UniversalJointShaft; designs of one kind"):
+        side_by_side({"a": DoorHandleCam(), "b": UniversalJointShaft()})
+
+
+def test_markdown_is_a_table_with_bold_bests():
+    table = side_by_side(DESIGNS, CURVE_TABLE[:3], STUDY)
+    lines = table.markdown("Three arms").splitlines()
+    assert lines[0] == "# Three arms"
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    assert {len(row) for row in rows} == {5}
+    assert rows[0] == ["", *DESIGNS, "limit"]
+    steep = next(row for row in rows if row[0] == STEEPEST.name)
+    values = [STEEPEST.text(STEEPEST(d.analyse())) for d in DESIGNS.values()]
+    assert steep == [STEEPEST.name, values[0], f"**{values[1]}**", f"{values[2]} (not met)", "at most 45 deg"]
+
+
+class Reader(HTMLParser):
+    """Cells of every row, pictures, and what a page asks other places for."""
+
+    def __init__(self):
+        super().__init__()
+        self.rows, self.images, self.open = [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in ("meta", "img"):
+            self.open.append(tag)
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+        if tag == "img":
+            self.images.append(dict(attrs))
+        assert tag not in ("link", "script")
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.rows and {"td", "th"} & set(self.open):
+            self.rows[-1][-1] += data
+
+
+def read(page):
+    reader = Reader()
+    reader.feed(page)
+    assert reader.open == []
+    return reader
+
+
+def test_the_page_holds_the_same_table_and_its_picture():
+    table = side_by_side(DESIGNS, CURVE_TABLE[:3], STUDY)
+    out = io.BytesIO()
+    Image.new("RGB", (3, 2), "red").save(out, "PNG")
+    page = read(table.page("Three <arms>", out.getvalue()))
+    assert page.rows[0] == ["", *DESIGNS, "limit"]
+    for line, row in zip(table.lines, page.rows[1:], strict=True):
+        told = [f"{text} not met" if missed else text for text, missed in zip(line.texts, line.missed, strict=True)]
+        assert row == [line.name, *told, line.limit]
+    (image,) = page.images
+    assert image["src"].startswith("data:image/png;base64,")
+    assert base64.b64decode(image["src"].partition(",")[2]) == out.getvalue()
+    assert "Three &lt;arms&gt;" in table.page("Three <arms>")
+    assert "<img" not in table.page()
+    assert table.page().count("<b>") == sum(sum(line.best) for line in table.lines) > 0
+
+
+# --- the pictures -----------------------------------------------------------------------------------------------------
+
+
+def drawn(view, kept):
+    _, axes = layout((view,), width=5, height=4)
+    draw(kept, axes, (view,))
+    return axes[0]
+
+
+def test_profiles_are_those_of_the_designs_in_the_colours_of_their_places():
+    kept = Kept({place: design.analyse() for place, design in zip("ACE", DESIGNS.values(), strict=True)})
+    ax = drawn(profiles_overlaid, kept)
+    for place in PLACES:
+        curve = np.array(_find(ax, place).get_data(), dtype=float)
+        if place in kept.analyses:
+            profile = kept.analyses[place].profile / mm
+            assert_allclose(curve[:, : profile.shape[1]], profile)
+            assert _find(ax, place).get_color() == colour_of(place)
+            assert _find(ax, f"letter {place}").get_text() == place
+        else:
+            assert np.isnan(curve).all()
+            assert _find(ax, f"letter {place}").get_text() == ""
+
+
+def test_measures_are_shown_against_the_first():
+    analyses = {place: design.analyse() for place, design in zip("BC", DESIGNS.values(), strict=False)}
+    ax = drawn(measures_overlaid, Kept(analyses, CURVE_TABLE[:4]))
+    ratios = [100 * (m(analyses["C"]) / m(analyses["B"]) - 1) for m in CURVE_TABLE[:4]]
+    assert_allclose(_find(ax, "B").get_xdata(), 0, atol=1e-12)
+    assert_allclose(_find(ax, "C").get_xdata(), ratios)
+    assert [tick.get_text().replace("\n", " ") for tick in ax.get_yticklabels()] == [m.name for m in CURVE_TABLE[:4]]
+    draw(Kept({}, CURVE_TABLE[:4]), [ax], (measures_overlaid,))
+    assert np.isnan(_find(ax, "B").get_xdata()).all()
+
+
+# --- the panel --------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def panel():
+    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], measures=CURVE_TABLE[:4], width=4, height=2.6)
+    return shortlist(app, STUDY)
+
+
+def inside(box, kind):
+    children = getattr(box, "children", ())
+    return [c for c in children if isinstance(c, kind)] + [x for c in children for x in inside(c, kind)]
+
+
+def press(panel, words, which=0):
+    [b for b in inside(panel, w.Button) if b.description == words][which].click()
+
+
+def alert(panel):
+    return re.sub("<.*?>", "", panel._banner.value)
+
+
+def keep(panel, arm):
+    panel.explorer.load(DoorHandleCam(lift_arm=arm * mm))
+    press(panel, "Keep this design")
+
+
+def downloaded(panel, words):
+    button, sent = next(d for d in inside(panel, Download) if d.description == words), []
+    button.send = sent.append
+    button._handle_custom_msg({"wanted": True}, [])
+    return sent[0]
+
+
+def test_five_designs_are_kept_and_a_sixth_is_refused_in_a_sentence(panel):
+    assert panel.summary() == "no design is kept yet"
+    for arm in (46, 47, 48, 49, 50):
+        keep(panel, arm)
+    assert list(panel.designs) == list(PLACES)
+    assert alert(panel) == ""
+    keep(panel, 51)
+    assert alert(panel) == (
+        "This design is not kept: 5 designs are kept already, as many as the tray holds; remove one to make room."
+    )
+    assert [design.lift_arm for design in panel.designs.values()] == [arm * mm for arm in (46, 47, 48, 49, 50)]
+    press(panel, "Remove", 1)
+    keep(panel, 51)
+    assert {place: round(design.lift_arm / mm) for place, design in panel.designs.items()} == dict(
+        zip("ABCDE", (46, 51, 48, 49, 50), strict=True)
+    )
+
+
+def test_a_design_is_kept_once(panel):
+    keep(panel, 46)
+    keep(panel, 46)
+    assert alert(panel) == "This design is not kept: it is design A already."
+    assert list(panel.designs) == ["A"]
+
+
+def test_a_kept_design_goes_back_into_the_sliders(panel):
+    keep(panel, 46)
+    keep(panel, 54)
+    press(panel, "Load")
+    assert panel.explorer.design == DoorHandleCam(lift_arm=46 * mm)
+
+
+def test_the_files_are_the_table_and_the_picture(panel):
+    keep(panel, 46)
+    keep(panel, 54)
+    named = {"design A": DoorHandleCam(lift_arm=46 * mm), "design B": DoorHandleCam(lift_arm=54 * mm)}
+    table = side_by_side(named, CURVE_TABLE[:4], STUDY)
+    file = downloaded(panel, "Save as Markdown")
+    assert file["name"] == "designs.md"
+    assert file["text"] == table.markdown("Designs side by side")
+    assert panel.summary() == file["text"]
+    file = downloaded(panel, "Save as HTML")
+    assert file["name"] == "designs.html"
+    assert file["mime"] == "text/html"
+    page = read(file["text"])
+    assert table.html() in file["text"]
+    image = Image.open(io.BytesIO(base64.b64decode(page.images[0]["src"].partition(",")[2])))
+    assert image.size == (1260, 480)
+    assert table.html() in panel._table.value
+
+
+def test_an_empty_tray_shows_and_saves_nothing_but_words(panel):
+    assert panel.picture.widget.layout.display == "none"
+    assert "<img" not in downloaded(panel, "Save as HTML")["text"]
+    keep(panel, 46)
+    assert panel.picture.widget.layout.display == ""
+    press(panel, "Remove")
+    assert panel.picture.widget.layout.display == "none"
+
+
+def test_designs_without_a_profile_are_compared_in_numbers():
+    app = explore(UniversalJointShaft(), lambda analysis, ax: ax, free=["outer_diameter"], width=3, height=2)
+    panel = shortlist(app, shaft_study())
+    press(panel, "Keep this design")
+    app.load(UniversalJointShaft(outer_diameter=120 * mm))
+    press(panel, "Keep this design")
+    assert panel.picture.views == (measures_overlaid,)
+    assert line_of(panel.table, "outer diameter").texts == ("128.64 mm", "120 mm")
