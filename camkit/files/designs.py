@@ -101,7 +101,9 @@ def load(
     ``kind`` and ``measures`` are those of `read`.
     """
     path = _path(path)
-    kinds.refuse_arguments(load, locals())
+    if not (kind is None or isinstance(kind, type)) or not callable(tell):
+        told = f"{kinds.shown(kind)} and {kinds.shown(tell)}"
+        raise ValueError(f"the kind and who is told are {told}; they must be a class, or None, and a function")
     with path.open("rb") as file:
         found = read(file.read(MOST_BYTES + 1), kind, measures)
     for remark in found.remarks:

@@ -119,7 +119,7 @@ class ParetoPanel(Panel):
         self._make_widgets(population, generations)
         self.study = self._study()
         self._x = np.zeros((0, len(self.study.free)))
-        self.front = Front(self.study, self._x, np.zeros((0, len(self.study.minimise))))
+        self.front = _front(self.study, self._x)
         self.winner: int | None = None
         self._place, self._unkept = here(), ""
         self._run: _Run | None = None
@@ -422,7 +422,7 @@ class ParetoPanel(Panel):
         """Weigh the same designs anew."""
         if self.criteria:
             self.study = self.study.weighing(self.criteria.weights)
-        self.front = Front(self.study, self._x, self.front.f, record=self.front.record).judged_by(self.study)
+        self.front = replace(_front(self.study, self._x), record=self.front.record)
         self._show_front()
 
     def _show_front(self) -> None:
@@ -522,9 +522,8 @@ class ParetoPanel(Panel):
 
     def _show_loaded(self, work: designs.Work) -> None:
         """Front, judgements and design of a file: all of them or none."""
-        x = np.asarray(work.x)
-        empty = Front(work.study, x, np.zeros((0, len(work.study.minimise))))
-        front = front_of(work.study.evaluate(x), work.study) if len(x) else empty
+        x = np.asarray(work.x).reshape(-1, len(work.study.free))
+        front = _front(work.study, x)
         before, pick = (self.study, self._x, self.front, self.rule.value, self._judged_now()), self.pick.value
         told = {name: (upper, work.methods.get(name, "eigenvector")) for name, upper in work.judgements.items()}
         rule = work.search.get("rule", self.rule.value)
@@ -590,6 +589,11 @@ class ParetoPanel(Panel):
         f = front.f[winner]
         goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         return "\n".join([f"{len(self.front)} designs on the front; winner by {self.rule.value}:", *goals])
+
+
+def _front(study: Study, x: np.ndarray) -> Front:
+    """The front among designs ``(p, n_free)``, which may be none."""
+    return front_of(study.evaluate(x), study) if len(x) else Front(study, x, np.zeros((0, len(study.minimise))))
 
 
 def _other_count(whose: str, count: int, what: str, panel: AhpPanel) -> str:
