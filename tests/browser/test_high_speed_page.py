@@ -101,7 +101,7 @@ def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> 
     first = peak_wear.text(float(best.study.evaluate([best.study.x0]).f[0, 0]))
     expect(book.better).to_contain_text(f"wear F_wear: {first} → {peak_wear.text(best.f)}")
     expect(book.better).to_contain_text("the slopes show no way down")
-    expect(book.better).to_contain_text("max radius 140 mm (upper bound)")
+    expect(book.better).to_contain_text("maximum radius 140 mm (upper bound)")
     found = book.value("[app.design.arm_length, app.design.roller_radius, app.design.max_radius]")
     np.testing.assert_allclose(found, [getattr(best.design, name) for name in GEOMETRY], rtol=1e-4)
     assert book.value("float(app.measures[1](app.analysis))") < 0.6 * float(peak_wear(START.analyse()))

@@ -478,7 +478,7 @@ def test_a_weak_spring_loses_contact():
     [
         ({"arm_length": 0.0}, r"the arm length l .* is 0 mm; it must be a finite number above 0 mm"),
         ({"roller_radius": -1 * mm}, r"the roller radius r .* is -1 mm"),
-        ({"max_radius": np.inf}, r"the max radius r_k2 .* is inf mm"),
+        ({"max_radius": np.inf}, r"the maximum radius r_k2 .* is inf mm"),
         ({"swing": np.nan}, r"the swing PS .* is nan deg"),
         ({"swing": 0.0}, r"the swing PS .* is 0 deg; it must be a finite number above 0 deg"),
         ({"centre_distance": -200 * mm}, r"the centre distance L .* is -200 mm"),

@@ -157,7 +157,7 @@ def test_the_optimum_comes_into_the_sliders_with_the_reason(app):
     assert lines[0] == "minimise: stress, method: slsqp"
     assert lines[1] == f"contact stress F_sigma: {peak_stress.text(first)} → {peak_stress.text(best.f)}"
     assert lines[2] == best.message
-    assert "max radius 140 mm (upper bound)" in panel.verdict.value
+    assert "maximum radius 140 mm (upper bound)" in panel.verdict.value
     assert f"best so far {peak_stress.text(best.f)}" in panel.runner.status.value
     panel.back.click()
     assert app.design == FIRST
