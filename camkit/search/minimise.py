@@ -99,7 +99,7 @@ def minimise(
     >>> from camkit.machines.high_speed_study import high_speed_study
     >>> best = minimise(high_speed_study())
     >>> best.evaluations < 200, *(f"{held.name} {held.value}" for held in best.active)
-    (True, 'contact stress F_sigma 1.683 N^0.5 mm^-0.5', 'max radius 140 mm (upper bound)')
+    (True, 'contact stress F_sigma 1.683 N^0.5 mm^-0.5', 'maximum radius 140 mm (upper bound)')
 
     Raises ``ValueError`` for a study with several objectives, an unknown method, or numbers that are no whole ones.
     """

@@ -62,7 +62,11 @@ def _from_the_start(book: Workbook) -> None:
 
 def shows(book: Workbook, cam: HighSpeedCam) -> None:
     """Boxes and table show ``cam``, computed here."""
-    for name, field in (("arm length", "arm_length"), ("roller radius", "roller_radius"), ("max radius", "max_radius")):
+    for name, field in (
+        ("arm length", "arm_length"),
+        ("roller radius", "roller_radius"),
+        ("maximum radius", "max_radius"),
+    ):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{getattr(cam, field) / mm:.6g}")
     expected = table_of_measures(HIGH_SPEED_MEASURES, cam.analyse(), START.analyse(), {}, LIMITS)
     expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
