@@ -40,7 +40,7 @@ def jump_speed(analysis: Any) -> Any:
     slack = analysis.highest(slackness).value
     slack = np.where(_thrown_off(analysis), np.inf, slack)
     with np.errstate(divide="ignore"):
-        return 1 / np.sqrt(np.where(getattr(analysis, "form_closed", False), 0.0 * np.isfinite(slack), slack))[()]
+        return 1 / np.sqrt(np.where(analysis.form_closed, 0.0 * np.isfinite(slack), slack))[()]
 
 
 def preload_needed(analysis: Any, speed: Any) -> Any:
@@ -65,14 +65,14 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
         return -(at.inertia * speed**2 * at.acceleration + without)
 
     least = np.maximum(analysis.highest(lacking).value, 0.0)
-    drops = _thrown_off(analysis) & ~np.asarray(getattr(analysis, "form_closed", False)) & (np.asarray(speed) > 0)[()]
+    turns = np.atleast_1d(speed)[..., 0] > 0
+    drops = _thrown_off(analysis) & np.logical_not(analysis.form_closed) & turns
     return np.where(drops, np.inf, least)[()]
 
 
 def _thrown_off(analysis: Any) -> Any:
     """Whether the follower has mass and its speed drops at once, which no force can make it follow."""
-    corner = getattr(analysis, "corner", None)
-    return (corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0) if corner else np.False_
+    return (analysis.corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0)
 
 
 class TorqueBalance(NamedTuple):

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from ..cam.force_closure import jump_speed, preload_needed
 from ..cam.peaks import Extreme
 from ..cam.sizing import min_from_which_on
 from ..contact import LineContact, contact_modulus, line_contact
@@ -522,6 +523,15 @@ class ValveAnalysis:
         return self.cam.spring_preload
 
     @property
+    def form_closed(self) -> bool:
+        """Whether the cam holds the follower from both sides: it does not."""
+        return False
+
+    def corner(self, way: int) -> Extreme:
+        """The largest jump of the follower's speed (see `CamAnalysis.corner`): there is none."""
+        return Extreme(0.0, 0.0)
+
+    @property
     def loaded_flank(self) -> Any:
         """The cam's outline, there is no other."""
         return 1.0
@@ -556,7 +566,7 @@ class ValveAnalysis:
     @cached_property
     def jump_speed(self) -> Any:
         """Speed of the camshaft at which the follower first leaves the cam, rad/s."""
-        return self.cam.train.jump_speed(self.cam.flank, self._flank_angle)
+        return jump_speed(self)
 
     @property
     def jump_margin(self) -> Any:
@@ -571,7 +581,7 @@ class ValveAnalysis:
     @cached_property
     def preload_needed(self) -> Any:
         """Least preload that keeps the follower on the cam up to the speed margin at the given rate, N."""
-        return self.cam.train.preload_needed(self.cam.flank, self._flank_angle, self.top_speed)
+        return preload_needed(self, self.top_speed)
 
     @cached_property
     def rate_needed(self) -> Any:

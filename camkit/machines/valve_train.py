@@ -119,27 +119,6 @@ class ValveTrain:
         """Spring force that keeps the train on the cam, N."""
         return -self.mass * speed**2 * motion.a
 
-    def jump_speed(self, opening: Callable[[Any], Kinematics], angle: Any) -> Any:
-        """Speed of the cam at which the follower first leaves it, rad/s."""
-
-        def slackness(alpha: Any) -> Any:
-            motion = opening(alpha)
-            slowing = motion.a < 0
-            spring = np.where(slowing, self.spring_force(motion.s), 1.0)
-            return np.where(slowing, -self.mass * motion.a / spring, 0 * motion.a)
-
-        with np.errstate(divide="ignore"):
-            return 1 / np.sqrt(highest(slackness, angle)[0])
-
-    def preload_needed(self, opening: Callable[[Any], Kinematics], angle: Any, speed: Any) -> Any:
-        """Least preload with which a spring of this rate holds the train on the cam at ``speed``, N."""
-
-        def lacking(alpha: Any) -> Any:
-            motion = opening(alpha)
-            return self.needed(motion, speed) - self.spring_rate * motion.s
-
-        return np.maximum(highest(lacking, angle)[0], 0)
-
     def rate_needed(self, opening: Callable[[Any], Kinematics], angle: Any, speed: Any) -> Any:
         """Least rate with which a spring of this preload holds the train on the cam at ``speed``, N/m."""
 
