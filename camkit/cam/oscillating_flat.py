@@ -91,7 +91,7 @@ class OscillatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def face_offset_for(self, *, min_radius: Any, n: int = 721) -> Any:
+    def face_offset_for(self, *, min_radius: Any) -> Any:
         """Least offset of the face with which no radius of curvature is below ``min_radius``, m.
 
         The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
@@ -103,7 +103,7 @@ class OscillatingFlatCam(Design):
         9.121 mm, 18.000000 mm
         """
         refuse_radius(min_radius)
-        analysis = OscillatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
+        analysis = OscillatingFlatAnalysis(self, self.motion.resolution.angle)
         size = min_radius - lowest(analysis, lambda at: at.offset_free_radius).value
         return if_possible(size, analysis.corner(-1))
 

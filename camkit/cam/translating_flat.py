@@ -67,7 +67,7 @@ class TranslatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, min_radius: Any, n: int = 721) -> Any:
+    def base_radius_for(self, *, min_radius: Any) -> Any:
         """Least base radius with which no radius of curvature is below ``min_radius``: ``rho - s - w``, m.
 
         ``ValueError`` (``nan`` in a population) where the follower's speed drops at once: none keeps it there.
@@ -77,7 +77,7 @@ class TranslatingFlatCam(Design):
         np.float64(0.004)
         """
         refuse_radius(min_radius)
-        analysis = TranslatingFlatAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
+        analysis = TranslatingFlatAnalysis(self, self.motion.resolution.angle)
         size = min_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
         return if_possible(size, analysis.corner(-1))
 

@@ -98,7 +98,7 @@ class TranslatingRollerCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None, n: int = 721) -> Any:
+    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None) -> Any:
         """Least base radius from which on every larger one keeps the limits that are given, m.
 
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
@@ -123,7 +123,7 @@ class TranslatingRollerCam(Design):
             clear = np.sqrt(np.maximum(self.roller_radius**2 - self.offset**2, 0.0))
             return reduce(np.maximum, (steep, tight, clear)) - at.motion.s
 
-        analysis = TranslatingRollerAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span)
+        analysis = TranslatingRollerAnalysis(self, self.motion.resolution.angle)
         height = highest(analysis, start_height).value
         e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
         size = np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
