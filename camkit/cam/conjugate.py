@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..motion import Dwell, MotionProgram, Return, Rise
-from ..motion.program import Segment
+from ..motion import Dwell, MotionProgram, Return, Rise, Segment
 
 
 def opposite(program: MotionProgram) -> MotionProgram:
@@ -25,7 +24,7 @@ def _opposite(segment: Any) -> Segment:
     if isinstance(segment, Dwell):
         return segment
     other = Return if isinstance(segment, Rise) else Rise
-    return other(segment.angle, segment.lift, segment.law)
+    return other(segment.angle, segment.lift, segment.law, name=segment.name)
 
 
 class PairForces(NamedTuple):

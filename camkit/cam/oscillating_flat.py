@@ -19,12 +19,13 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, shown
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, counted, quantity
+from ..kinds import a_number
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
+from ..quantities import Design, choice, counted, quantity
 from ..units import deg, mm, rpm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
+from .directions import ROTATIONS
 from .follower_measures import FLAT_CURVE
 from .loads import ArmLoad, Friction
 from .sizing import if_possible, refuse_radius
@@ -58,21 +59,16 @@ class OscillatingFlatCam(Design):
     an arm that moves with the cam as fast as the cam, or one that is too short.
     """
 
-    motion: MotionProgram = field(default_factory=_rise_and_return)
+    motion: MotionProgram = motion_in("deg", 12, 60, _rise_and_return)
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
     start_angle: float = quantity(
         "psi_0", 20, -30, 60, "deg", "arm's angle from the line of centres at the level 0", above=None
     )
     face_offset: float = quantity("b", 5, -20, 40, "mm", "face from the pivot, away from the cam", above=None)
     arm_length: float = quantity("l", 110, 30, 200, "mm", "arm pivot to the end of the face")
-    rotation: int = 1
+    rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: ArmLoad = field(default_factory=_closed)
     friction: Friction = field(default_factory=Friction)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
 
     @property
     def roller_radius(self) -> float:

@@ -17,12 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, shown
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, counted, quantity
+from ..kinds import a_number
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
+from ..quantities import Design, choice, counted, quantity
 from ..units import deg, mm
 from .analysis import RollerAnalysis
 from .conjugate import opposite
+from .directions import CLOSURES, ROTATIONS
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE
 from .statics import Pivot
@@ -51,21 +52,16 @@ class OscillatingRollerCam(Design):
     the line of centres or a roller that would cover the cam axis.
     """
 
-    motion: MotionProgram = field(default_factory=_rise_and_return)
+    motion: MotionProgram = motion_in("deg", 30, 90, _rise_and_return)
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
     arm_length: float = quantity("l", 60, 20, 120, "mm", "arm pivot to roller centre")
     start_angle: float = quantity("psi_0", 25, 5, 90, "deg", "arm's angle from the line of centres at the level 0")
     roller_radius: float = quantity("r_T", 5, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
-    rotation: int = 1
+    rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: ArmLoad = field(default_factory=ArmLoad)
     friction: Friction = field(default_factory=Friction)
-    groove: bool = True
+    groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
 
     def analyse(self, n: int = 721) -> OscillatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""

@@ -15,12 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, shown
-from ..motion import MotionProgram
-from ..quantities import Design, counted, fails, quantity
+from ..kinds import a_number
+from ..motion import MotionProgram, motion_in
+from ..quantities import Design, choice, counted, fails, quantity
 from ..units import mm
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
+from .directions import ROTATIONS
 from .follower_measures import FLAT_CURVE
 from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
@@ -43,17 +44,12 @@ class TranslatingFlatCam(Design):
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a face that would pass the cam axis.
     """
 
-    motion: MotionProgram = field(default_factory=rise_and_return)
+    motion: MotionProgram = motion_in("mm", 20, 60, rise_and_return)
     base_radius: float = quantity("r_0", 30, 10, 100, "mm", "cam axis to face at the motion's level 0")
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
-    rotation: int = 1
+    rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
 
     @property
     def roller_radius(self) -> float:

@@ -16,12 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, shown
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, counted, fails, quantity
+from ..kinds import a_number
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
+from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
 from .analysis import RollerAnalysis, highest
 from .conjugate import opposite
+from .directions import CLOSURES, ROTATIONS
 from .follower_measures import ROLLER_CURVE
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
@@ -60,20 +61,18 @@ class TranslatingRollerCam(Design):
     the cam, or a roller that would cover the cam axis.
     """
 
-    motion: MotionProgram = field(default_factory=rise_and_return)
+    motion: MotionProgram = motion_in("mm", 20, 60, rise_and_return)
     base_radius: float = quantity("r_b", 30, 10, 100, "mm", "cam axis to profile at the motion's level 0")
     roller_radius: float = quantity("r_T", 8, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
-    rotation: int = 1
+    rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
-    groove: bool = True
+    groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
         if fails(abs(self.offset) < self.prime_radius):
             raise ValueError(
                 f"the offset of the follower is {self.offset / mm:.4g} mm; base circle and roller make "

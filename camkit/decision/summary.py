@@ -11,7 +11,7 @@ import numpy as np
 
 from ..kinds import refuse_arguments, shown
 from ..markup import Html, attribute, html, markdown, table
-from ..quantities import Choice, Measure, can_be_analysed, declarations, words
+from ..quantities import Measure, can_be_analysed, declared_in, value_of, words
 from ..study.study import Study, keeps
 
 NOT_MET = "not met"
@@ -139,11 +139,13 @@ def _senses(study: Any) -> dict[Measure, int]:
 
 def _differences(designs: Sequence[Any]) -> list[Line]:
     """Quantities that are not the same in all designs."""
-    declared = declarations(designs[0]) if designs else {}
+    trees = [declared_in(design) for design in designs]
     lines = []
-    for name, entry in declared.items():
-        values = [getattr(design, name) for design in designs]
-        texts = tuple(value.name if isinstance(entry, Choice) else entry.text(value) for value in values)
+    for name in dict.fromkeys(path for tree in trees for path in tree):
+        texts = tuple(
+            tree[name].text(value_of(design, name)) if name in tree else ""
+            for design, tree in zip(designs, trees, strict=True)
+        )
         if len(set(texts)) > 1:
             lines.append(Line(words(name), texts, *((False,) * len(texts),) * 2))
     return lines

@@ -21,7 +21,7 @@ import numpy as np
 from .. import kinds
 from ..decision.ahp import METHODS, judgement_matrix, typed_judgement
 from ..kinds import one_number
-from ..quantities import Design, Measure, declarations, words
+from ..quantities import Design, Measure, quantities_of, words
 from ..study.study import Study, WeightedSum, weighted
 from ..units import factor
 from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number, key
@@ -249,15 +249,13 @@ def _is_front(thing: Any) -> bool:
 
 def _study_entry(study: Study) -> dict[str, Any]:
     _refuse_namesakes(study)
-    declared: Any = declarations(study.start)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
     made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}
     sums = [m for of in limits.values() for m in of or {} if isinstance(m, WeightedSum)]
     return {
         "start": entry_of(study.start),
         "free": {
-            key(n, declared[n]): [exact_in_unit(b, declared[n].unit) for b in bounds]
-            for n, bounds in study.free.items()
+            key(path, q): [exact_in_unit(b, q.unit) for b in study.free[path]] for path, q in study.declared.items()
         },
         "minimise": [_objective_entry(measure, known) for measure in study.minimise],
         **{
@@ -271,8 +269,8 @@ def _study_entry(study: Study) -> dict[str, Any]:
 
 
 def _rows(study: Study, x: Any) -> list[list[float]]:
-    declared: Any = declarations(study.start)
-    return [[exact_in_unit(v, declared[n].unit) for n, v in zip(study.free, row, strict=True)] for row in x]
+    units = [q.unit for q in study.declared.values()]
+    return [[exact_in_unit(v, unit) for unit, v in zip(units, row, strict=True)] for row in x]
 
 
 def _record_entry(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -323,7 +321,7 @@ def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measur
     start = reading.thing(entry["start"])
     if not isinstance(start, Design):
         raise ValueError("the file is damaged: the start of its study is no design")
-    declared: Any = {key(n, q): (n, q) for n, q in declarations(start).items()}
+    declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
     named = _declared_measures(start)
     signs = {k: m.sign for k, m in named.items()}
     made = [_made(k, how, start) for k, how in _mapping(entry["made"], "made").items()]
@@ -367,7 +365,6 @@ def left_out(told: int, kept: int) -> list[str]:
 
 def _x(rows: Any, study: Study) -> np.ndarray:
     """The free values of a front, SI."""
-    declared: Any = declarations(study.start)
     n, rows = len(study.free), _listed(rows, "front")
     if not all(isinstance(row, list) and len(row) == n and all(map(is_number, row)) for row in rows):
         raise ValueError(f"the file is damaged: its front does not have {n} values for each design")
@@ -375,7 +372,7 @@ def _x(rows: Any, study: Study) -> np.ndarray:
         raise ValueError(
             f"the file has {len(rows)} designs at {study.angles} angles each; there can be {MOST_POINTS} points in all"
         )
-    x = np.array(rows, dtype=float).reshape(-1, n) * [declared[name].factor for name in study.free]
+    x = np.array(rows, dtype=float).reshape(-1, n) * [q.factor for q in study.declared.values()]
     _refuse_outside(x, study)
     return x
 
@@ -386,7 +383,7 @@ def _refuse_outside(x: np.ndarray, study: Study) -> None:
     rounding = SAME_BOUND * np.maximum(abs(low), abs(high))
     for i, j in np.argwhere((x < low - rounding) | (x > high + rounding))[:1]:
         name = list(study.free)[j]
-        say: Any = declarations(study.start)[name].text  # type: ignore[union-attr]
+        say = study.declared[name].text
         raise ValueError(
             f"the front of the file has a design outside the bounds of its study: the {words(name)} of design {i + 1} "
             f"is {say(x[i, j])}; the bounds are {say(low[j])} and {say(high[j])}"

@@ -57,14 +57,21 @@ def entry_of(thing: Any, where: str = "value") -> Any:
     name, known = type(thing).__name__, kinds()
     if name in known and is_dataclass(thing):
         _refuse_namesake(type(thing), known[name], where)
-        declared = declarations(thing)
+        declared = _declarations(type(thing))
         values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init}
+        if isinstance(thing, Segment) and not thing.name:
+            values.pop("name", None)
         return {"kind": name} | {
             key(n, declared.get(n)): _field_entry(v, declared.get(n), f"{words(n)} of the {name}")
             for n, v in values.items()
         }
     what = f"a {name}" if is_dataclass(thing) or not callable(thing) else "a function of one's own"
     raise ValueError(f"the {where} is {what}, which no file can hold")
+
+
+def _declarations(kind: type) -> dict[str, Quantity | Choice]:
+    """The declarations of a class by field; those of a program have no unit of their own, and stand in SI."""
+    return {} if issubclass(kind, (MotionProgram, Segment)) else declarations(kind)
 
 
 def _refuse_namesake(kind: type, read: type, where: str) -> None:
@@ -82,9 +89,14 @@ def _field_entry(value: Any, declared: Any, where: str) -> Any:
         if np.ndim(value):
             raise ValueError("this is a population; one design can be saved")
         return exact_in_unit(value, declared.unit)
-    if isinstance(declared, Choice) and value in declared.options:
-        return value.name
+    if isinstance(declared, Choice) and value in declared.options and not _has_fields(value):
+        return declared.text(value)
     return entry_of(value, where)
+
+
+def _has_fields(value: Any) -> bool:
+    """Whether there is more to write of an option than its name, which may stand for another one day."""
+    return type(value).__name__ in kinds() and bool(fields(value))
 
 
 def kinds() -> dict[str, type]:
@@ -135,11 +147,11 @@ class Reading:
             raise ValueError(f"the file is damaged: no {name} can be built of what it says") from None
 
     def _fields(self, kind: type, entries: Mapping[str, Any]) -> dict[str, Any]:
-        declared = declarations(kind)
+        declared = _declarations(kind)
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
             raise ValueError(f"the file has {shown(wrong)}, which a {kind.__name__} does not have")
-        for lacking in [name for name in named if name not in entries]:
+        for lacking in [n for n, f in named.items() if n not in entries and not (f.name == "name" and f.kw_only)]:
             self.lacks(lacking, kind.__name__, named[lacking])
         hints = _hints(kind)
         return {
@@ -177,13 +189,12 @@ class Reading:
 
     def _choice(self, entry: Any, name: str, declared: Choice) -> Any:
         """An option by its name, or something of one's own that has all that the options have in common."""
-        for option in declared.options:
-            if isinstance(entry, str) and option.name == entry:
+        for name_of_it, option in declared.named.items():
+            if name_of_it == entry or (type(option) is type(entry) and option == entry):
                 return option
         value = self.thing(entry) if isinstance(entry, dict) else None
         if value is None or not declared.allows(value):
-            options = ", ".join(option.name for option in declared.options)
-            raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {options}")
+            raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {', '.join(declared.named)}")
         return value
 
 

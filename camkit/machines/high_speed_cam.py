@@ -20,6 +20,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..cam.directions import ROTATIONS
 from ..cam.loads import Friction
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..cam.peaks import raised, with_tops
@@ -118,7 +119,7 @@ class HighSpeedCam(FreeLawCam):
     spring_factor: float = quantity(
         "K", 0, 0, 12, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
     )
-    rotation: int = 1
+    rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
 
     groove: ClassVar[bool] = False
     """A plate: spring or weight hold the roller to it."""
@@ -132,8 +133,6 @@ class HighSpeedCam(FreeLawCam):
         self._refuse_sizes()
 
     def _refuse_intervals(self) -> None:
-        if np.ndim(self.rotation) or self.rotation not in (1, -1):
-            raise ValueError(f"the rotation is {shown(self.rotation)}; it must be +1 or -1")
         moving = self.rise_angle + self.return_angle
         fits = moving < 2 * np.pi
         if fails(fits):

@@ -5,32 +5,21 @@ from .families.free import Degree9, FreePolynomial
 from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
 from .families.harmonic import Cycloidal, SimpleHarmonic
 from .families.modified import ModifiedSine, ModifiedTrapezoid
+from .families.plain import HALF_LAWS, LAWS
 from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
+from .families.shaped import ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
 from .law import Kinematics, Law, Peaks
-from .program import Dwell, MotionProgram, Return, Rise, Segment, program_between
+from .program import MotionProgram, motion_in, program_between
+from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .transitions import Peak, ProgramPeaks, Transition
 from .vibration import period_ratio, residual_vibration
-
-LAWS: tuple[Law, ...] = (
-    SimpleHarmonic(),
-    Parabolic(),
-    Cycloidal(),
-    ModifiedTrapezoid(),
-    ModifiedSine(),
-    Poly345(),
-    Poly4567(),
-    Poly56789(),
-)
-"""The laws that need no parameter, for a menu."""
-
-HALF_LAWS: tuple[Law, ...] = (HalfCycloidalStart(), HalfCycloidalEnd(), HalfHarmonicStart(), HalfHarmonicEnd())
-"""The laws between rest and a velocity, for a program that joins them to constant velocity."""
 
 __all__ = [
     "HALF_LAWS",
     "LAWS",
+    "LAW_MENU",
     "ConstantVelocity",
     "Cycloidal",
     "Degree9",
@@ -55,11 +44,13 @@ __all__ = [
     "Return",
     "Rise",
     "Segment",
+    "ShapedLaw",
     "SimpleHarmonic",
     "Skewed",
     "SplineLaw",
     "TableLaw",
     "Transition",
+    "motion_in",
     "period_ratio",
     "program_between",
     "residual_vibration",

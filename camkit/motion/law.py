@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..kinds import numbers
+from ..quantities import Declared
 
 ROUNDING = 1e-9
 """How far outside [0, 1] a ``u`` may lie and still be taken for the end that was meant."""
@@ -32,11 +33,12 @@ class Peaks(NamedTuple):
     Cj: Any
 
 
-class Law(ABC):
+class Law(Declared, ABC):
     """A rise of 1 over ``u`` from 0 to 1; every law is a small frozen dataclass with its formula in ``at``.
 
-    Laws are equal and hashed by value.  Parameters may be arrays of shape ``(p, 1)``, a population of
-    ``p`` laws; the four results then have the shape ``(p, n)``.
+    Laws are equal and hashed by value.  A parameter that is declared (`quantity`) has a path in every design that holds
+    the law: it is a slider, a free quantity of a study, a tolerance.  Parameters may be arrays of shape ``(p, 1)``, a
+    population of ``p`` laws; the four results then have the shape ``(p, n)``.
     """
 
     name: ClassVar[str]

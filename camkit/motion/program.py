@@ -14,9 +14,8 @@ array([0.01, 0.02, 0.  ])
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, is_dataclass
 from functools import cached_property, reduce
 from itertools import accumulate
 from typing import Any
@@ -24,14 +23,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import a_number, finite, listed, number, numbers, one_number, refuse_lengths, shown
-from ..quantities import fails
-from ..units import deg, in_unit
-from .law import Kinematics, Law
+from ..kinds import a_number, finite, listed, numbers, one_number, refuse_lengths, shown
+from ..quantities import Declared, Quantity, fails
+from ..units import deg
+from .closing import TURN, closed, closing
+from .law import Kinematics
 from .resolution import Resolution, resolve
+from .segments import LIFT, Dwell, Return, Rise, Segment, degrees, kind_of, positive
 from .transitions import ProgramPeaks, Transition, find_peaks, find_transitions
 
-TURN = 2 * np.pi
 SAME_ANGLE = 1e-9
 """Cam angles closer than this (rad) are the same."""
 ROUNDED = 1e-4 * deg
@@ -46,116 +46,23 @@ SAME_LEVEL = 1e-9
 """Levels closer than this, relative to the lifts, are the same."""
 
 
-class Segment(ABC):
-    """A part of a program over some cam ``angle`` (rad)."""
-
-    angle: Any
-
-    @property
-    @abstractmethod
-    def change(self) -> Any:
-        """What the segment adds to the level."""
-
-    @property
-    def kinks(self) -> tuple[Any, ...]:
-        """The shares of the segment at which its motion may jump or have a corner."""
-        return ()
-
-    @property
-    def still(self) -> bool:
-        """Whether the follower rests."""
-        return False
-
-    @abstractmethod
-    def motion(self, u: Any) -> Kinematics:
-        """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
+START = Quantity("s_0", 0, -10, 10, "", "the follower's level where the motion begins", above=None)
 
 
-@dataclass(frozen=True)
-class Dwell(Segment):
-    """The follower rests over ``angle`` (rad, above 0; a population's has the shape ``(p, 1)``).
+def motion_in(unit: str, lift: float, most: float, make: Callable[[], MotionProgram]) -> Any:
+    """A dataclass field for the motion program of a follower whose level is in ``unit``.
 
-    >>> Dwell(0.0)
-    Traceback (most recent call last):
-        ...
-    ValueError: the angle of the dwell is 0 deg; it must be a finite angle above 0 deg
+    A usual ``lift`` and the largest that a slider offers are in that unit; ``make`` makes the field's default.
     """
-
-    angle: Any
-
-    def __post_init__(self) -> None:
-        _refuse_angle(self)
-
-    @property
-    def change(self) -> Any:
-        return 0.0
-
-    @property
-    def still(self) -> bool:
-        return True
-
-    def motion(self, u: Any) -> Kinematics:
-        rest = 0.0 * u
-        return Kinematics(rest, rest, rest, rest)
+    says = {
+        "lift": Quantity("h", lift, most / 60, most, unit, LIFT.meaning, at_least=0),
+        "start": Quantity("s_0", 0, -most, most, unit, START.meaning, above=None),
+    }
+    return field(default_factory=make, metadata={"says": says})
 
 
 @dataclass(frozen=True)
-class _Move(Segment):
-    """A segment that follows a motion law."""
-
-    angle: Any
-    lift: Any
-    law: Law | Callable[[Any], Kinematics]
-
-    def __post_init__(self) -> None:
-        _refuse_angle(self)
-        what, other = _word(self), "return" if isinstance(self, Rise) else "rise"
-        must = f"be a finite number of at least 0 (less is a {other})"
-        lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: lift >= 0)
-        object.__setattr__(self, "lift", lift)
-        if not _is_law(self.law):
-            raise ValueError(f"the law of the {what} is {shown(self.law)}; it must be a motion law such as Cycloidal()")
-        refuse_lengths(self)
-
-    @property
-    def still(self) -> bool:
-        return bool(np.all(np.asarray(self.lift) == 0))
-
-    @property
-    def kinks(self) -> tuple[Any, ...]:
-        return getattr(self.law, "kinks", ())
-
-    def motion(self, u: Any) -> Kinematics:
-        s, v, a, j = self.law(u)
-        h, beta = self.change, self.angle
-        return Kinematics(h * s, h * v / beta, h * a / beta**2, h * j / beta**3)
-
-
-@dataclass(frozen=True)
-class Rise(_Move):
-    """The level grows by ``lift`` (m or rad) over ``angle`` (rad, above 0) after the motion law ``law``.
-
-    ``lift`` is 0 or more.  ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a
-    motion law, or any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by
-    ``ValueError``.
-    """
-
-    @property
-    def change(self) -> Any:
-        return self.lift
-
-
-@dataclass(frozen=True)
-class Return(_Move):
-    """The level falls by ``lift`` over ``angle``; otherwise as ``Rise``.  A program may begin with a return."""
-
-    @property
-    def change(self) -> Any:
-        return -self.lift
-
-
-@dataclass(frozen=True)
-class MotionProgram:
+class MotionProgram(Declared):
     """Segments that follow one another from cam angle 0, the level beginning at ``start``.
 
     Called with cam angles (rad) it gives ``s, v, a, j``: the level in the follower's unit (m or rad) and
@@ -163,6 +70,20 @@ class MotionProgram:
     come back to its first level; a shorter one is ``nan`` outside [0, span].  What the rounding of its angles
     leaves open (1e-4 deg) is closed; a program that misses the turn by more, but by less than 0.5 deg, is refused.
     Cam sizes and springs are counted from the level 0, wherever the program begins.
+
+    Paths call the segments by their own names, or ``rise``, ``dwell``, ``return``, ``dwell2`` by kind and count.  A
+    program that spans 360 deg stays closed when its segments are given other values by path: the last dwell (the last
+    segment, where there is none) takes up the angle and the last move the lift, so these two are no quantities.
+
+    >>> from camkit.motion import Cycloidal
+    >>> from camkit.quantities import quantities_of, with_quantities
+    >>> rise, back = Rise(120 * deg, 0.02, Cycloidal()), Return(120 * deg, 0.02, Cycloidal())
+    >>> turn = MotionProgram((rise, Dwell(60 * deg), back, Dwell(60 * deg, name="rest")))
+    >>> list(quantities_of(turn))
+    ['rise.angle', 'rise.lift', 'dwell.angle', 'return.angle', 'start']
+    >>> other = with_quantities(turn, {"rise.angle": 130 * deg, "rise.lift": 0.03})
+    >>> print(f"{other.segments[3].angle / deg:.4f} deg, {other.segments[2].lift} m")
+    50.0000 deg, 0.03 m
 
     >>> MotionProgram((Dwell(240 * deg), Dwell(119.99 * deg)))
     Traceback (most recent call last):
@@ -175,12 +96,45 @@ class MotionProgram:
     """
 
     segments: tuple[Segment, ...]
-    start: Any = 0.0
+    start: Any = field(default=0.0, metadata={"declared": START, "by_owner": True})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "segments", listed(self.segments, "what the program is made of", "segment"))
         object.__setattr__(self, "start", a_number(self.start, "the start of the program"))
         _refuse_program(self)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """What paths call the segments."""
+        kinds = [kind_of(segment) for segment in self.segments]
+        counts = [kinds[: i + 1].count(kind) for i, kind in enumerate(kinds)]
+        by_kind = [kind if count == 1 else f"{kind}{count}" for kind, count in zip(kinds, counts, strict=True)]
+        return tuple(segment.name or name for segment, name in zip(self.segments, by_kind, strict=True))
+
+    def branches(self) -> dict[str, Segment]:
+        """The segments by name."""
+        return {n: segment for n, segment in zip(self.names, self.segments, strict=True) if is_dataclass(segment)}
+
+    @property
+    def _turns(self) -> bool:
+        """Whether the program, or each member of a population that can be, spans a turn."""
+        return bool(np.all(self.periodic | np.isnan(self._beyond)))
+
+    def following(self) -> dict[str, str]:
+        """The angle and the lift that close a turn."""
+        if not self._turns:
+            return {}
+        angle, lift = closing(self.segments)
+        found = {f"{self.names[angle]}.angle": "it takes up what the other segments leave of the turn"}
+        if lift is not None:
+            found[f"{self.names[lift]}.lift"] = "it takes the follower back to where the turn began"
+        return found
+
+    def changed(self, changes: Mapping[str, Any]) -> MotionProgram:
+        """With other segments by name; a turn is closed again."""
+        segments = [changes.get(name, segment) for name, segment in zip(self.names, self.segments, strict=True)]
+        segments = closed(segments, self.segments) if self._turns else segments
+        return self.replace(segments=tuple(segments), start=changes.get("start", self.start))
 
     @cached_property
     def _beyond(self) -> Any:
@@ -248,7 +202,7 @@ class MotionProgram:
     @cached_property
     def possible(self) -> Any:
         """Whether the program can be; of a population, which rows can."""
-        each = [finite(segment.change) & _positive(segment.angle) for segment in self.segments]
+        each = [finite(segment.change) & positive(segment.angle) for segment in self.segments]
         fits = (self._beyond <= ROUNDED) & np.logical_not(self._misses)
         return reduce(np.logical_and, each, finite(self.start) & fits & self.closes)
 
@@ -353,7 +307,7 @@ def program_between(
         begin, end, to = (one_number(value, "an angle or a level of a piece") for value in given)
         if abs(begin - angle) > ROUNDED:
             what = "overlaps the one before, which ends at" if begin < angle else "leaves angles missing after"
-            raise ValueError(f"the piece from {_degrees(begin)} to {_degrees(end)} {what} {_degrees(angle)}")
+            raise ValueError(f"the piece from {degrees(begin)} to {degrees(end)} {what} {degrees(angle)}")
         change = to - level
         segments.append(
             Dwell(end - begin) if change == 0 else (Rise if change > 0 else Return)(end - begin, abs(change), law)
@@ -362,45 +316,12 @@ def program_between(
     return MotionProgram(tuple(segments), start)
 
 
-def _is_law(law: Any) -> bool:
-    """Whether ``law`` is a motion law, or a function that gives four arrays as one does."""
-    if isinstance(law, Law):
-        return True
-    if isinstance(law, type) or not callable(law):
-        return False
-    try:
-        given = [np.asarray(part, dtype=float) for part in law(np.linspace(0, 1, 5))]
-    except Exception:  # whatever goes wrong in a user's function, it is no law
-        return False
-    return len(given) == 4 and all(part.shape[-1:] in ((), (5,)) for part in given)
-
-
-def _positive(angle: Any) -> Any:
-    return finite(angle) is not False and finite(angle) & (angle > 0)
-
-
-def _word(segment: Segment) -> str:
-    return type(segment).__name__.lower()
-
-
-def _degrees(angle: Any, digits: int = 6) -> str:
-    return f"{in_unit(float(angle), 'deg'):.{digits}g} deg" if finite(angle) else str(angle)
-
-
-def _refuse_angle(segment: Segment) -> None:
-    angle = number(segment.angle)
-    if angle is None or fails(_positive(angle)):
-        said = shown(segment.angle) if angle is None else _degrees(angle)
-        raise ValueError(f"the angle of the {_word(segment)} is {said}; it must be a finite angle above 0 deg")
-    object.__setattr__(segment, "angle", np.where(_positive(angle), angle, np.nan) if np.ndim(angle) else angle)
-
-
 def _meant(program: MotionProgram) -> str:
     """What to write where a segment's angle was given in degrees."""
     for segment in program.segments:
         if not np.ndim(segment.angle) and LIKELY_DEGREES <= segment.angle <= 360:
             given = f"{segment.angle:.6g}"
-            return f" (the {_word(segment)} was given {given} rad; for degrees write {given} * deg)"
+            return f" (the {kind_of(segment)} was given {given} rad; for degrees write {given} * deg)"
     return ""
 
 
@@ -412,13 +333,16 @@ def _refuse_program(program: MotionProgram) -> None:
             given = shown(segment)
             raise ValueError(f"segment {i} of the program is {given}; it must be a rise, a return or a dwell")
     refuse_lengths(program)
+    for name in program.names:
+        if program.names.count(name) > 1 or name in ("start", "segments"):
+            raise ValueError(f"a segment of the program is called {name}; it must have a name that nothing else has")
     if fails(program._beyond <= ROUNDED):
         much = program._beyond >= NEARLY
-        spans = _degrees(program.span) if much else f"{_degrees(program._beyond)} more than a full turn"
+        spans = degrees(program.span) if much else f"{degrees(program._beyond)} more than a full turn"
         raise ValueError(f"the program spans {spans}; it can span at most 360 deg{_meant(program)}")
     if fails(np.logical_not(program._misses)):
         raise ValueError(
-            f"the program spans {_degrees(program.span, 10)}; {_degrees(-program._beyond)} are missing to a full turn: "
+            f"the program spans {degrees(program.span, 10)}; {degrees(-program._beyond)} are missing to a full turn: "
             "lengthen a segment or add a dwell"
         )
     if fails(program.closes):

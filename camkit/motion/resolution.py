@@ -12,7 +12,8 @@ import numpy as np
 from .law import Kinematics
 
 if TYPE_CHECKING:
-    from .program import MotionProgram, Segment
+    from .program import MotionProgram
+    from .segments import Segment
 
 STEPS, LEAST, REST = 128, 16, 2
 """Even steps in a segment that moves, in the least of its smooth pieces, and in a dwell in which nothing happens."""

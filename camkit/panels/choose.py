@@ -15,7 +15,7 @@ from PIL import Image
 from ..decision.ahp import JudgementRange
 from ..kinds import refuse_arguments
 from ..markup import Html, attribute, html, joined, table
-from ..quantities import Measure, declarations, words
+from ..quantities import Measure, words
 from ..render.decision import (
     MARKS,
     ShownDecision,
@@ -157,7 +157,7 @@ class ChoosePanel(Panel):
 
     def _selected(self, shown: ShownDecision) -> int | None:
         """The front's design that is in the sliders, if one is."""
-        now = [getattr(self.source.explorer.design, name) for name in shown.front.study.free]
+        now = shown.front.study.x_of(self.source.explorer.design)
         same = np.isclose(shown.front.x, now, rtol=1e-9, atol=0).all(-1)
         return int(np.argmax(same)) if same.any() else None
 
@@ -254,7 +254,7 @@ class ChoosePanel(Panel):
         """The winners side by side."""
         assert self.shown
         front = self.shown.front
-        declared: Any = declarations(front.study.start)
+        declared = front.study.declared
         goals, free = front.study.minimise, front.study.free
         names = [*(m.name for m in goals), *(words(n) for n in free)]
         head = ("winner by", "design", *names, "wins at, of all weightings")

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..kinds import a_number, refuse_arguments, refuse_empty
 from ..markup import html, joined
-from ..quantities import Measure, Quantity, words
+from ..quantities import Measure, Quantity, value_of, with_quantities, words
 from ..render.contours import ShownPlane, objective_plane
 from ..study.design_map import DesignMap
 from ..study.study import Study, WeightedSum, made_study
@@ -112,7 +112,7 @@ class ContourPanel(Panel):
         """The problem of the menu under these weights, around the design in the sliders."""
         make, first = self.studies[self.menu.value], self.explorer.start
         free = made_study(make, first, weights=self.weights).free
-        around = self.explorer.design.replace(**{n: getattr(first, n) for n in free})
+        around = with_quantities(self.explorer.design, {n: value_of(first, n) for n in free})
         return made_study(make, around, weights=self.weights)
 
     def _changed(self) -> None:
@@ -162,7 +162,7 @@ class ContourPanel(Panel):
                 self._show()
 
     def _show(self) -> None:
-        here = [getattr(self.explorer.design, name) for name in self.plane.study.free]
+        here = self.plane.study.x_of(self.explorer.design)
         self.take.disabled = self.optimum is None
         first, *rest = self._lines()
         self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")
@@ -186,7 +186,7 @@ class ContourPanel(Panel):
     def load(self, x: Any) -> None:
         """Put free values into the sliders."""
         free = dict(zip(self.plane.study.free, map(float, x), strict=True))
-        self.explorer.load(self.explorer.design.replace(**free))
+        self.explorer.load(with_quantities(self.explorer.design, free))
 
     def _clicked(self, x: float, y: float) -> None:
         width, height = self.picture.figure.canvas.get_width_height()

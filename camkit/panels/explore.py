@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
-from operator import attrgetter
 from typing import Any
 
 import ipywidgets as w
@@ -14,7 +12,18 @@ from ..cam.undercut import undercut_in_words
 from ..files import designs, profiles
 from ..kinds import refuse_arguments, shown
 from ..markup import html, table
-from ..quantities import Analysable, Design, Measure, Quantity, declarations, unremarked, words
+from ..quantities import (
+    Analysable,
+    Choice,
+    Measure,
+    Paths,
+    Quantity,
+    declared_in,
+    unremarked,
+    value_of,
+    with_quantities,
+    words,
+)
 from ..render.picture import View, below, positions_of, small_png, strip
 from ..study.study import keeps, refuse_limits
 from ..study.tolerances import ANGLES
@@ -30,23 +39,10 @@ VIEWPOINT = {
 }
 
 
-def declared_in(design: Any) -> dict[str, Any]:
-    """Declarations of a design and of the designs that it holds, such as ``load.mass``."""
-    parts = {f.name: getattr(design, f.name) for f in fields(design)}
-    held = {name: part for name, part in parts.items() if isinstance(part, Design)}
-    return declarations(design) | {
-        f"{name}.{inner}": declared for name, part in held.items() for inner, declared in declarations(part).items()
-    }
-
-
 def changed(design: Any, values: Mapping[str, Any]) -> Any:
-    """``design`` with other values, also of designs that it holds."""
-    changes = {name: value for name, value in values.items() if "." not in name}
+    """``design`` with other values by path, as a panel gives them."""
     with unremarked():  # a panel's numbers have their units
-        for part in dict.fromkeys(name.partition(".")[0] for name in values.keys() - changes.keys()):
-            inner = {name.partition(".")[2]: value for name, value in values.items() if name.startswith(f"{part}.")}
-            changes[part] = getattr(design, part).replace(**inner)
-        return design.replace(**changes)
+        return with_quantities(design, values)
 
 
 def remarked(found: designs.Read) -> str:
@@ -91,28 +87,42 @@ class Explorer(Panel):
         self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", width=width, height=height)
         self._banner, self._undercut = banner(), banner()
         self._impossible = ""
-        self.controls = self._make_controls(free or tuple(declarations(design)))
+        self._free = Paths(design, free).declared if free else None
+        self.controls: dict[str, NumberRow | Menu] = {}
+        self._grid = w.Box()
+        self._grid.add_class("camkit-grid")
         wanted = dict.fromkeys(name for view in views for name in positions_of(view))
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self.positions = {name: self._position(name, position[name]) for name in wanted}
         if {"azimuth", "elevation"} <= self.positions.keys():
             self._orbit = Orbit(self.picture, self.positions, self._show)
+        self._fit_controls(design)
         self._table = w.HTML()
-        super().__init__(
-            [self._grid(), self._buttons(), self._banner, self._undercut, self.picture.widget, self._table]
-        )
+        super().__init__([self._grid, self._buttons(), self._banner, self._undercut, self.picture.widget, self._table])
         self._show()
 
-    def _make_controls(self, free: Sequence[str]) -> dict[str, NumberRow | Menu]:
-        declared = declared_in(self.design)
-        unknown = [name for name in free if name not in declared]
-        if unknown:
-            raise ValueError(f"{type(self.design).__name__} has no {unknown[0]!r}; it has {', '.join(declared)}")
-        values = {name: attrgetter(name)(self.design) for name in free}
-        return {
-            name: control(name, declared[name], value, self._changed, self._refuse_number)
-            for name, value in values.items()
-        }
+    def _fit_controls(self, design: Any) -> None:
+        """Controls for the paths that ``design`` has: another law has other coefficients."""
+        declared = {path: d for path, d in declared_in(design).items() if self._free is None or path in self._free}
+        if declared != {path: knob.declared for path, knob in self.controls.items()}:
+            self.controls = {path: self._control(path, d, value_of(design, path)) for path, d in declared.items()}
+            self._grid.children = [c.row for c in (*self.controls.values(), *self.positions.values())]
+        for path, knob in self.controls.items():
+            if isinstance(knob, Menu):  # what is chosen may have changed below: a coefficient of the law
+                knob.set(value_of(design, path))
+
+    def _control(self, path: str, declared: Quantity | Choice, value: Any) -> NumberRow | Menu:
+        """The control of a path, the one that is there if its declaration is the same."""
+        there = self.controls.get(path)
+        if there and there.declared == declared:
+            return there
+        return control(path, declared, value, self._changed, self._refuse_number)
+
+    def _set_controls(self, design: Any) -> None:
+        """Every control at what ``design`` has."""
+        self._fit_controls(design)
+        for path, knob in self.controls.items():
+            knob.set(value_of(design, path))
 
     def _position(self, name: str, value: float | None) -> NumberRow:
         """The control that turns the mechanism or the view of it."""
@@ -133,12 +143,6 @@ class Explorer(Panel):
             raise ValueError(f"the {type(self.start).__name__} has no {' or '.join(map(words, ANGLES))} to turn it by")
         values = getattr(self.analysis, "turn_range", getattr(self.analysis, angle))
         return angle, float(np.min(values)), float(np.max(values))
-
-    def _grid(self) -> w.Widget:
-        rows = [c.row for c in (*self.controls.values(), *self.positions.values())]
-        grid = w.Box(rows)
-        grid.add_class("camkit-grid")
-        return grid
 
     def _buttons(self) -> w.Widget:
         reset = w.Button(description="Reset", icon="undo", tooltip="back to the design that the panel began with")
@@ -184,8 +188,7 @@ class Explorer(Panel):
         kind = type(self.start)
         if not isinstance(design, kind):
             raise ValueError(f"the design is {shown(design)}; it must be a {kind.__name__}, as this panel shows")
-        for name, knob in self.controls.items():
-            knob.set(attrgetter(name)(design))
+        self._set_controls(design)
         self._try(lambda: design)
 
     def on_change(self, act: Callable[[Any], None]) -> None:
@@ -193,7 +196,13 @@ class Explorer(Panel):
         self._followers.append(act)
 
     def _changed(self) -> None:
-        self._try(lambda: changed(self.design, {name: knob.value for name, knob in self.controls.items()}))
+        self._try(lambda: changed(self.design, self._moved()))
+
+    def _moved(self) -> dict[str, Any]:
+        """The controls that do not stand at the design's values; what was chosen anew has values of its own."""
+        moved = {p: knob.value for p, knob in self.controls.items() if knob.value != value_of(self.design, p)}
+        chosen = [f"{path}." for path in moved if isinstance(self.controls[path], Menu)]
+        return {path: value for path, value in moved.items() if not path.startswith(tuple(chosen))}
 
     def _try(self, make: Callable[[], Any]) -> None:
         """Show the design that ``make()`` gives if it can be built, computed and drawn."""
@@ -237,8 +246,7 @@ class Explorer(Panel):
     def _go_back(self, design: Any, analysis: Any, error: Exception) -> None:
         """Controls, picture and numbers of the last design, and a sentence that says why."""
         self.design, self.analysis = design, analysis
-        for name, knob in self.controls.items():
-            knob.set(attrgetter(name)(design))
+        self._set_controls(design)
         self._fit_turn()
         self._reveal()
         show_message(self._banner, f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
@@ -257,6 +265,7 @@ class Explorer(Panel):
         self._fit_turn()
         position = {name: knob.value for name, knob in self.positions.items()}
         self.picture.show(self.analysis, limits=self._at_most, **position)
+        self._fit_controls(self.design)
         self._table.value = numbers
         self._reveal()
 
@@ -307,9 +316,10 @@ class Explorer(Panel):
 
 
 def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
-    """Sliders for the ``free`` quantities of ``design`` (default: all) over live ``views`` of it.
+    """Sliders and menus for the ``free`` paths of ``design`` (default: all) over live ``views`` of it.
 
-    ``free`` may also name quantities of a design that it holds: ``"load.mass"``.
+    Paths are those of `quantities_of` and `choices_of`, such as ``"load.mass"`` or ``"motion.rise.law"``; where another
+    law is chosen, the sliders of its coefficients appear.
     ``measures`` are listed with their value now, at the start and the change; ``at_most`` and ``at_least`` map
     measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first, ``azimuth`` and
     ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the next cell.

@@ -14,7 +14,7 @@ import numpy as np
 from ..decision.ahp import CHOOSERS
 from ..kinds import refuse_arguments, refuse_empty
 from ..markup import html, joined
-from ..quantities import declarations, quantities, words
+from ..quantities import Paths, Quantity, value_of, with_quantities, words
 from ..render.front import shown_objectives
 from ..render.live_front import LiveFront, live_pareto
 from ..search.fast_front import quick_front, quick_front_rounds
@@ -51,7 +51,7 @@ class LiveParetoPanel(Panel):
     ) -> None:
         refuse_arguments(LiveParetoPanel.__init__, locals())
         refuse_empty(studies, "studies")
-        refuse_bounds(quantities(explorer.start, space), space)
+        refuse_bounds(Paths(explorer.start, space, Quantity).declared, space)
         self.explorer, self.studies, self.space = explorer, dict(studies), dict(space)
         self.criteria, self.importance = criteria, importance
         self.winner: int | None = None
@@ -108,7 +108,7 @@ class LiveParetoPanel(Panel):
     def _asked(self) -> Study:
         """The problem of the menu around the design in the sliders; its free quantities do not count."""
         first = self.explorer.start
-        start = self.explorer.design.replace(**{name: getattr(first, name) for name in self.space})
+        start = with_quantities(self.explorer.design, {name: value_of(first, name) for name in self.space})
         weights = {"weights": self.criteria.weights} if self.criteria else {}
         return made_study(self.studies[self.menu.value], start, reference=first, space=self.space, **weights)
 
@@ -218,7 +218,7 @@ class LiveParetoPanel(Panel):
 
     def _fit_slider(self) -> None:
         """The slider at the design that is in the explorer's, if it is one of the front."""
-        now = [getattr(self.explorer.design, name) for name in self.front.study.free]
+        now = self.front.study.x_of(self.explorer.design)
         same = np.flatnonzero(np.isclose(self.front.x, now, rtol=1e-9, atol=0).all(-1))
         self._silent = True
         try:
@@ -231,12 +231,11 @@ class LiveParetoPanel(Panel):
     def _lines(self, here: np.ndarray) -> list[str]:
         """The winner and the design in the sliders, in words."""
         front, winner = self.front, self.winner
-        declared: Any = declarations(front.study.start)
         free = zip(front.study.free, front.x[winner], strict=True)
         better = int(((front.f <= here).all(-1) & (front.f < here).any(-1)).sum())
         return [
             html("<b>winner: design {}</b> of 0..{}: {}", winner, len(front) - 1, self._goals(front.f[winner])),
-            ", ".join(f"{words(name)} {declared[name].text(value)}" for name, value in free),
+            ", ".join(f"{words(name)} {front.study.declared[name].text(value)}" for name, value in free),
             html(
                 "<b>in the sliders</b>: {}; {} better in every wish",
                 self._goals(here),
@@ -253,7 +252,7 @@ class LiveParetoPanel(Panel):
         if index is None or index >= len(front):
             return
         free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))
-        self.explorer.load(self.explorer.design.replace(**free))
+        self.explorer.load(with_quantities(self.explorer.design, free))
 
     def _clicked(self, x: float, y: float) -> None:
         width, height = self.picture.figure.canvas.get_width_height()

@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from operator import attrgetter
 from typing import Any
 
 import ipywidgets as w
@@ -19,14 +18,14 @@ from ..decision.ahp import CHOOSERS, ahp, judgement_matrix
 from ..files import designs
 from ..kinds import refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
-from ..quantities import Measure, Quantity, declarations, quantities, words
+from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
 from ..render.front import ShownFront, pareto, shown_objectives
 from ..search.checkpoint import fingerprint, taken_up, why
 from ..search.nsga2 import Front, Generation, front_of, nsga2_generations, reference_point
 from ..study.study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
 from .ahp import AhpPanel
-from .explore import Explorer, changed, declared_in, remarked
+from .explore import Explorer, changed, remarked
 from .kit.controls import Download, Upload, banner, label_html, show_message, small_html
 from .kit.number import NumberBox, WholeBox, staying
 from .kit.panel import IMPOSSIBLE, Panel, reason
@@ -112,7 +111,7 @@ class ParetoPanel(Panel):
         refuse_arguments(ParetoPanel.__init__, locals())
         refuse_empty(studies, "studies")
         self.explorer, self.studies, self.criteria, self.importance = explorer, studies, criteria, importance
-        declared = quantities(explorer.design, (*space, *free))
+        declared = Paths(explorer.design, dict.fromkeys((*space, *free)), Quantity).declared
         refuse_bounds(declared, space)
         self._silent = False
         self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
@@ -319,7 +318,7 @@ class ParetoPanel(Panel):
     def _asked(self) -> dict[str, Any]:
         """The page without what only a file needs to know of the design."""
         design = self.explorer.design
-        numbers = {n: attrgetter(n)(design) for n, d in declared_in(design).items() if isinstance(d, Quantity)}
+        numbers = {path: value_of(design, path) for path in quantities_of(design)}
         return {
             "numbers": numbers,
             "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
@@ -444,7 +443,7 @@ class ParetoPanel(Panel):
 
     def _selected(self) -> int | None:
         """The front's design that is in the sliders, if one is."""
-        now = [getattr(self.explorer.design, name) for name in self.study.free]
+        now = self.study.x_of(self.explorer.design)
         same = np.isclose(self.front.x, now, rtol=1e-9, atol=0).all(-1) if len(self.front) else np.zeros(0, bool)
         return int(np.argmax(same)) if same.any() else None
 
@@ -452,8 +451,7 @@ class ParetoPanel(Panel):
         if self.winner is None:
             return escaped(self.front.message)
         x, f = self.front.x[self.winner], self.front.f[self.winner]
-        declared: Any = declarations(self.study.start)
-        free = ", ".join(f"{words(n)} {declared[n].text(v)}" for n, v in zip(self.study.free, x, strict=True))
+        free = ", ".join(f"{words(n)} {q.text(v)}" for (n, q), v in zip(self.study.declared.items(), x, strict=True))
         goals = ", ".join(f"{m.name} {m.text(m.sign * v)}" for m, v in zip(self.study.minimise, f, strict=True))
         winner = html("<b>winner: design {}</b> of 0..{}: {}", self.winner, len(self.front) - 1, goals)
         return joined([winner, free], "<br>")

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from ..kinds import refuse_arguments
 from ..markup import Html, table
-from ..quantities import Quantity, declarations, words
+from ..quantities import Quantity, value_of, words
 from ..render.tolerances import cloud, deviation, sobol_bars
 from ..search.nsga2 import Front
 from ..study.study import Study
@@ -76,7 +76,7 @@ class TolerancePanel(Panel):
 
     def _knob(self, name: str, half: float) -> NumberRow:
         nominal = self.tolerances.declared[name]
-        widest = WIDEST * (half or general_tolerance(nominal, getattr(self.explorer.design, name))) / nominal.factor
+        widest = WIDEST * (half or general_tolerance(nominal, value_of(self.explorer.design, name))) / nominal.factor
         meaning = f"half width of the tolerance of the {words(name)}"
         declared = Quantity(nominal.symbol, half / nominal.factor, 0, widest, nominal.unit, meaning, at_least=0)
         return NumberRow(name, declared, half, self._moved, lambda sentence: show_message(self._banner, sentence))
@@ -177,8 +177,7 @@ class TolerancePanel(Panel):
 def general_tolerances(study: Study) -> dict[str, float]:
     """The general tolerance of every free quantity of a study, SI."""
     refuse_arguments(general_tolerances, locals())
-    declared: Any = declarations(study.start)
-    return {name: general_tolerance(declared[name], getattr(study.start, name)) for name in study.free}
+    return {path: general_tolerance(q, x) for (path, q), x in zip(study.declared.items(), study.x0, strict=True)}
 
 
 def tolerance_panel(

@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.path import Path
 
 from ..decision.ahp import CHOOSERS, WEIGHING, JudgementRange, WinnerMap, ahp, judgement_ranges, winner_map
-from ..quantities import Measure, declarations, words
+from ..quantities import Measure, words
 from ..units import factor
 from .artists import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, area, line, new, plain, text
 from .parallel import Column, Designs, parallel_coordinates
@@ -98,8 +98,7 @@ def _numbers(front: Any, measures: Sequence[Measure] | None) -> tuple[tuple[Colu
     """Every number of the front's designs that is shown, in its unit, ``(p, n)``."""
     study, p = front.study, len(front)
     goals = [(Column(m.name, m.unit, m.sign), m.sign * f) for m, f in zip(study.minimise, front.f.T, strict=True)]
-    declared = declarations(study.start)
-    free = [(Column(words(n), declared[n].unit), x) for n, x in zip(study.free, front.x.T, strict=True)]  # type: ignore[union-attr]
+    free = [(Column(words(n), q.unit), x) for (n, q), x in zip(study.declared.items(), front.x.T, strict=True)]
     limited = {m: sense for m, _, sense in study.limits}
     further = [
         m for m in (limited if measures is None else measures) if m not in study.minimise and -m not in study.minimise

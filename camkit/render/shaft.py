@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ..geometry import circle
 from ..kinds import refuse_arguments
 from ..machines.shaft import UniversalJointShaft
-from ..quantities import Measure, Quantity, declarations, words
+from ..quantities import Measure, quantities_of, value_of, words
 from ..units import factor, mm, percent, rpm
 from .artists import (
     BLUE,
@@ -39,7 +39,7 @@ POINT: Any = {"linestyle": "none", "marker": "o", "zorder": 7}
 
 def _limit_names(shaft: Any) -> tuple[str, ...]:
     """The limits with what they allow, in the order of the study."""
-    tau, theta = (declarations(shaft)[n].text(getattr(shaft, n)) for n in ("allowable_shear", "allowable_twist"))  # type: ignore[union-attr]
+    tau, theta = (quantities_of(shaft)[n].text(value_of(shaft, n)) for n in ("allowable_shear", "allowable_twist"))
     speed = f"{shaft.speed_margin * shaft.max_speed / rpm:.4g} rpm"
     return f"shear stress {tau}", f"twist {theta}", f"critical speed {speed}", "buckling"
 
@@ -209,8 +209,7 @@ class _Shown(NamedTuple):
 
 
 def _free(study: Any, name: str) -> _Shown:
-    declared = declarations(study.start)[name]
-    assert isinstance(declared, Quantity)
+    declared = study.declared[name]
     return _Shown(words(name).capitalize(), f"{declared.symbol}  [{declared.unit}]", declared.factor)
 
 

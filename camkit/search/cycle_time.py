@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..kinds import refuse_arguments
-from ..quantities import quantities
+from ..quantities import Paths, Quantity, with_quantities
 from ..study.study import Study
 from ..units import deg
 from .minimise import Minimum, minimise
@@ -96,7 +96,7 @@ def shortest_interval(
     refuse_arguments(shortest_interval, locals())
     if not len(intervals):
         raise ValueError("there is no interval to shorten; name one or more of the design's")
-    quantities(study.start, intervals)
+    Paths(study.start, intervals, Quantity)  # refuses what is none
     if not 0 < shortest < longest < np.inf:
         raise ValueError(
             f"the interval is to lie between {shortest / deg:.4g} and {longest / deg:.4g} deg; "
@@ -112,7 +112,7 @@ def _bisection(
 ) -> Iterator[IntervalStep]:
     first, too_short, best, tried = high, 0.0, None, high
     while high - max(too_short, low) > tolerance or best is None:
-        start = (best.design if best else study.start).replace(**dict.fromkeys(intervals, tried))
+        start = with_quantities(best.design if best else study.start, dict.fromkeys(intervals, tried))
         optimum = minimise(study.replace(start=start), **search)
         if optimum.feasible and optimum.f <= limit:
             best, high = optimum, tried

@@ -16,7 +16,7 @@ from scipy.optimize import differential_evolution
 from scipy.stats import qmc
 
 from ..kinds import refuse_arguments, whole
-from ..quantities import Measure, PeakMeasure, Quantity, counted, declarations, words
+from ..quantities import Measure, PeakMeasure, counted, words
 from ..study.study import KEPT, Evaluation, Study
 from ..units import deg
 from .minimax import Epigraph, parts_of
@@ -371,12 +371,9 @@ def _peak_angles(measure: Measure, analysis: Any, sense: int) -> tuple[float, ..
 
 
 def _bounds_reached(study: Study, x: np.ndarray) -> list[Active]:
-    declared = declarations(study.start)
     found = []
     for name, value, low, high in zip(study.free, x, *study.bounds, strict=True):
         for end, word in ((low, "lower"), (high, "upper")):
             if abs(value - end) <= CLOSE * (high - low):
-                quantity = declared[name]
-                assert isinstance(quantity, Quantity)
-                found.append(Active("bound", words(name), f"{quantity.text(value)} ({word} bound)"))
+                found.append(Active("bound", words(name), f"{study.declared[name].text(value)} ({word} bound)"))
     return found

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from ..kinds import numbers, refuse_kinds, shown
-from ..quantities import Measure, counted, declarations
+from ..quantities import Measure, counted
 from .study import Evaluation, Study
 
 STEP = 1e-6
@@ -62,7 +62,7 @@ class DesignMap:
     @property
     def declared(self) -> tuple[Any, Any]:
         """The declarations of both quantities."""
-        first, second = (declarations(self.study.start)[name] for name in self.study.free)
+        first, second = self.study.declared.values()
         return first, second
 
     @cached_property

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from ..kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
-from ..quantities import Measure, Quantity, can_be_analysed, counted, quantities, unremarked, words
+from ..quantities import Measure, Paths, Quantity, can_be_analysed, counted, unremarked, words
 
 Space = Mapping[str, tuple[float, float]]
-"""Free quantities by name, with their lower and upper bounds in SI."""
+"""Free quantities by path, with their lower and upper bounds in SI."""
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class Evaluation:
 class Study:
     """Search space, objectives and limits around a starting design.
 
-    ``free`` names fields of the design, with bounds in SI or, as a bare name, with the range that its
+    ``free`` are paths of quantities of the design, with bounds in SI or, as a bare path, with the range that its
     declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
     ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.  A ``rough`` study
     is for the first rounds of a search: where an analysis can find its peaks more quickly and less exactly, it does.
@@ -186,11 +186,8 @@ class Study:
         given: Any = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
-        declared = quantities(self.start, self.free)
         if not isinstance(self.free, Mapping):
-            ranges = {
-                k: (declared[k].low * declared[k].factor, declared[k].high * declared[k].factor) for k in self.free
-            }
+            ranges = {path: (q.low * q.factor, q.high * q.factor) for path, q in self.declared.items()}
             object.__setattr__(self, "free", ranges)
         if not isinstance(self.minimise, (tuple, list)) or not self.minimise:
             raise ValueError("a study needs a tuple of one or more measures to minimise")
@@ -199,11 +196,21 @@ class Study:
         refuse_kinds(self, but=("minimise", "angles"))
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
-        refuse_bounds(declared, self.free)
+        refuse_bounds(self.declared, self.free)
         for measure in self.minimise:
             if not isinstance(measure, Measure):
                 raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
         refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
+
+    @cached_property
+    def _paths(self) -> Paths:
+        """The free quantities, looked up once."""
+        return Paths(self.start, self.free, Quantity)
+
+    @property
+    def declared(self) -> dict[str, Quantity]:
+        """The declarations of the free quantities, in order."""
+        return self._paths.declared
 
     @property
     def bounds(self) -> np.ndarray:
@@ -213,7 +220,11 @@ class Study:
     @property
     def x0(self) -> np.ndarray:
         """The starting design's free values, ``(n_free,)``, SI."""
-        return np.array([getattr(self.start, name) for name in self.free], dtype=float)
+        return self.x_of(self.start)
+
+    def x_of(self, design: Any) -> np.ndarray:
+        """The free values of a design of the same make as the start, ``(n_free,)``, SI."""
+        return np.array(self._paths.values(design), dtype=float)
 
     @cached_property
     def limits(self) -> tuple[tuple[Measure, float, int], ...]:
@@ -239,7 +250,7 @@ class Study:
             [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
         )
         with unremarked():
-            return self.start.replace(**dict(zip(self.free, columns, strict=True)))
+            return self._paths.put(self.start, columns)
 
     def analyse(self, x: Any) -> Any:
         """The analysis of the design or population ``x``."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..kinds import refuse_kinds
-from ..quantities import Measure, counted, declarations
+from ..quantities import Measure, counted
 from .study import Evaluation, Study
 
 
@@ -42,7 +42,7 @@ class Sweep:
     @property
     def declared(self) -> Any:
         """The free quantity's declaration."""
-        return declarations(self.study.start)[self.name]
+        return self.study.declared[self.name]
 
     @cached_property
     def x(self) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
 from ..kinds import number, numbers, one_number, refuse_arguments, refuse_kinds, shown
-from ..quantities import Measure, Quantity, counted, declarations, quantities, words
+from ..quantities import Measure, Paths, Quantity, counted, value_of, words
 from ..units import deg, factor, mm
 from .study import Evaluation, Study
 
@@ -38,7 +38,8 @@ def general_tolerance(declared: Quantity, value: float) -> float:
     """The half width of the tolerance that a drawing without one has, SI: ISO 2768-1, class m.
 
     >>> from camkit import DoorHandleCam
-    >>> declared = declarations(DoorHandleCam)
+    >>> from camkit.quantities import quantities_of
+    >>> declared = quantities_of(DoorHandleCam())
     >>> 1e3 * general_tolerance(declared["lift_arm"], 0.05), 1e3 * general_tolerance(declared["lift_arm"], 0.2)
     (0.3, 0.5)
     """
@@ -122,9 +123,8 @@ class Tolerances:
         if not 0 <= self.seed < 2**63:
             raise ValueError(f"the seed is {shown(self.seed)}; it must be a whole number of at least 0")
         start = self.study.start
-        declared = quantities(start, self.half_widths)
         for name, half in self.half_widths.items():
-            _check(name, declared[name], getattr(start, name), half)
+            _check(name, self.declared[name], value_of(start, name), half)
         if not any(self.half_widths.values()):
             raise ValueError("there is no tolerance above 0; one must be")
         if self.spread not in SPREADS:
@@ -137,16 +137,15 @@ class Tolerances:
         """The quantities that spread: those with a half width above 0."""
         return tuple(name for name, half in self.half_widths.items() if half > 0)
 
-    @property
-    def declared(self) -> dict[str, Any]:
+    @cached_property
+    def declared(self) -> dict[str, Quantity]:
         """Declarations of all quantities that were given a tolerance, also of 0."""
-        found = declarations(self.study.start)
-        return {name: found[name] for name in self.half_widths}
+        return Paths(self.study.start, self.half_widths, Quantity).declared
 
     @cached_property
     def _box(self) -> Study:
         """The study over the tolerances' box."""
-        centre = {name: getattr(self.study.start, name) for name in self.names}
+        centre = {name: value_of(self.study.start, name) for name in self.names}
         return self.study.replace(
             free={n: (c - self.half_widths[n], c + self.half_widths[n]) for n, c in centre.items()}
         )

@@ -8,6 +8,7 @@ import json
 import math
 import pkgutil
 import re
+from collections import Counter
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -404,10 +405,16 @@ def test_files_of_camkit_0_1_still_load(name):
     told = []
     thing = load(FILES / name, tell=told.append)
     assert told[0] == f"{name}: {UNMARKED}"
-    written, now = (json.loads(text) for text in ((FILES / name).read_text(), to_json(thing)))
-    kept = "work" if "work" in written else "design"
-    assert {k: v for k, v in now[kept].items() if k in written[kept]} == written[kept]
-    (thing.study.evaluate(thing.x) if kept == "work" else thing.analyse())
+    written, now = (numbers_in(json.loads(text)) for text in ((FILES / name).read_text(), to_json(thing)))
+    assert not written - now
+    assert isinstance(thing, Work) or read(to_json(thing)).thing == thing
+    (thing.study.evaluate(thing.x) if isinstance(thing, Work) else thing.analyse())
+
+
+def numbers_in(content):
+    """Every number with a decimal point in a file, and how often it stands there."""
+    inner = content.values() if isinstance(content, dict) else content if isinstance(content, list) else ()
+    return sum(map(numbers_in, inner), Counter([content] if isinstance(content, float) else []))
 
 
 def test_the_old_files_hold_what_was_saved():
@@ -453,7 +460,7 @@ def test_every_flipped_digit_is_noticed(name):
         except ValueError:
             continue
         assert found.remarks == (EDITED,), text[i - 30 : i + 10]
-    assert len(places) > 100
+    assert len(places) > 90
 
 
 def test_spaces_and_line_ends_are_no_change_of_content():
@@ -564,9 +571,9 @@ ABSURD = {
     "a friction as a load": (
         design_with("load", of="program", to={"kind": "Friction"}), "for 'load'; an ArmLoad belongs there"
     ),
-    "true as a number": (design_with("rotation", of="program", to=True), "for 'rotation'; a whole number"),
-    "half a rotation": (design_with("rotation", of="program", to=1.0), "for 'rotation'; a whole number"),
-    "a groove of text": (design_with("groove", of="program", to="no"), "for 'groove'; true or false"),
+    "true as a number": (design_with("rotation", of="program", to=True), "for 'rotation'; there are counter-cl"),
+    "half a rotation": (design_with("rotation", of="program", to=1.0), "for 'rotation'; there are counter-cl"),
+    "a groove of text": (design_with("groove", of="program", to="no"), "for 'groove'; there are groove, plate"),
     "a table of bare numbers": (
         design_with("door_torque_table", to=[1.0, 2.0]), "a list of pairs of numbers"
     ),
@@ -624,8 +631,9 @@ def test_a_wrong_kind_in_any_field_is_refused_or_changes_nothing_that_breaks(nam
             refused += bool(sentence)
             if found:
                 not_judged = rubbish is None and "judgements" in way
-                a_law = rubbish == {"kind": "Cycloidal"} and "law" in last
-                assert json_kind(rubbish) is json_kind(good) or not_judged or a_law, (*way, last, rubbish)
+                chosen = {"law": {"kind": "Cycloidal"}, "base": {"kind": "Cycloidal"}, "rotation": 1, "groove": True}
+                an_option = next((rubbish == option for name, option in chosen.items() if name in str(last)), False)
+                assert json_kind(rubbish) is json_kind(good) or not_judged or an_option, (*way, last, rubbish)
                 used(found.thing)
         inner[last] = good
     assert refused > 0.85 * tried > 200

@@ -37,7 +37,7 @@ from camkit.data import load as reference
 from camkit.decision.ahp import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
 from camkit.files.designs import Work, from_json, to_json
 from camkit.panels import ahp_panel, explore
-from camkit.quantities import Quantity, declarations
+from camkit.quantities import quantities_of
 from camkit.render.cam import pressure_angle
 from camkit.search.nsga2 import Front
 from camkit.units import deg, factor, mm
@@ -46,7 +46,7 @@ NAN, INF = float("nan"), float("inf")
 height = Measure("height", "mm", lambda analysis: analysis)
 CAM = DoorHandleCam()
 GOOD = json.loads(to_json(CAM))
-FREE = ", ".join(name for name, declared in declarations(CAM).items() if isinstance(declared, Quantity))
+FREE = f"{', '.join(list(quantities_of(CAM))[:12])} and {len(quantities_of(CAM)) - 12} more"
 
 
 def a_study(free=("lift_arm",), minimise=(height,), **more):
@@ -90,7 +90,8 @@ REFUSALS = [
     (lambda: OscillatingRollerCam(start_angle=-3 * deg),
      "the start angle psi_0 (arm's angle from the line of centres at the level 0) is -3 deg; "
      "it must be a finite number above 0 deg"),
-    (lambda: OscillatingRollerCam(rotation=0), "the rotation is 0; it must be +1 or -1"),
+    (lambda: OscillatingRollerCam(rotation=0),
+     "the rotation is 0; it must be one of 1 (counter-clockwise), -1 (clockwise)"),
     (lambda: ArmLoad(mass=-1), "the mass m (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),
     (lambda: Friction(coefficient=NAN),
      "the coefficient f (friction between cam and roller) is nan; it must be a finite number of at least 0"),
@@ -123,8 +124,8 @@ REFUSALS = [
      "the program spans 401.07 deg; it can span at most 360 deg"),
 
     # studies
-    (lambda: a_study(free=("wing",)), f"'wing' is not a quantity of DoorHandleCam; there are {FREE}"),
-    (lambda: a_study(free=("motion_law",)), f"'motion_law' is not a quantity of DoorHandleCam; there are {FREE}"),
+    (lambda: a_study(free=("wing",)), "'wing' is no quantity of DoorHandleCam; near it are lift_swing, relief_swing"),
+    (lambda: a_study(free=("motion_law",)), f"'motion_law' is no quantity of DoorHandleCam; there are {FREE}"),
     (lambda: a_study(free=()), "a study needs the names of one or more free quantities"),
     (lambda: a_study(minimise=()), "a study needs a tuple of one or more measures to minimise"),
     (lambda: a_study(free={"lift_arm": (60 * mm, 50 * mm)}),
@@ -202,7 +203,7 @@ REFUSALS = [
     (lambda: ArmLoad().replace(weight=1),
      f"ArmLoad has no weight; it has {', '.join(field.name for field in fields(ArmLoad))}"),
     (lambda: explore(CAM, pressure_angle, free=["arm"]),
-     f"DoorHandleCam has no 'arm'; it has {', '.join(declarations(CAM))}"),
+     "'arm' is no path of DoorHandleCam; near it are lift_arm"),
 ]
 # fmt: on
 

@@ -237,7 +237,7 @@ def test_angles_and_the_rest_have_a_general_tolerance_too():
 @pytest.mark.parametrize(
     ("widths", "options", "sentence"),
     [
-        ({"lift_arms": 1.0}, {}, "'lift_arms' is not a quantity of DoorHandleCam; there are lift_arm, "),
+        ({"lift_arms": 1.0}, {}, "'lift_arms' is no quantity of DoorHandleCam; near it are lift_arm, "),
         ({"lift_arm": -1 * mm}, {},
          "the tolerance of the lift arm is -1 mm; it must be a finite number of at least 0"),
         ({"lift_arm": np.nan}, {},

@@ -12,7 +12,7 @@ import numpy as np
 from numpy import cos, inf, pi, sin
 
 from ...kinds import a_number, shown
-from ...quantities import quantity
+from ...quantities import choice, quantity
 from ..law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")
@@ -40,7 +40,7 @@ class ConstantVelocity(Law):
     """
 
     blend: Any = quantity("b", 0.25, 0.01, 0.5, "", "share of the time spent in each blend")
-    shape: str = "cycloidal"
+    shape: str = choice("", "cycloidal", {shape: shape for shape in SHAPES}, "what the blends are")
 
     name = "constant velocity"
 

@@ -6,21 +6,37 @@ Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (the degree-9 family of high-s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
 from ...kinds import a_number, listed, refuse_lengths
+from ...quantities import Quantity, numbered, row
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
 from .polynomial import Poly345
 
-LETTERS = ("s", "v", "a", "j")
+LETTERS, NAMES = ("s", "v", "a", "j"), ("position", "velocity", "acceleration", "jerk")
+SIZES = (1, 4, 20, 120)
+"""How far a slider goes to either side."""
 Condition = tuple[float, int]
 """An end (0 or 1) and the order of a derivative given there."""
+
+
+def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
+    """Declarations of ``s, v, a, j`` (from the ``first`` of them on) that are given at one end of a law of lift 1."""
+
+    def declared(i: int) -> tuple[str, Quantity]:
+        letter, size = LETTERS[first + i], SIZES[first + i]
+        return f"{end}_{letter}", Quantity(
+            f"{letter}_{end}", 0, -size, size, "", f"{NAMES[first + i]} at the {end}, for a lift of 1", above=None
+        )
+
+    return cache(declared)
 
 
 @dataclass(frozen=True)
@@ -40,8 +56,8 @@ class FreePolynomial(Law):
     array([0.028, 0.104, 0.216])
     """
 
-    start: tuple[Any | None, ...] = (0.0, 0.0, 0.0)
-    end: tuple[Any | None, ...] = (1.0, 0.0, 0.0)
+    start: tuple[Any | None, ...] = row(given_at("start"), default=(0.0, 0.0, 0.0))
+    end: tuple[Any | None, ...] = row(given_at("end"), default=(1.0, 0.0, 0.0))
 
     name = "free polynomial"
 
@@ -103,6 +119,9 @@ def _values(word: str, given: Any) -> tuple[Any, ...]:
     )
 
 
+COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None)
+
+
 @dataclass(frozen=True)
 class Degree9(Law):
     """Degree 9 with dwell ends and four free coefficients ``c``, the family of high-speed cams::
@@ -116,7 +135,7 @@ class Degree9(Law):
     np.True_
     """
 
-    c: tuple[Any, ...] = (0.0, 0.0, 0.0, 0.0)
+    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT), default=(0.0, 0.0, 0.0, 0.0))
 
     name = "degree 9"
     continuity = 2

@@ -6,14 +6,16 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (polynomials of degree
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ...kinds import refuse_kinds, refuse_lengths
-from ...quantities import choice
+from ...quantities import Choice, choice, numbered, row
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
-from .free import Degree9
+from .free import COEFFICIENT, Degree9
+from .plain import LAWS
+from .polynomial import Poly345
 from .spline import SplineLaw
 
 KNOTS = (0.2, 0.4, 0.6, 0.8)
@@ -55,8 +57,8 @@ class ShapedLaw(Law):
     True
     """
 
-    base: Law
-    c: tuple[Any, ...]
+    base: Law = field(metadata={"declared": Choice("a", Poly345(), LAWS, "law that the coefficients shape")})
+    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT))
     family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
 
     name = "shaped"
@@ -65,6 +67,11 @@ class ShapedLaw(Law):
         refuse_kinds(self)
         Degree9(self.c)  # refuses what are not four numbers
         refuse_lengths(self)
+
+    def declares(self) -> dict[str, Any]:
+        """Coefficients as far as the family lets them go."""
+        wide = self.family.wide
+        return {"c": numbered("c", replace(COEFFICIENT, low=-wide, high=wide))}
 
     @property
     def continuity(self) -> int:

@@ -6,14 +6,16 @@ Manufacturing Handbook; the form used here is derived in the docstring.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ...kinds import a_number, shown
-from ...quantities import quantity
+from ...quantities import Choice, quantity
 from ..law import Kinematics, Law, Peaks
+from .harmonic import Cycloidal
+from .plain import LAWS
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class Skewed(Law):
     np.float64(7.853982)
     """
 
-    law: Law
+    law: Law = field(metadata={"declared": Choice("S", Cycloidal(), LAWS, "symmetric law that is skewed")})
     inflection: Any = quantity("x", 0.5, 0.2, 0.8, "", "share of the time before the inflection point")
 
     name = "skewed"

@@ -16,8 +16,10 @@ from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
 from ...kinds import a_number, listed, numbers, refuse_lengths, shown
+from ...quantities import Quantity, numbered, row
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
+from .free import given_at
 
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
@@ -47,9 +49,9 @@ class SplineLaw(Law):
     """
 
     u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS, "in_all": ("knots of splines", KNOTS_IN_ALL)})
-    s: tuple[Any, ...]
-    start: tuple[Any, ...] = (0.0, 0.0)
-    end: tuple[Any, ...] = (0.0, 0.0)
+    s: tuple[Any, ...] = row(numbered("s", Quantity("s", 0.5, -0.5, 1.5, "", "position at the knot", above=None)))
+    start: tuple[Any, ...] = row(given_at("start", 1), default=(0.0, 0.0))
+    end: tuple[Any, ...] = row(given_at("end", 1), default=(0.0, 0.0))
 
     name = "B-spline"
 

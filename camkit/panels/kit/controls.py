@@ -223,8 +223,8 @@ class Menu:
 
     def _options(self, value: Any) -> list[tuple[str, Any]]:
         """What the declaration offers, and ``value`` if it is something of one's own."""
-        own = () if value in self.declared.options else (value,)
-        return [(option.name, option) for option in (*self.declared.options, *own)]
+        own = {} if value in self.declared.options else {self.declared.text(value): value}
+        return list((self.declared.named | own).items())
 
     def _chosen(self, _: Any) -> None:
         if not self._silent:

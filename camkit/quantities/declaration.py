@@ -1,44 +1,24 @@
-"""A parameter is declared once: symbol, default, range, unit and meaning.
-
-Sliders, optimiser bounds, tables, saved files and the refusal of bad numbers all read the same
-declaration, which sits on the field of the design that it describes:
-
->>> @dataclass(frozen=True)
-... class Lever(Design):
-...     arm: float = quantity("l", 50, 20, 90, "mm", "pivot to roller centre")
->>> Lever().arm
-0.05
->>> Lever(arm=-0.01)
-Traceback (most recent call last):
-    ...
-ValueError: the arm l (pivot to roller centre) is -10 mm; it must be a finite number above 0 mm
-
-A design is a frozen dataclass.  Its fields hold one number each, or arrays of shape ``(p, 1)`` for a
-population of ``p`` designs: one number that cannot be built is refused in a sentence, a member of a
-population that cannot be built becomes ``nan`` and disturbs nobody else.  What is no number is checked against
-the annotation of its field (`refuse_kinds`).  A number that was meant in the unit of its declaration, but typed
-without it, draws a `UnitRemark`.
-"""
+"""A parameter is declared once: symbol, default, range, unit and meaning; what has such parameters checks them."""
 
 from __future__ import annotations
 
 import dataclasses
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from types import MethodType
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
-from .kinds import applied, number, refuse_kinds, refuse_lengths, shown, whole
-from .markup import Html, html, table
-from .units import factor, in_unit
+from ..kinds import number, refuse_kinds, shown, whole
+from ..units import factor, in_unit
 
+OURS = __name__.partition(".")[0]
 BEYOND = 1000
 """How many times larger than all that a slider offers a number may be, unless its declaration says ``at_most``."""
 FAR = 4
@@ -65,7 +45,7 @@ def unremarked() -> Iterator[None]:
 def _level() -> int:
     """How many calls away the one stands that is not camkit's own."""
     frame, level = sys._getframe(1), 1
-    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__, "dataclasses"):
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in (OURS, "dataclasses"):
         frame, level = frame.f_back, level + 1
     return level
 
@@ -168,29 +148,64 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Choice:
-    """The declaration of a field that is one of several named options (each has a ``name``)."""
+    """The declaration of a field that is one of several options.
+
+    Each option has a ``name``; or ``options`` maps names to plain values, such as ``{"clockwise": -1, ...}``.
+    """
 
     symbol: str
     default: Any
-    options: tuple[Any, ...]
+    options: Any
     meaning: str
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
         if not len(self.options):
             raise ValueError("the choice has no options; it must have one or more")
+        if isinstance(self.options, Mapping):
+            object.__setattr__(self, "named", dict(self.options))
+            object.__setattr__(self, "options", tuple(self.options.values()))
+
+    @cached_property
+    def named(self) -> dict[str, Any]:
+        """The options by their names."""
+        return {option.name: option for option in self.options}
+
+    def text(self, value: Any) -> str:
+        """What the option ``value``, or another like them, is called."""
+        if self._plain:
+            return next((name for name, option in self.named.items() if option == value), shown(value))
+        return str(getattr(value, "name", shown(value)))
+
+    def option(self, wanted: Any) -> Any:
+        """The option that is ``wanted`` by its name or as it is; anything else is left to whom it is for."""
+        return self.named.get(wanted, wanted) if isinstance(wanted, str) else wanted
+
+    @cached_property
+    def _plain(self) -> bool:
+        """Whether the options are plain values, of which there can be no others."""
+        return not all(hasattr(option, "name") for option in self.options)
 
     @cached_property
     def _common(self) -> frozenset[str]:
         """What every option can be asked for."""
         asked = (frozenset(n for n in dir(o) if n[0] != "_") for o in self.options)
-        return frozenset.intersection(*asked) - frozenset(dir(Design))
+        bases = (base for o in self.options for base in type(o).__mro__ if base.__module__.startswith(__package__))
+        return frozenset.intersection(*asked).difference(*map(dir, bases))
 
     def allows(self, value: Any) -> bool:
-        """Whether ``value`` is one of the options or another like them."""
+        """Whether ``value`` is one of the options or, where they are more than plain values, another like them."""
+        if self._plain:
+            return np.ndim(value) == 0 and value in self.options
         if isinstance(value, type):
             return False
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
+
+    @property
+    def possible(self) -> str:
+        """What can be chosen, in words."""
+        said = [f"{option!r} ({name})" for name, option in self.named.items()] if self._plain else list(self.named)
+        return f"one of {', '.join(said)}" + ("" if self._plain else " or another like them")
 
     @cached_property
     def _types(self) -> frozenset[type]:
@@ -219,29 +234,34 @@ def quantity(
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
-def choice(symbol: str, default: Any, options: Sequence[Any], meaning: str) -> Any:
-    """A dataclass field that is one of ``options``."""
-    return field(default=default, metadata={"declared": Choice(symbol, default, tuple(options), meaning)})
+def choice(symbol: str, default: Any, options: Sequence[Any] | Mapping[str, Any], meaning: str) -> Any:
+    """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names."""
+    options = options if isinstance(options, Mapping) else tuple(options)
+    return field(default=default, metadata={"declared": Choice(symbol, default, options, meaning)})
+
+
+def row(declared: Callable[[int], tuple[str, Quantity]], **default: Any) -> Any:
+    """A dataclass field for several numbers: ``declared(i)`` is the name and the declaration of the one at ``i``."""
+    return field(metadata={"row": declared}, **default)
+
+
+def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quantity]]:
+    """For a `row` whose numbers are alike: ``c0``, ``c1`` and so on.
+
+    >>> numbered("c", Quantity("c", 0, -1, 1, "", "shapes the law", above=None))(1)[1].symbol
+    'c_1'
+    """
+    return cache(lambda i: (f"{name}{i}", replace(declared, symbol=f"{declared.symbol}_{i}")))
 
 
 def declarations(design: Any) -> dict[str, Quantity | Choice]:
-    """The declared fields of a design or a design class, in order."""
+    """The declared fields of a design or a design class, in order; not those of what it holds (`declared_in`)."""
     return dict(_declared(design if isinstance(design, type) else type(design)))
 
 
 @cache
 def _declared(kind: type) -> dict[str, Quantity | Choice]:
     return {f.name: f.metadata["declared"] for f in dataclasses.fields(kind) if "declared" in f.metadata}
-
-
-def quantities(design: Any, names: Iterable[Any] = ()) -> dict[str, Quantity]:
-    """The declared numbers of a design; ``ValueError`` if there are ``names`` that are none of them."""
-    declared = {name: entry for name, entry in declarations(design).items() if isinstance(entry, Quantity)}
-    for name in names:
-        if not isinstance(name, str) or name not in declared:
-            kind = type(design).__name__
-            raise ValueError(f"{shown(name)} is not a quantity of {kind}; there are {', '.join(declared)}")
-    return declared
 
 
 @runtime_checkable
@@ -302,27 +322,16 @@ def _subject(name: str, declared: Quantity) -> str:
     return f"the {words(name)}" if name == declared.symbol else f"the {words(name)} {declared.symbol}"
 
 
-class Design:
-    """What every design shares: its numbers are checked, can be replaced, and show as a table."""
-
-    measures: ClassVar[tuple[Measure, ...]] = ()
-    """Every measure of such a design, for tables and files."""
-    makers: ClassVar[Mapping[str, Callable[..., Measure]]] = {}
-    """Functions that make further measures of numbers and words, by the names that `Measure.made` gives them."""
+class Declared:
+    """What has quantities of its own, as a design has, or a part of one: they are checked and can be replaced."""
 
     def __post_init__(self) -> None:
-        declared = _declared(type(self))  # type: ignore[arg-type]
-        for name, entry in declared.items():
+        for name, entry in _declared(type(self)).items():  # type: ignore[arg-type]
             value = getattr(self, name)
             if isinstance(entry, Quantity):
                 self._check(name, entry, value)
             elif not entry.allows(value):
-                options = ", ".join(option.name for option in entry.options)
-                raise ValueError(
-                    f"the {words(name)} is {shown(value)}; it must be one of {options} or another like them"
-                )
-        refuse_kinds(self, declared)
-        refuse_lengths(self)
+                raise ValueError(f"the {words(name)} is {shown(value)}; it must be {entry.possible}")
 
     def _check(self, name: str, declared: Quantity, given: Any) -> None:
         """Refuse one number that cannot be built; drop the members of a population that cannot."""
@@ -369,91 +378,19 @@ class Design:
                 declared.remark(name, getattr(changed, name))
         return changed
 
-    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
-        """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
-        shown = (f"{words(name)} {_shown(getattr(self, name), d)}" for name, d in declarations(self).items())
-        return {"text/plain": f"{type(self).__name__}: {', '.join(shown)}", "text/html": self._repr_html_()}
+    def branches(self) -> dict[str, Any]:
+        """The parts that have quantities of their own, by the names that their paths begin with."""
+        parts = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self))  # type: ignore[arg-type]
+        return {name: part for name, part in parts if isinstance(part, Declared) and dataclasses.is_dataclass(part)}
 
-    def _repr_html_(self) -> str:
-        rows = [
-            (_left(words(name)), html("<i>{}</i>", d.symbol), _shown(getattr(self, name), d), _left(d.meaning))
-            for name, d in declarations(self).items()
-        ]
-        return table((), rows, type(self).__name__)
+    def changed(self, changes: Mapping[str, Any]) -> Any:
+        """The same with other fields and `branches`."""
+        return self.replace(**changes)
 
+    def following(self) -> dict[str, str]:
+        """Paths below this that follow from the others, and why: they are no quantities."""
+        return {}
 
-def _left(text: str) -> Html:
-    """A cell whose text begins at its left edge."""
-    return html("<div style='text-align:left'>{}</div>", text)
-
-
-def _shown(value: Any, declared: Quantity | Choice) -> str:
-    if isinstance(declared, Choice):
-        return str(value.name)
-    return declared.text(value) if np.ndim(value) == 0 else f"{np.size(value)} values in {declared.unit}"
-
-
-@dataclass(frozen=True)
-class Measure:
-    """A number per design: a name, a unit to show it in, and a function of an analysis that gives SI.
-
-    Two measures are the same if they have the same name and unit, so names are unique within a mechanism.
-    ``-measure`` is the same number with the other sign, for what is to be made as large as possible.
-
-    >>> tall = Measure("height", "mm", lambda analysis: analysis["height"])
-    >>> tall({"height": 0.05}), (-tall)({"height": 0.05})
-    (0.05, -0.05)
-    """
-
-    name: str
-    unit: str
-    function: Callable[[Any], Any] = field(repr=False, compare=False)
-    sign: int = 1
-    made: tuple[Any, ...] = field(default=(), repr=False, compare=False, kw_only=True)
-    """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
-
-    def __post_init__(self) -> None:
-        refuse_kinds(self)
-        factor(self.unit)
-        if self.sign not in (1, -1):
-            raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
-
-    def __call__(self, analysis: Any) -> Any:
-        with applied(f"the {self.name}", analysis):
-            return self.sign * self.function(analysis)
-
-    def __neg__(self) -> Measure:
-        return dataclasses.replace(self, sign=-self.sign)
-
-    @property
-    def label(self) -> str:
-        """Name and unit, for an axis or a heading."""
-        return f"{self.name}  [{self.unit}]" if self.unit else self.name
-
-    def text(self, value: float) -> str:
-        """``value`` (SI) as a person reads it."""
-        shown = in_unit(float(value), self.unit)
-        return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e6 else '.4g'}} {self.unit}".rstrip()
-
-
-@dataclass(frozen=True)
-class PeakMeasure(Measure):
-    """The largest value of a curve: ``function`` gives the curve, its points last; the measure is their maximum.
-
-    A search then sees every point and not only the largest, which jumps from one to another.  ``-PeakMeasure`` of
-    the negative curve is a least value.  ``angle`` says at which cam angle each point of the curve stands.
-
-    >>> lowest = -PeakMeasure("least height", "mm", lambda analysis: -analysis["height"])
-    >>> float(lowest({"height": np.array([0.05, 0.02, 0.04])}))
-    0.02
-    """
-
-    angle: Callable[[Any], Any] | None = field(default=None, repr=False, compare=False)
-
-    def curve(self, analysis: Any) -> Any:
-        """The value at every point, before the sign."""
-        return self.function(analysis)
-
-    def __call__(self, analysis: Any) -> Any:
-        with applied(f"the {self.name}", analysis):
-            return self.sign * self.function(analysis).max(-1)
+    def declares(self) -> Mapping[str, Any]:
+        """Declarations of fields (of `row`s their functions) that depend on the values of others."""
+        return {}

@@ -1,0 +1,61 @@
+"""How a motion program that spans a turn stays closed when its segments change.
+
+The last dwell takes up the angle that the others leave of the turn (the last segment, where there is no dwell), and
+the last move takes the follower back to where it began.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..quantities import fails
+from .segments import Dwell, Move, Return, Segment, degrees, kind_of
+
+TURN = 2 * np.pi
+
+
+def closing(segments: Sequence[Segment]) -> tuple[int, int | None]:
+    """Which segment takes up the angle, and which the lift (``None`` where nothing moves)."""
+    dwells = [i for i, segment in enumerate(segments) if isinstance(segment, Dwell)]
+    moves = [i for i, segment in enumerate(segments) if isinstance(segment, Move)]
+    return dwells[-1] if dwells else len(segments) - 1, moves[-1] if moves else None
+
+
+def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Any]:
+    """``segments`` of a turn, closed again where angles or lifts are not those that they were ``before``."""
+    found: list[Any] = list(segments)
+    angle, lift = closing(before)
+    pairs = list(zip(segments, before, strict=True))
+    if any(new.angle is not old.angle for new, old in pairs):
+        found[angle] = replace(found[angle], angle=_angle_left(found, angle))
+    if lift is not None and any(new.change is not old.change for new, old in pairs):
+        found[lift] = replace(found[lift], lift=_lift_left(found, lift))
+    return found
+
+
+def _angle_left(segments: Sequence[Segment], i: int) -> Any:
+    """What the others leave of the turn."""
+    others = sum(segment.angle for k, segment in enumerate(segments) if k != i)
+    if fails(others < TURN):
+        raise ValueError(
+            f"the other segments take {degrees(others)} of the turn; they must leave some for the "
+            f"{kind_of(segments[i])} that closes it"
+        )
+    return TURN - others
+
+
+def _lift_left(segments: Sequence[Segment], i: int) -> Any:
+    """What the segment has to move for the turn to end where it began."""
+    others = sum(segment.change for k, segment in enumerate(segments) if k != i)
+    lift = others if isinstance(segments[i], Return) else -others
+    if fails(lift >= 0):
+        kind = kind_of(segments[i])
+        raise ValueError(
+            f"the {kind} that closes the turn would have to move by {float(lift):.6g} (follower units); it must be "
+            f"at least 0: the lifts before it are too {'small' if kind == 'return' else 'large'}"
+        )
+    return lift

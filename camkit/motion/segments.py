@@ -1,0 +1,194 @@
+"""What a motion program is made of: rises, returns and dwells over a cam angle."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..kinds import a_number, finite, number, refuse_lengths, shown
+from ..quantities import Choice, Declared, Quantity, fails
+from ..units import in_unit
+from .families.constant_velocity import ConstantVelocity
+from .families.free import FreePolynomial
+from .families.harmonic import Cycloidal
+from .families.plain import HALF_LAWS, LAWS
+from .families.polynomial import Poly345
+from .families.shaped import ShapedLaw
+from .families.skewed import Skewed
+from .families.spline import SplineLaw
+from .law import Kinematics, Law
+
+LAW_MENU: tuple[Law, ...] = (
+    *LAWS,
+    ShapedLaw(Poly345(), (0.0,) * 4),
+    FreePolynomial(),
+    SplineLaw((0.25, 0.5, 0.75), (0.1, 0.5, 0.9)),
+    ConstantVelocity(),
+    Skewed(Cycloidal()),
+    *HALF_LAWS,
+)
+"""What the law of a segment can be, for a menu."""
+
+ANGLE = Quantity("beta", 90, 10, 240, "deg", "cam angle of the segment")
+LIFT = Quantity("h", 1, 0.1, 10, "", "change of the follower's level", at_least=0)
+LAW = Choice("law", Cycloidal(), LAW_MENU, "motion law of the segment")
+
+
+class Segment(Declared, ABC):
+    """A part of a program over some cam ``angle`` (rad); paths call it by its ``name``, if it has one."""
+
+    angle: Any
+    name: str = ""
+
+    @property
+    @abstractmethod
+    def change(self) -> Any:
+        """What the segment adds to the level."""
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        """The shares of the segment at which its motion may jump or have a corner."""
+        return ()
+
+    @property
+    def still(self) -> bool:
+        """Whether the follower rests."""
+        return False
+
+    @abstractmethod
+    def motion(self, u: Any) -> Kinematics:
+        """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
+
+
+@dataclass(frozen=True)
+class Dwell(Segment):
+    """The follower rests over ``angle`` (rad, above 0; a population's has the shape ``(p, 1)``).
+
+    >>> Dwell(0.0)
+    Traceback (most recent call last):
+        ...
+    ValueError: the angle of the dwell is 0 deg; it must be a finite angle above 0 deg
+    """
+
+    angle: Any = field(metadata={"declared": ANGLE})
+    name: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        _refuse_name(self)
+        _refuse_angle(self)
+
+    @property
+    def change(self) -> Any:
+        return 0.0
+
+    @property
+    def still(self) -> bool:
+        return True
+
+    def motion(self, u: Any) -> Kinematics:
+        rest = 0.0 * u
+        return Kinematics(rest, rest, rest, rest)
+
+
+@dataclass(frozen=True)
+class Move(Segment):
+    """A segment that follows a motion law."""
+
+    angle: Any = field(metadata={"declared": ANGLE})
+    lift: Any = field(metadata={"declared": LIFT, "by_owner": True})
+    law: Law | Callable[[Any], Kinematics] = field(metadata={"declared": LAW})
+    name: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        _refuse_name(self)
+        _refuse_angle(self)
+        what, other = kind_of(self), "return" if isinstance(self, Rise) else "rise"
+        must = f"be a finite number of at least 0 (less is a {other})"
+        lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: lift >= 0)
+        object.__setattr__(self, "lift", lift)
+        if not _is_law(self.law):
+            raise ValueError(f"the law of the {what} is {shown(self.law)}; it must be a motion law such as Cycloidal()")
+        refuse_lengths(self)
+
+    @property
+    def still(self) -> bool:
+        return bool(np.all(np.asarray(self.lift) == 0))
+
+    @property
+    def kinks(self) -> tuple[Any, ...]:
+        return getattr(self.law, "kinks", ())
+
+    def motion(self, u: Any) -> Kinematics:
+        s, v, a, j = self.law(u)
+        h, beta = self.change, self.angle
+        return Kinematics(h * s, h * v / beta, h * a / beta**2, h * j / beta**3)
+
+
+@dataclass(frozen=True)
+class Rise(Move):
+    """The level grows by ``lift`` (m or rad) over ``angle`` (rad, above 0) after the motion law ``law``.
+
+    ``lift`` is 0 or more.  ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a
+    motion law, or any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by
+    ``ValueError``.
+    """
+
+    @property
+    def change(self) -> Any:
+        return self.lift
+
+
+@dataclass(frozen=True)
+class Return(Move):
+    """The level falls by ``lift`` over ``angle``; otherwise as ``Rise``.  A program may begin with a return."""
+
+    @property
+    def change(self) -> Any:
+        return -self.lift
+
+
+def _is_law(law: Any) -> bool:
+    """Whether ``law`` is a motion law, or a function that gives four arrays as one does."""
+    if isinstance(law, Law):
+        return True
+    if isinstance(law, type) or not callable(law):
+        return False
+    try:
+        given = [np.asarray(part, dtype=float) for part in law(np.linspace(0, 1, 5))]
+    except Exception:  # whatever goes wrong in a user's function, it is no law
+        return False
+    return len(given) == 4 and all(part.shape[-1:] in ((), (5,)) for part in given)
+
+
+def positive(angle: Any) -> Any:
+    """Whether an angle is finite and above 0, element by element."""
+    return finite(angle) is not False and finite(angle) & (angle > 0)
+
+
+def kind_of(segment: Segment) -> str:
+    """Rise, return or dwell, as a word."""
+    return type(segment).__name__.lower()
+
+
+def degrees(angle: Any, digits: int = 6) -> str:
+    """An angle as a sentence says it."""
+    return f"{in_unit(float(angle), 'deg'):.{digits}g} deg" if finite(angle) else str(angle)
+
+
+def _refuse_name(segment: Segment) -> None:
+    if not isinstance(segment.name, str) or not (segment.name.isidentifier() or segment.name == ""):
+        raise ValueError(
+            f"the name of the {kind_of(segment)} is {shown(segment.name)}; it must be made of letters, digits and _"
+        )
+
+
+def _refuse_angle(segment: Segment) -> None:
+    angle = number(segment.angle)
+    if angle is None or fails(positive(angle)):
+        said = shown(segment.angle) if angle is None else degrees(angle)
+        raise ValueError(f"the angle of the {kind_of(segment)} is {said}; it must be a finite angle above 0 deg")
+    object.__setattr__(segment, "angle", np.where(positive(angle), angle, np.nan) if np.ndim(angle) else angle)

@@ -1,0 +1,82 @@
+"""A parameter is declared once: symbol, default, range, unit and meaning.
+
+Sliders, optimiser bounds, tables, saved files and the refusal of bad numbers all read the same
+declaration, which sits on the field of the design that it describes:
+
+>>> @dataclass(frozen=True)
+... class Lever(Design):
+...     arm: float = quantity("l", 50, 20, 90, "mm", "pivot to roller centre")
+>>> Lever().arm
+0.05
+>>> Lever(arm=-0.01)
+Traceback (most recent call last):
+    ...
+ValueError: the arm l (pivot to roller centre) is -10 mm; it must be a finite number above 0 mm
+
+A design is a frozen dataclass.  Its fields hold one number each, or arrays of shape ``(p, 1)`` for a
+population of ``p`` designs: one number that cannot be built is refused in a sentence, a member of a
+population that cannot be built becomes ``nan`` and disturbs nobody else.  What is no number is checked against
+the annotation of its field (`refuse_kinds`).  A number that was meant in the unit of its declaration, but typed
+without it, draws a `UnitRemark`.
+
+A design is a tree: it holds a motion, loads, materials, and these hold laws.  Every quantity has a path:
+
+>>> from camkit import TranslatingRollerCam
+>>> cam = TranslatingRollerCam()
+>>> quantities_of(cam)["motion.rise.lift"].text(value_of(cam, "motion.rise.lift"))
+'20 mm'
+>>> with_quantities(cam, {"motion.rise.lift": 0.03, "load.spring_rate": 8e3}).load.spring_rate
+8000.0
+"""
+
+from dataclasses import dataclass  # noqa: F401 - for the example above
+
+from .declaration import (
+    Analysable,
+    Choice,
+    Declared,
+    Quantity,
+    UnitRemark,
+    can_be_analysed,
+    choice,
+    counted,
+    declarations,
+    fails,
+    members,
+    numbered,
+    quantity,
+    row,
+    unremarked,
+    words,
+)
+from .design import Design
+from .measure import Measure, PeakMeasure
+from .tree import Paths, choices_of, declared_in, quantities_of, value_of, with_quantities
+
+__all__ = [
+    "Analysable",
+    "Choice",
+    "Declared",
+    "Design",
+    "Measure",
+    "Paths",
+    "PeakMeasure",
+    "Quantity",
+    "UnitRemark",
+    "can_be_analysed",
+    "choice",
+    "choices_of",
+    "counted",
+    "declarations",
+    "declared_in",
+    "fails",
+    "members",
+    "numbered",
+    "quantities_of",
+    "quantity",
+    "row",
+    "unremarked",
+    "value_of",
+    "with_quantities",
+    "words",
+]

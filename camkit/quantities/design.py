@@ -1,0 +1,51 @@
+"""What every design shares: its numbers are checked, can be replaced, and show as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..kinds import refuse_kinds, refuse_lengths
+from ..markup import Html, html, table
+from .declaration import Choice, Declared, Quantity, declarations, words
+from .measure import Measure
+from .tree import declared_in, value_of
+
+
+class Design(Declared):
+    """What every design shares: its numbers are checked, can be replaced, and show as a table."""
+
+    measures: ClassVar[tuple[Measure, ...]] = ()
+    """Every measure of such a design, for tables and files."""
+    makers: ClassVar[Mapping[str, Callable[..., Measure]]] = {}
+    """Functions that make further measures of numbers and words, by the names that `Measure.made` gives them."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_kinds(self, declarations(self))
+        refuse_lengths(self)
+
+    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
+        """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
+        shown = (f"{words(path)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
+        return {"text/plain": f"{type(self).__name__}: {', '.join(shown)}", "text/html": self._repr_html_()}
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (_left(words(path)), html("<i>{}</i>", d.symbol), _shown(value_of(self, path), d), _left(d.meaning))
+            for path, d in declared_in(self).items()
+        ]
+        return table((), rows, type(self).__name__)
+
+
+def _left(text: str) -> Html:
+    """A cell whose text begins at its left edge."""
+    return html("<div style='text-align:left'>{}</div>", text)
+
+
+def _shown(value: Any, declared: Quantity | Choice) -> str:
+    if isinstance(declared, Quantity) and np.ndim(value):
+        return f"{np.size(value)} values in {declared.unit}"
+    return declared.text(value)

@@ -1,0 +1,77 @@
+"""A measure: one number of an analysis, by its name and in its unit."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..kinds import applied, refuse_kinds, shown
+from ..units import factor, in_unit
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A number per design: a name, a unit to show it in, and a function of an analysis that gives SI.
+
+    Two measures are the same if they have the same name and unit, so names are unique within a mechanism.
+    ``-measure`` is the same number with the other sign, for what is to be made as large as possible.
+
+    >>> tall = Measure("height", "mm", lambda analysis: analysis["height"])
+    >>> tall({"height": 0.05}), (-tall)({"height": 0.05})
+    (0.05, -0.05)
+    """
+
+    name: str
+    unit: str
+    function: Callable[[Any], Any] = field(repr=False, compare=False)
+    sign: int = 1
+    made: tuple[Any, ...] = field(default=(), repr=False, compare=False, kw_only=True)
+    """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        factor(self.unit)
+        if self.sign not in (1, -1):
+            raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
+
+    def __call__(self, analysis: Any) -> Any:
+        with applied(f"the {self.name}", analysis):
+            return self.sign * self.function(analysis)
+
+    def __neg__(self) -> Measure:
+        return dataclasses.replace(self, sign=-self.sign)
+
+    @property
+    def label(self) -> str:
+        """Name and unit, for an axis or a heading."""
+        return f"{self.name}  [{self.unit}]" if self.unit else self.name
+
+    def text(self, value: float) -> str:
+        """``value`` (SI) as a person reads it."""
+        shown = in_unit(float(value), self.unit)
+        return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e6 else '.4g'}} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True)
+class PeakMeasure(Measure):
+    """The largest value of a curve: ``function`` gives the curve, its points last; the measure is their maximum.
+
+    A search then sees every point and not only the largest, which jumps from one to another.  ``-PeakMeasure`` of
+    the negative curve is a least value.  ``angle`` says at which cam angle each point of the curve stands.
+
+    >>> lowest = -PeakMeasure("least height", "mm", lambda analysis: -analysis["height"])
+    >>> float(lowest({"height": np.array([0.05, 0.02, 0.04])}))
+    0.02
+    """
+
+    angle: Callable[[Any], Any] | None = field(default=None, repr=False, compare=False)
+
+    def curve(self, analysis: Any) -> Any:
+        """The value at every point, before the sign."""
+        return self.function(analysis)
+
+    def __call__(self, analysis: Any) -> Any:
+        with applied(f"the {self.name}", analysis):
+            return self.sign * self.function(analysis).max(-1)
