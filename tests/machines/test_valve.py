@@ -592,7 +592,7 @@ def test_a_front_may_be_limited_anywhere_and_have_other_bounds():
         ),
         (
             {"max_lift": np.nan},
-            "the max lift h_max (lift at the nose) is nan mm; it must be a finite number above 0 mm",
+            "the maximum lift h_max (lift at the nose) is nan mm; it must be a finite number above 0 mm",
         ),
     ],
 )
