@@ -168,11 +168,15 @@ def read(file: str | bytes, kind: type | None = None, measures: Iterable[Measure
         raise ValueError("the file is damaged: beside its schema it must hold one design, one work or one front")
     reading = Reading()
     try:
+        content = {
+            k: (reading.renaming.design if k == "design" else reading.renaming.study)(v) for k, v in content.items()
+        }
         thing = _thing(held[0], content[held[0]], reading, kind, measures)
     except (TypeError, AttributeError, LookupError, ArithmeticError):
         raise ValueError("the file is damaged: an entry is not of the kind that belongs there") from None
     _refuse_other(thing, held[0], kind)
-    return Read(thing, (*digest_remarks(text, told), *_lacking(reading.missing), *reading.remarks))
+    remarks = (*digest_remarks(text, told), *reading.renaming.remarks, *_lacking(reading.missing), *reading.remarks)
+    return Read(thing, remarks)
 
 
 def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures: Iterable[Measure]) -> Any:

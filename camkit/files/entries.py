@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -17,9 +17,10 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from ..motion import Law, MotionProgram, Segment
-from ..quantities import Choice, Design, Quantity, declarations, unremarked, words
+from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..units import factor, in_unit
 from .json_file import shown
+from .renamed import Renaming
 
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
@@ -123,6 +124,7 @@ class Reading:
 
     missing: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    renaming: Renaming = field(default_factory=lambda: Renaming(kinds()))
     held: Counter[str] = field(default_factory=Counter)
     """How many entries one design has so far in lists that take long to work out."""
 
@@ -139,20 +141,32 @@ class Reading:
         if not isinstance(name, str) or name not in known:
             raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
         kind = known[name]
-        values = self._fields(kind, {k: v for k, v in entry.items() if k != "kind"})
+        deeper = {k: v for k, v in entry.items() if "." in k.partition(" [")[0]}
+        values = self._fields(kind, {k: v for k, v in entry.items() if k != "kind" and k not in deeper}, deeper)
         try:
             with unremarked():  # a file's numbers have their units
-                return kind(**values)
+                return self._with(kind(**values), deeper)
         except (TypeError, AttributeError, IndexError, ArithmeticError):
             raise ValueError(f"the file is damaged: no {name} can be built of what it says") from None
 
-    def _fields(self, kind: type, entries: Mapping[str, Any]) -> dict[str, Any]:
+    def _with(self, thing: Any, entries: Mapping[str, Any]) -> Any:
+        """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
+        for k, entry in entries.items():
+            found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
+            if k not in found:
+                raise ValueError(f"the file has {shown(k)}, which a {type(thing).__name__} does not have")
+            path, declared = found[k]
+            thing = with_quantities(thing, {path: self._declared(entry, k, declared)})
+        return thing
+
+    def _fields(self, kind: type, entries: Mapping[str, Any], deeper: Iterable[str]) -> dict[str, Any]:
         declared = _declarations(kind)
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
             raise ValueError(f"the file has {shown(wrong)}, which a {kind.__name__} does not have")
         for lacking in [n for n, f in named.items() if n not in entries and not (f.name == "name" and f.kw_only)]:
-            self.lacks(lacking, kind.__name__, named[lacking])
+            if not any(path.startswith(f"{lacking}.") for path in deeper):
+                self.lacks(lacking, kind.__name__, named[lacking])
         hints = _hints(kind)
         return {
             named[k].name: self._field(
@@ -168,18 +182,21 @@ class Reading:
         self.missing.append(f"{name!r} of the {kind}")
 
     def _field(self, entry: Any, name: str, of: Field[Any], declared: Any, hint: Any) -> Any:
-        if isinstance(declared, Quantity):
-            if not is_number(entry):
-                raise ValueError(f"the file says {shown(entry)} for {name!r}; it must be {declared.possible}")
-            return entry * declared.factor
-        if isinstance(declared, Choice):
-            return self._choice(entry, name, declared)
+        if isinstance(declared, (Quantity, Choice)):
+            return self._declared(entry, name, declared)
         value = self.thing(entry, hint, of.metadata.get("most", MOST_ROWS))
         if "in_all" in of.metadata and isinstance(entry, list):
             self._count(len(entry), *of.metadata["in_all"])
         if not fits(value, hint):
             raise ValueError(f"the file says {shown(entry)} for {name!r}; {_wanted(hint)} belongs there")
         return value
+
+    def _declared(self, entry: Any, name: str, declared: Quantity | Choice) -> Any:
+        if isinstance(declared, Choice):
+            return self._choice(entry, name, declared)
+        if not is_number(entry):
+            raise ValueError(f"the file says {shown(entry)} for {name!r}; it must be {declared.possible}")
+        return entry * declared.factor
 
     def _count(self, entries: int, what: str, most: int) -> None:
         """``entries`` more in lists of which a design can have ``most`` together, however many lists there are."""
