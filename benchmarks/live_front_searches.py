@@ -29,7 +29,8 @@ import scipy
 from camkit import __version__, door_handle_study
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE
 from camkit.search.fast_front import quick_front, quick_front_rounds
-from camkit.search.nsga2 import front_of, nsga2_generations, reference_point
+from camkit.search.front import front_of, reference_point
+from camkit.search.nsga2 import nsga2_generations
 from camkit.study.study import Evaluation, Study
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "live_front_searches.json"

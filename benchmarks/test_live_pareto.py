@@ -20,7 +20,7 @@ from camkit import DoorHandleCam, door_handle_study, mm
 from camkit.data import load
 from camkit.search.epsilon_constraint import trade_off
 from camkit.search.fast_front import Archive, _thinned, quick_front
-from camkit.search.nsga2 import Front, front_of, reference_point
+from camkit.search.front import Front, front_of, reference_point
 from camkit.study.study import Study
 
 Report = Callable[[str, str], None]

@@ -56,7 +56,7 @@ _LATER = {
     "cycle_time_panel": "panels",
     "edit_program": "panels",
     "explore": "panels",
-    "Front": "search.nsga2",
+    "Front": "search.front",
     "live_pareto_panel": "panels",
     "minimise": "search.minimise",
     "nsga2": "search.nsga2",

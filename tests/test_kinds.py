@@ -45,7 +45,7 @@ from camkit.decision.ahp import random_index
 from camkit.machines.high_speed_study import peak_stress
 from camkit.machines.shaft import shaft_study
 from camkit.quantities import Choice, Quantity
-from camkit.search.nsga2 import dominated, front_of
+from camkit.search.front import dominated, front_of
 
 BAD = {
     "nan": np.nan,

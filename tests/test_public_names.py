@@ -21,7 +21,8 @@ from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.render.beside import Beside
 from camkit.render.cam import pressure_angle
-from camkit.search.nsga2 import front_of, nsga2_generations
+from camkit.search.front import front_of
+from camkit.search.nsga2 import nsga2_generations
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 WINGS = [
@@ -29,6 +30,7 @@ WINGS = [
     "search.competitive",
     "search.cycle_time",
     "decision.ahp",
+    "search.front",
     "search.nsga2",
     "study.design_map",
     "render.picture",

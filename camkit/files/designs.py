@@ -22,6 +22,7 @@ from .. import kinds
 from ..decision.ahp import METHODS, judgement_matrix, typed_judgement
 from ..kinds import one_number
 from ..quantities import Design, Measure, quantities_of, words
+from ..search.front import Front, front_of
 from ..study.study import Study, WeightedSum, weighted
 from ..units import factor
 from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number, key
@@ -134,7 +135,7 @@ def _content(thing: Any) -> dict[str, Any]:
         return {"design": entry_of(thing)}
     if isinstance(thing, Work):
         return {"work": _work_entry(thing)}
-    if _is_front(thing):
+    if isinstance(thing, Front):
         return {"front": _front_entry(thing)}
     raise ValueError(f"this is {kinds.shown(thing)}; a design, a front or a Work can be saved")
 
@@ -246,11 +247,6 @@ def _front_entry(front: Any) -> dict[str, Any]:
     }
 
 
-def _is_front(thing: Any) -> bool:
-    """Whether this is a `Front`, which cannot be named where there is no pymoo."""
-    return isinstance(getattr(thing, "study", None), Study) and all(hasattr(thing, n) for n in ("x", "f", "message"))
-
-
 def _study_entry(study: Study) -> dict[str, Any]:
     _refuse_namesakes(study)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
@@ -345,10 +341,8 @@ def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measur
     return Study(start, free, minimise, angles=_count("angles", entry["angles"], 2, MOST_ANGLES), **limits)
 
 
-def _front(work: Work, message: str, reading: Reading) -> Any:
+def _front(work: Work, message: str, reading: Reading) -> Front:
     """The front of a study that was saved alone, its objectives computed anew."""
-    from ..search.nsga2 import Front, front_of  # the searches need pymoo
-
     if not len(work.x):
         return Front(work.study, work.x, np.zeros((0, len(work.study.minimise))), message, work.record)
     front = front_of(work.study.evaluate(work.x), work.study)

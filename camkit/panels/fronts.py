@@ -14,7 +14,8 @@ from ..kinds import refuse_arguments
 from ..markup import Html, escaped, table
 from ..render.front import ShownFronts, fronts_overlaid, shown_objectives
 from ..search.epsilon_constraint import dominated_shares
-from ..search.nsga2 import Front, Generation
+from ..search.front import Front
+from ..search.nsga2 import Generation
 from ..search.protocol import Monitor, SearchStopped, monitored
 from ..study.study import Study, made_study
 from .explore import Explorer

@@ -18,7 +18,7 @@ from ..quantities import Paths, Quantity, value_of, with_quantities, words
 from ..render.front import shown_objectives
 from ..render.live_front import LiveFront, live_pareto
 from ..search.fast_front import quick_front, quick_front_rounds
-from ..search.nsga2 import Front
+from ..search.front import Front
 from ..study.study import Study, made_study, refuse_bounds
 from .ahp import AhpPanel
 from .explore import Explorer

@@ -21,7 +21,8 @@ from ..markup import Html, escaped, html, joined
 from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
 from ..render.front import ShownFront, pareto, shown_objectives
 from ..search.checkpoint import fingerprint, taken_up, why
-from ..search.nsga2 import Front, Generation, front_of, nsga2_generations, reference_point
+from ..search.front import Front, front_of, reference_point
+from ..search.nsga2 import Generation, nsga2_generations
 from ..study.study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
 from .ahp import AhpPanel

@@ -14,7 +14,7 @@ from ..kinds import refuse_arguments
 from ..markup import Html, table
 from ..quantities import Quantity, value_of, words
 from ..render.tolerances import cloud, deviation, sobol_bars
-from ..search.nsga2 import Front
+from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
 from .explore import Explorer

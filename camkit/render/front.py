@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..kinds import numbers, refuse_empty, refuse_kinds, shown
-from ..search.nsga2 import Front
+from ..search.front import Front
 from ..units import factor
 from .artists import BLUE, GREY, INK, WARNING, colours, line, new, plain, text
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from ..kinds import refuse_arguments
 from ..quantities import Measure, words
-from ..search.nsga2 import Front
+from ..search.front import Front
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
 from .artists import BLUE, GREY, INK, SKY, WARNING, area, colours, frame, line, new, plain, text

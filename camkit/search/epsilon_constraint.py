@@ -11,8 +11,9 @@ import numpy as np
 from ..kinds import numbers, refuse_arguments
 from ..quantities import counted
 from ..study.study import Evaluation, Study
+from .front import Front
 from .minimise import Minimum, minimise
-from .nsga2 import Front, Generation
+from .nsga2 import Generation
 
 ROOM = 1e-6
 """How far above its least value, as a share, the second objective may lie at the end of the front."""

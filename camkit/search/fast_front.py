@@ -24,7 +24,8 @@ from ..kinds import refuse_arguments
 from ..quantities import counted
 from ..study.study import Study
 from .checkpoint import versions
-from .nsga2 import Front, dominated, front_of, on_grid
+from .front import Front, dominated, front_of
+from .protocol import on_grid
 
 MOST_FREE = 4
 """A box of more free quantities has too many corners for this search."""
@@ -191,11 +192,7 @@ def _of(archive: Archive, rows: np.ndarray) -> Archive:
 def _unbeaten(f: np.ndarray) -> np.ndarray:
     """Indices of the rows that no other beats, of equal rows one, in order of the first objective."""
     _, once = np.unique(f, axis=0, return_index=True)
-    f = f[once]
-    if f.shape[1] > 2:
-        return once[~dominated(f)]
-    before = np.concatenate([[np.inf], np.minimum.accumulate(f[:-1, 1])])
-    return once[f[:, 1] < before]
+    return once[~dominated(f[once])]
 
 
 def _thinned(archive: Archive, size: int) -> Archive:

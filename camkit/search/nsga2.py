@@ -15,13 +15,12 @@ from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.population import Population
 from pymoo.core.problem import Problem
 from pymoo.core.repair import Repair
-from pymoo.indicators.hv import HV
-from scipy.stats import qmc
 
-from ..kinds import applied, numbers, refuse_arguments, refuse_kinds, shown, whole
-from ..quantities import counted
+from ..kinds import applied, refuse_arguments, whole
 from ..study.study import Evaluation, Study
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, taken_up, versions, why
+from .front import Front, front_of
+from .protocol import on_grid
 
 MOST_SEED = 2**63 - 1
 """The largest seed that a file can hold."""
@@ -43,133 +42,12 @@ class StudyProblem(Problem):
         out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
 
 
-def on_grid(shares: np.ndarray) -> np.ndarray:
-    """Shares of the width between two bounds, moved to the nearest millionth (``2^-20``).
-
-    Processors differ in the last bits of a power.  A search doubles such differences from generation to generation;
-    on a grid they never arise, and a seed gives the same front everywhere.
-    """
-    return np.round(shares * 2**20) / 2**20
-
-
 class OnGrid(Repair):
     """Moves free values onto the grid of `on_grid`."""
 
     def _do(self, problem: Problem, x: np.ndarray, **kwargs: Any) -> np.ndarray:
         low, high = problem.xl, problem.xu
         return np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
-
-
-@dataclass(frozen=True)
-class Front:
-    """Designs of which none is better than another in every objective, in order of the first objective.
-
-    ``len(front)``, ``front[i]`` is a design again, ``front.x`` and ``front.f`` are ``(p, n)`` arrays in SI.
-    An empty front says in ``message`` what stood in the way.  ``record`` says how a search found it: population,
-    generations and seed or how many designs were looked at, seconds, versions.
-    """
-
-    study: Study
-    x: np.ndarray
-    f: np.ndarray
-    message: str = ""
-    record: Mapping[str, Any] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        refuse_kinds(self)
-        for name, table, columns in (("x", self.x, self.study.free), ("f", self.f, self.study.minimise)):
-            if table.shape != (len(self.x), len(columns)):
-                raise ValueError(
-                    f"the front's {name} has the shape {table.shape}; it must have a row for each design "
-                    f"and a column for each of {len(columns)}"
-                )
-
-    def __len__(self) -> int:
-        return len(self.x)
-
-    def __getitem__(self, i: int) -> Any:
-        return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
-
-    def _place(self, i: Any) -> Any:
-        """One or more places on the front; past its end `IndexError`, by which a loop over it ends."""
-        numbers(i, "the place on the front")
-        place = np.asarray(i)
-        if place.dtype.kind not in "iu" or place.ndim > 1:
-            raise ValueError(f"the place on the front is {shown(i)}; it must be a whole number, or several")
-        if not ((-len(self) <= place) & (place < len(self))).all():
-            raise IndexError(f"there is no design {shown(i)} on the front; it has {len(self)}, counted from 0")
-        return place
-
-    def hypervolume(self, reference: Any = None) -> float:
-        """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`).
-
-        Raises ``ValueError`` for a reference that is not one finite number for each objective.
-        """
-        point = reference_point(self.study) if reference is None else _point(reference, len(self.study.minimise))
-        if not np.isfinite(self.f).all():
-            raise ValueError("the front has an objective that is not a finite number")
-        return float(HV(ref_point=point)(self.f)) if len(self) else 0.0
-
-    def judged_by(self, study: Study) -> Front:
-        """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
-        refuse_arguments(Front.judged_by, locals())
-        if not len(self):
-            return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message, self.record)
-        return replace(front_of(study.evaluate(self.x), study), record=self.record)
-
-
-def _point(reference: Any, k: int) -> np.ndarray:
-    """A point in the space of ``k`` objectives."""
-    try:
-        point = numbers(reference, "the reference point")
-    except ValueError:
-        point = np.zeros(())
-    if point.shape != (k,) or not np.isfinite(point).all():
-        raise ValueError(f"the reference point is {shown(reference)}; it must be {k} finite numbers")
-    return point
-
-
-def front_of(evaluation: Evaluation, study: Study) -> Front:
-    """The feasible designs of an evaluation that no other dominates."""
-    refuse_arguments(front_of, locals())
-    kept = np.flatnonzero(evaluation.feasible)
-    f = evaluation.f[kept]
-    kept = kept[~dominated(f)]
-    kept = kept[np.argsort(evaluation.f[kept, 0], kind="stable")]
-    return Front(study, evaluation.x[kept], evaluation.f[kept], "" if len(kept) else _why_empty(evaluation, study))
-
-
-def dominated(f: np.ndarray) -> np.ndarray:
-    """Which rows another row beats: nowhere worse, somewhere better; ``(p,)``."""
-    f = numbers(f, "the objectives")
-    if f.ndim != 2:
-        raise ValueError(f"the objectives have the shape {f.shape}; they must be a table, a row for each design")
-    no_worse = (f[:, None] <= f[None]).all(-1)
-    better = (f[:, None] < f[None]).any(-1)
-    return np.asarray((no_worse & better).any(0))
-
-
-def _why_empty(evaluation: Evaluation, study: Study) -> str:
-    built = np.isfinite(evaluation.f).all(-1)
-    if not built.any():
-        return "no design that was looked at can be built; widen or move the bounds"
-    nearest = np.argmin(np.where(built, evaluation.missed.sum(-1), np.inf))
-    missed = study.worst_miss(evaluation.g[nearest])
-    return f"no design that was looked at keeps every limit; the nearest misses {missed}"
-
-
-def reference_point(study: Study, n: int = 256) -> np.ndarray:
-    """A fixed point for hypervolumes: the worst objectives among the feasible of ``n`` Sobol points of the box.
-
-    It depends on the study alone, so hypervolumes of different searches can be compared.
-    """
-    refuse_arguments(reference_point, locals())
-    unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
-    evaluation = study.evaluate(qmc.scale(unit, *study.bounds))
-    usable = evaluation.feasible if evaluation.feasible.any() else np.isfinite(evaluation.f).all(-1)
-    if not usable.any():
-        return study.evaluate(study.x0).f[0]
-    return evaluation.f[usable].max(axis=0)
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ from camkit.papers.high_speed_cam import with_printed_sizes
 from camkit.papers.problems import KnownProblem
 from camkit.quantities import Design, Quantity, declarations
 from camkit.render.cam import pressure_angle
-from camkit.search.nsga2 import front_of
+from camkit.search.front import front_of
 from camkit.study.study import WeightedSum, weighted
 from camkit.units import FACTORS, deg, mm
 

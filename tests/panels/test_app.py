@@ -61,7 +61,8 @@ from camkit.render.artists import _find
 from camkit.render.cam import cam_mechanism, curvature, pressure_angle
 from camkit.render.front import shown_objectives
 from camkit.search.checkpoint import read
-from camkit.search.nsga2 import Front, Generation, nsga2_generations
+from camkit.search.front import Front
+from camkit.search.nsga2 import Generation, nsga2_generations
 from camkit.units import deg, mm
 
 SMALL = {"width": 4.0, "height": 2.6}

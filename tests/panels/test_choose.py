@@ -21,7 +21,7 @@ from camkit.render.artists import _find, moving
 from camkit.render.decision import APART, MARKS, decision, front_winners, judgement_bars, triangle, winners_by_weight
 from camkit.render.parallel import Column, Designs, parallel_coordinates
 from camkit.render.picture import draw, layout
-from camkit.search.nsga2 import Front, front_of
+from camkit.search.front import Front, front_of
 from camkit.units import mm
 
 

@@ -23,8 +23,9 @@ from camkit.render.beside import Beside, cams_beside, curves_beside
 from camkit.render.front import ShownFronts, fronts_overlaid
 from camkit.render.picture import draw, layout
 from camkit.search.epsilon_constraint import dominated_shares, trade_off, trade_off_steps
+from camkit.search.front import Front, front_of
 from camkit.search.minimise import minimise
-from camkit.search.nsga2 import Front, front_of, nsga2_generations
+from camkit.search.nsga2 import nsga2_generations
 from camkit.units import deg, mm
 
 

@@ -32,7 +32,7 @@ from camkit.render.live_front import LiveFront, live_pareto, searches_compared
 from camkit.render.picture import draw, layout
 from camkit.search.checkpoint import versions
 from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
-from camkit.search.nsga2 import Front, reference_point
+from camkit.search.front import Front, reference_point
 from camkit.units import mm
 
 FOUR = {n: EXPANDED_SPACE[n] for n in ("lift_arm", "lift_start_angle", "lift_centre_distance", "relief_cam_angle")}

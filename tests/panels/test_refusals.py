@@ -39,7 +39,7 @@ from camkit.files.designs import Work, from_json, to_json
 from camkit.panels import ahp_panel, explore
 from camkit.quantities import quantities_of
 from camkit.render.cam import pressure_angle
-from camkit.search.nsga2 import Front
+from camkit.search.front import Front
 from camkit.units import deg, factor, mm
 
 NAN, INF = float("nan"), float("inf")

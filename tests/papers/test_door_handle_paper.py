@@ -8,7 +8,7 @@ from camkit import DoorHandleCam, Tolerances, deg, door_handle_paper_study, lift
 from camkit.data import load
 from camkit.panels.tolerances import general_tolerances
 from camkit.papers import door_handle as paper
-from camkit.search.nsga2 import Front, reference_point
+from camkit.search.front import Front, reference_point
 
 STORED = load("door_handle_fronts")
 STUDIES = {"whole cam": door_handle_paper_study, "lift curve": lift_curve_study}

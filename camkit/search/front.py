@@ -1,0 +1,133 @@
+"""What a search finds where there are several objectives: designs of which no other is better in everything."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from scipy.stats import qmc
+
+from ..kinds import numbers, refuse_arguments, refuse_kinds, shown
+from ..quantities import counted
+from ..study.study import Evaluation, Study
+
+
+@dataclass(frozen=True)
+class Front:
+    """Designs of which none is better than another in every objective, in order of the first objective.
+
+    ``len(front)``, ``front[i]`` is a design again, ``front.x`` and ``front.f`` are ``(p, n)`` arrays in SI.
+    An empty front says in ``message`` what stood in the way.  ``record`` says how a search found it: population,
+    generations and seed or how many designs were looked at, seconds, versions.
+    """
+
+    study: Study
+    x: np.ndarray
+    f: np.ndarray
+    message: str = ""
+    record: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self)
+        for name, table, columns in (("x", self.x, self.study.free), ("f", self.f, self.study.minimise)):
+            if table.shape != (len(self.x), len(columns)):
+                raise ValueError(
+                    f"the front's {name} has the shape {table.shape}; it must have a row for each design "
+                    f"and a column for each of {len(columns)}"
+                )
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def __getitem__(self, i: int) -> Any:
+        return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
+
+    def _place(self, i: Any) -> Any:
+        """One or more places on the front; past its end `IndexError`, by which a loop over it ends."""
+        numbers(i, "the place on the front")
+        place = np.asarray(i)
+        if place.dtype.kind not in "iu" or place.ndim > 1:
+            raise ValueError(f"the place on the front is {shown(i)}; it must be a whole number, or several")
+        if not ((-len(self) <= place) & (place < len(self))).all():
+            raise IndexError(f"there is no design {shown(i)} on the front; it has {len(self)}, counted from 0")
+        return place
+
+    def hypervolume(self, reference: Any = None) -> float:
+        """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`).
+
+        Raises ``ValueError`` for a reference that is not one finite number for each objective.
+        """
+        point = reference_point(self.study) if reference is None else _point(reference, len(self.study.minimise))
+        if not np.isfinite(self.f).all():
+            raise ValueError("the front has an objective that is not a finite number")
+        from moocore import hypervolume
+
+        return float(hypervolume(self.f, ref=point)) if len(self) else 0.0
+
+    def judged_by(self, study: Study) -> Front:
+        """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
+        refuse_arguments(Front.judged_by, locals())
+        if not len(self):
+            return Front(study, self.x, np.zeros((0, len(study.minimise))), self.message, self.record)
+        return replace(front_of(study.evaluate(self.x), study), record=self.record)
+
+
+def _point(reference: Any, k: int) -> np.ndarray:
+    """A point in the space of ``k`` objectives."""
+    try:
+        point = numbers(reference, "the reference point")
+    except ValueError:
+        point = np.zeros(())
+    if point.shape != (k,) or not np.isfinite(point).all():
+        raise ValueError(f"the reference point is {shown(reference)}; it must be {k} finite numbers")
+    return point
+
+
+def front_of(evaluation: Evaluation, study: Study) -> Front:
+    """The feasible designs of an evaluation that no other dominates."""
+    refuse_arguments(front_of, locals())
+    kept = np.flatnonzero(evaluation.feasible)
+    f = evaluation.f[kept]
+    kept = kept[~dominated(f)]
+    kept = kept[np.argsort(evaluation.f[kept, 0], kind="stable")]
+    return Front(study, evaluation.x[kept], evaluation.f[kept], "" if len(kept) else _why_empty(evaluation, study))
+
+
+def dominated(f: np.ndarray) -> np.ndarray:
+    """Which rows another row beats: nowhere worse, somewhere better; ``(p,)``."""
+    f = numbers(f, "the objectives")
+    if f.ndim != 2:
+        raise ValueError(f"the objectives have the shape {f.shape}; they must be a table, a row for each design")
+    beaten, known = np.zeros(len(f), dtype=bool), ~np.isnan(f).any(-1)  # what is no number cannot be compared
+    if f[known].size:
+        from moocore import is_nondominated
+
+        # Places of the numbers in their column, since moocore takes no infinite ones.
+        places = [np.unique(column, return_inverse=True)[1] for column in f[known].T]
+        beaten[known] = ~is_nondominated(np.stack(places, axis=-1).astype(float), keep_weakly=True)
+    return beaten
+
+
+def _why_empty(evaluation: Evaluation, study: Study) -> str:
+    built = np.isfinite(evaluation.f).all(-1)
+    if not built.any():
+        return "no design that was looked at can be built; widen or move the bounds"
+    nearest = np.argmin(np.where(built, evaluation.missed.sum(-1), np.inf))
+    missed = study.worst_miss(evaluation.g[nearest])
+    return f"no design that was looked at keeps every limit; the nearest misses {missed}"
+
+
+def reference_point(study: Study, n: int = 256) -> np.ndarray:
+    """A fixed point for hypervolumes: the worst objectives among the feasible of ``n`` Sobol points of the box.
+
+    It depends on the study alone, so hypervolumes of different searches can be compared.
+    """
+    refuse_arguments(reference_point, locals())
+    unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
+    evaluation = study.evaluate(qmc.scale(unit, *study.bounds))
+    usable = evaluation.feasible if evaluation.feasible.any() else np.isfinite(evaluation.f).all(-1)
+    if not usable.any():
+        return study.evaluate(study.x0).f[0]
+    return evaluation.f[usable].max(axis=0)
