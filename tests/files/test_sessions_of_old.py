@@ -60,7 +60,8 @@ def test_a_session_of_old_is_read_with_its_numbers(file):
     now = measured(design)
     for name, value in expected["measures"].items():
         if not name.startswith(OTHERWISE):
-            assert_allclose(now[renaming.name("measure", name)], value, rtol=5e-6, atol=1e-11, err_msg=name)
+            near = 1e-4 if name.startswith("mean") else 5e-6  # a mean over jumps of friction, by trapezoids of 0.1.0
+            assert_allclose(now[renaming.name("measure", name)], value, rtol=near, atol=1e-11, err_msg=name)
 
 
 @pytest.mark.parametrize("file", EXPECTED, ids="/".join)
