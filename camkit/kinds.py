@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 import types
 import typing
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence, Sized
@@ -149,6 +150,19 @@ def shown(value: Any) -> str:
 
 def _article(name: str) -> str:
     return "an" if name[0] in "AEIOUaeiou" else "a"
+
+
+def kind_words(kind: type, article: bool = False) -> str:
+    """The name of a class as a person says it.
+
+    >>> class RockerLoad: ...
+    >>> class RSSR: ...
+    >>> kind_words(RockerLoad, article=True), kind_words(RSSR)
+    ('a rocker load', 'RSSR')
+    """
+    name = kind.__name__
+    said = name if name.isupper() else re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()
+    return f"{_article(said)} {said}" if article else said
 
 
 class Kind(NamedTuple):

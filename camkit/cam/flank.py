@@ -157,18 +157,13 @@ class Flanks:
                 found.append(Cut(flank, float(first), float(last), float(gaps.max())))
         return tuple(found)
 
-    @property
-    def message(self) -> str:
-        """What the tool cuts away, where and by how much, in a sentence; empty if it is nothing."""
-        return f"The tool cuts away {'; '.join(map(str, self.cuts))}." if self.cuts else ""
-
 
 def flanks(analysis: Any) -> Flanks:
     """What the follower, as a tool, leaves of the flanks of one cam's analysis.
 
     >>> from camkit import TranslatingFlatCam, TranslatingRollerCam, mm
-    >>> flanks(TranslatingRollerCam().analyse()).message
-    ''
+    >>> flanks(TranslatingRollerCam().analyse()).cuts
+    ()
     >>> for cut in flanks(TranslatingFlatCam(base_radius=10 * mm).analyse()).cuts:
     ...     print(cut)
     the profile from 80 to 95 deg, where the follower stays 0.00294 mm from its place

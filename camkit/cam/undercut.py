@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..units import deg, mm
+from .flank import Cut
+
+INNER, OUTER, ONLY = "inner flank", "outer flank", "profile"
+"""What the flanks of a groove are called, and that of a plate."""
 
 
-def undercut_in_words(analysis: Any) -> str:
+def undercut_in_words(analysis: Any, cuts: Sequence[Cut] = ()) -> str:
     """What is undercut, at which cam angle, and which walls of a groove merge; empty if nothing is lost.
+
+    The sentence of screen and files.  ``cuts`` are told where nothing else is: what `flank.flanks` found.
 
     Of a flank it says how much larger the least convex radius of curvature would have to be: how far it lies below 0,
     which under a roller is by how much the roller's radius is larger than that of its path.  How far the follower then
@@ -27,8 +33,10 @@ def undercut_in_words(analysis: Any) -> str:
     """
     curves = getattr(analysis, "curves", None) or {"": analysis}
     told = [words for name, curve in curves.items() for words in _flanks(curve, name if len(curves) > 1 else "")]
-    cut = [f"Undercut: the follower cuts away {', and '.join(told)}."] if told else []
-    return " ".join([*cut, *_merged(analysis)])
+    merged = list(_merged(analysis))
+    if not told and not merged:
+        told = [str(cut) for cut in cuts]
+    return " ".join([*([f"Undercut: the follower cuts away {', and '.join(told)}."] if told else []), *merged])
 
 
 def _merged(analysis: Any) -> Iterator[str]:
@@ -51,9 +59,9 @@ def _flanks(curve: Any, name: str) -> Iterator[str]:
 def _margins(curve: Any) -> dict[str, tuple[Any, Any]]:
     """Least convex radius (m) of each flank, and the cam angle at which it stands."""
     if hasattr(curve, "min_radius_angle"):
-        return {"the profile": (curve.min_radius, curve.min_radius_angle)}
+        return {f"the {ONLY}": (curve.min_radius, curve.min_radius_angle)}
     if not hasattr(curve, "profile_margin"):
         return {}
     if not getattr(curve, "groove", False):
-        return {"the profile": curve.profile_margin}
-    return {"the inner flank": curve.profile_margin, "the outer flank": curve.outer_profile_margin}
+        return {f"the {ONLY}": curve.profile_margin}
+    return {f"the {INNER}": curve.profile_margin, f"the {OUTER}": curve.outer_profile_margin}

@@ -189,8 +189,8 @@ def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures:
 
 def _refuse_other(thing: Any, held: str, kind: type | None) -> None:
     if not isinstance(thing, kind or (Design if held == "design" else object)):
-        wanted = kind.__name__ if kind else "design"
-        raise ValueError(f"the file holds a {type(thing).__name__}; a {wanted} is wanted here")
+        wanted = kinds.kind_words(kind, article=True) if kind else "a design"
+        raise ValueError(f"the file holds {kinds.kind_words(type(thing), article=True)}; {wanted} is wanted here")
 
 
 def _lacking(missing: Sequence[str]) -> list[str]:
@@ -330,7 +330,9 @@ def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measur
     free = {}
     for k, bounds in _mapping(entry["free"], "free").items():
         if k not in declared:
-            raise ValueError(f"the file frees {shown(k)}, which a {type(start).__name__} does not have")
+            raise ValueError(
+                f"the file frees {shown(k)}, which {kinds.kind_words(type(start), article=True)} does not have"
+            )
         name, quantity = declared[k]
         free[name] = tuple(quantity.factor * b for b in _numbers(bounds, k, 2))
     limits: dict[str, Any] = {
@@ -430,9 +432,9 @@ def _refuse_namesakes(study: Study) -> None:
     for measure in own:
         mine, theirs = (abs(np.asarray(m(analysis), dtype=float)) for m in (measure, known[_key(measure)]))
         if not np.allclose(mine, theirs, rtol=1e-9, atol=0, equal_nan=True):
+            mechanism = kinds.kind_words(type(study.start), article=True)
             raise ValueError(
-                f"the {measure.name} of this study is not what a {type(study.start).__name__} has under this name; "
-                "give it another name"
+                f"the {measure.name} of this study is not what {mechanism} has under this name; give it another name"
             )
 
 

@@ -16,6 +16,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from ..kinds import kind_words
 from ..motion import Law, MotionProgram, Segment
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..units import factor, in_unit
@@ -63,10 +64,14 @@ def entry_of(thing: Any, where: str = "value") -> Any:
         if isinstance(thing, Segment) and not thing.name:
             values.pop("name", None)
         return {"kind": name} | {
-            key(n, declared.get(n)): _field_entry(v, declared.get(n), f"{words(n)} of the {name}")
+            key(n, declared.get(n)): _field_entry(v, declared.get(n), f"{words(n)} of the {kind_words(type(thing))}")
             for n, v in values.items()
         }
-    what = f"a {name}" if is_dataclass(thing) or not callable(thing) else "a function of one's own"
+    what = (
+        kind_words(type(thing), article=True)
+        if is_dataclass(thing) or not callable(thing)
+        else "a function of one's own"
+    )
     raise ValueError(f"the {where} is {what}, which no file can hold")
 
 
@@ -147,14 +152,16 @@ class Reading:
             with unremarked():  # a file's numbers have their units
                 return self._with(kind(**values), deeper)
         except (TypeError, AttributeError, IndexError, ArithmeticError):
-            raise ValueError(f"the file is damaged: no {name} can be built of what it says") from None
+            raise ValueError(f"the file is damaged: no {kind_words(kind)} can be built of what it says") from None
 
     def _with(self, thing: Any, entries: Mapping[str, Any]) -> Any:
         """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
         for k, entry in entries.items():
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
             if k not in found:
-                raise ValueError(f"the file has {shown(k)}, which a {type(thing).__name__} does not have")
+                raise ValueError(
+                    f"the file has {shown(k)}, which {kind_words(type(thing), article=True)} does not have"
+                )
             path, declared = found[k]
             thing = with_quantities(thing, {path: self._declared(entry, k, declared)})
         return thing
@@ -163,10 +170,10 @@ class Reading:
         declared = _declarations(kind)
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
-            raise ValueError(f"the file has {shown(wrong)}, which a {kind.__name__} does not have")
+            raise ValueError(f"the file has {shown(wrong)}, which {kind_words(kind, article=True)} does not have")
         for lacking in [n for n, f in named.items() if n not in entries and not (f.name == "name" and f.kw_only)]:
             if not any(path.startswith(f"{lacking}.") for path in deeper):
-                self.lacks(lacking, kind.__name__, named[lacking])
+                self.lacks(lacking, kind_words(kind), named[lacking])
         hints = _hints(kind)
         return {
             named[k].name: self._field(
@@ -262,7 +269,7 @@ def _wanted(hint: Any) -> str:
     """What an annotation names, in words."""
     said = {Any: "a number", float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
     if isinstance(hint, type) and hint not in said and get_origin(hint) is None:
-        return f"{'an' if hint.__name__[0] in 'AEIO' else 'a'} {hint.__name__}"
+        return kind_words(hint, article=True)
     if get_origin(hint) is tuple and get_args(hint)[-1:] == (...,):
         inner = get_args(hint)[0]
         return "a list of pairs of numbers" if get_origin(inner) is tuple else "a list of values"

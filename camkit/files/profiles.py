@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..cam.flank import flanks
+from ..cam.undercut import INNER, ONLY, OUTER, undercut_in_words
 from ..kinds import refuse_arguments, shown
 from ..markup import csv_cell
 from ..units import in_unit
@@ -73,8 +74,10 @@ def _profile_columns(analysis: Any) -> dict[str, Any]:
     columns = {"stretch": list(analysis.stretch), "cam_angle_deg": in_unit(analysis.profile_angle, "deg")}
     columns |= _point_columns({"pitch": analysis.pitch, **made.points})
     if made.cuts:
-        away = [[flank for flank, rows in made.cut_away.items() if rows[k]] for k in range(len(columns["stretch"]))]
-        columns["undercut"] = [" and ".join(flanks) for flanks in away]
+        names = (INNER, OUTER) if len(made.cut_away) > 1 else (ONLY,)
+        away = dict(zip(names, made.cut_away.values(), strict=True))
+        rows = range(len(columns["stretch"]))
+        columns["undercut"] = [" and ".join(flank for flank, lost in away.items() if lost[k]) for k in rows]
         columns |= _point_columns({f"theory {flank}": points for flank, points in made.theory.items()})
     return columns
 
@@ -104,7 +107,7 @@ def profile_dxf(analysis: Any) -> str:
     """
     import ezdxf  # the maths does without
 
-    analysis = _one_cam(analysis)
+    given, analysis = analysis, _one_cam(analysis)
     made, drawing = flanks(analysis), ezdxf.new("R2010", units=ezdxf.units.MM)
 
     def draw(layer: str, points: np.ndarray, closed: bool) -> None:
@@ -120,9 +123,10 @@ def profile_dxf(analysis: Any) -> str:
         draw(piece.flank, piece.points, piece.closed)
     for piece in made.lost:
         draw(FAULT, piece.points, piece.closed)
-    if made.message:
+    if made.cuts:
+        sentence = undercut_in_words(given, made.cuts)
         below = in_unit(analysis.profile[1].min(), "mm") - 4 * TEXT
-        drawing.modelspace().add_text(made.message, height=TEXT, dxfattribs={"layer": FAULT}).set_placement((0, below))
+        drawing.modelspace().add_text(sentence, height=TEXT, dxfattribs={"layer": FAULT}).set_placement((0, below))
     out = io.StringIO()
     drawing.write(out)
     return out.getvalue()

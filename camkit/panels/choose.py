@@ -36,7 +36,7 @@ HINT = "Drag along an axis to keep a band of it; click into the band to drop it;
 
 @runtime_checkable
 class FrontPanel(Protocol):
-    """A panel with a front, such as `search` gives."""
+    """A panel with a front, such as `pareto_panel` gives."""
 
     front: Any
     explorer: Any

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..decision.ahp import CHOOSERS, ahp, judgement_matrix
 from ..files import designs
-from ..kinds import refuse_arguments, refuse_empty, whole
+from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
 from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
 from ..render.front import ShownFront, pareto, shown_objectives
@@ -58,7 +58,10 @@ class Bounds:
         self.low, self.high = (
             NumberBox(0.0, staying(f"bounds of the {words(name)}", refused, "stay"), layout=narrow) for _ in range(2)
         )
+        self._refused = refused
         self._show(bounds)
+        for box in (self.low, self.high):
+            box.observe(lambda _: self._check(), "value")
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex="1 1 170px"))
         unit = w.HTML(small_html(declared.unit), layout=w.Layout(width="44px"))
         self.row = w.HBox([self.free, label, self.low, self.high, unit], layout=w.Layout(align_items="center"))
@@ -66,8 +69,16 @@ class Bounds:
 
     def _show(self, bounds: tuple[float, float]) -> None:
         """Show ``bounds`` (SI), rounded to what fits; as long as nobody edits them they stay exact."""
-        self._exact = bounds
+        self._exact, self._silent = bounds, True
         self.low.value, self.high.value = self._shown = [float(f"{in_unit(b, self.declared.unit):.6g}") for b in bounds]
+        self._silent = False
+
+    def _check(self) -> None:
+        """Say at once what a search could not take; it stays, since the other bound may be typed next."""
+        try:
+            refuse_bounds({self.name: self.declared}, {} if self._silent else {self.name: self.value})
+        except ValueError as refusal:
+            self._refused(f"This cannot be searched: {refusal}.")
 
     @property
     def value(self) -> tuple[float, float]:
@@ -177,7 +188,11 @@ class ParetoPanel(Panel):
         return WholeBox(value, low, high, refused, description=name, description_width="92px", layout=layout)
 
     def _refuse(self, sentence: str) -> None:
-        show_message(self._banner, sentence)
+        """Why what was typed cannot be; empty where it can."""
+        if sentence:
+            show_message(self._banner, sentence)
+        else:
+            self._tell("")
 
     def _body(self) -> w.Widget:
         save = Download("Save study", "study.json", "application/json", lambda: designs.to_json(self.work()), self._say)
@@ -505,8 +520,8 @@ class ParetoPanel(Panel):
             self.explorer.start
         ):
             raise ValueError(
-                f"the file holds a {type(work.study.start).__name__}; "
-                f"a {type(self.explorer.start).__name__} is wanted here"
+                f"the file holds {kind_words(type(work.study.start), article=True)}; "
+                f"{kind_words(type(self.explorer.start), article=True)} is wanted here"
             )
         self._check_settings(work.search)
         self._check_judgements(work.judgements)

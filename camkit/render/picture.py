@@ -118,7 +118,7 @@ def picture(
     ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
     """
     refuse_arguments(picture, locals())
-    refuse_limits(limits or {})
+    refuse_limits(limits or {}, {})
     given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
     asked = {name: value for name, value in given.items() if value is not None}
     figure, axes = layout(views, width, height)

@@ -100,13 +100,17 @@ def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> Non
     declared.remark(name, float(high))
 
 
-def refuse_limits(*limits: Mapping[Any, Any]) -> None:
-    """``ValueError`` in a sentence for limits that are no finite number for a measure."""
-    for measure, limit in (item for each in limits for item in each.items()):
+def refuse_limits(at_most: Mapping[Any, Any], at_least: Mapping[Any, Any]) -> None:
+    """``ValueError`` in a sentence for limits that are no finite number for a measure, or that nothing can keep."""
+    for measure, limit in (*at_most.items(), *at_least.items()):
         if not isinstance(measure, Measure):
             raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
         if not _number(limit) or not finite(limit):
             raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
+    for measure in at_most.keys() & at_least.keys():
+        if not keeps(at_least[measure], at_most[measure], 1):
+            low, high = measure.text(at_least[measure]), measure.text(at_most[measure])
+            raise ValueError(f"the {measure.name} is to be at least {low} and at most {high}; no design can be both")
 
 
 def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:

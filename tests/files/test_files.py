@@ -206,11 +206,11 @@ def test_a_class_that_would_be_read_as_another_is_not_written():
     def cam(law):
         return OscillatingRollerCam(motion=MotionProgram((Rise(1.0, 0.3, law),)))
 
-    with pytest.raises(ValueError, match=r"^the law of the Rise is a Poly345 of your own, .* as camkit's: give"):
+    with pytest.raises(ValueError, match=r"^the law of the rise is a Poly345 of your own, .* as camkit's: give"):
         to_json(cam(own_law("Poly345")()))
     older, newer = own_law("LawOfMyOwn"), own_law("LawOfMyOwn")
     assert from_json(to_json(cam(newer()))) == cam(newer())
-    with pytest.raises(ValueError, match=r"^the law of the Rise is a LawOfMyOwn of your own, .* as another one of yo"):
+    with pytest.raises(ValueError, match=r"^the law of the rise is a LawOfMyOwn of your own, .* as another one of yo"):
         to_json(cam(older()))
 
 
@@ -248,8 +248,8 @@ def test_what_no_file_can_hold_is_refused_for_its_true_reason():
     family = Family("mine", lambda c: Cycloidal(), 1.0)
     one = MotionProgram((Rise(1.0, 0.3, replace(SHAPED, family=family)),))
     cases = {
-        "the family of the ShapedLaw is a Family, which no file can hold": OscillatingRollerCam(motion=one),
-        "the force curve of the CamLever is a function of one's own, which no file can hold": CamLever(
+        "the family of the shaped law is a family, which no file can hold": OscillatingRollerCam(motion=one),
+        "the force curve of the cam lever is a function of one's own, which no file can hold": CamLever(
             force_curve=lambda s: 100 + 1e4 * s
         ),
     }
@@ -279,7 +279,7 @@ def test_a_measure_of_ones_own_under_a_name_of_the_mechanism_is_not_written():
     """It would be read as the mechanism's."""
     false = Measure("base radius (pitch), lift", "mm", lambda a: 2 * a.lift.pitch_radius.min(-1))
     with pytest.raises(
-        ValueError, match=r"^the base radius \(pitch\), lift of this study is not what a DoorHandleCam has"
+        ValueError, match=r"^the base radius \(pitch\), lift of this study is not what a door handle cam has"
     ):
         to_json(Work(plain.replace(minimise=(false,)), plain.start))
 
@@ -475,10 +475,10 @@ def test_a_field_that_is_lacking_takes_its_default_with_a_remark():
     found = read(json.dumps(content))
     assert found.thing == DoorHandleCam(lift_arm=48 * mm)
     assert "lacks" in found.remarks[1]
-    assert "'motion_law' of the DoorHandleCam" in found.remarks[1]
+    assert "'motion_law' of the door handle cam" in found.remarks[1]
     program = json.loads(GOOD["program"])
     del program["design"]["motion"]["segments"][0]["lift"]
-    with pytest.raises(ValueError, match=r"^the file lacks 'lift' of the Rise$"):
+    with pytest.raises(ValueError, match=r"^the file lacks 'lift' of the rise$"):
         read(json.dumps(program))
 
 
@@ -495,7 +495,7 @@ def test_a_study_that_lacks_an_entry_takes_its_default_with_a_remark(name):
 
 HOSTILE = {
     "evil_study.json": r"^the file has the name 'effort<img src=x.*'; a name has up to 100 letters, digits, spaces",
-    "motion_is_number.json": r"^the file says 0 for 'motion'; a MotionProgram belongs there$",
+    "motion_is_number.json": r"^the file says 0 for 'motion'; a motion program belongs there$",
     "empty_row_table.json": r"^the file says \[\[\]\] for 'door_torque_table'; a list of pairs of numbers belongs",
     "angles_study.json": r"^the file says 1000000000 for 'angles'; it must be a whole number of at least 2",
 }
@@ -569,7 +569,7 @@ ABSURD = {
         design_with("motion_law", to={"kind": "ArmLoad"}), "for 'motion_law'; there are simple"
     ),
     "a friction as a load": (
-        design_with("load", of="program", to={"kind": "Friction"}), "for 'load'; an ArmLoad belongs there"
+        design_with("load", of="program", to={"kind": "Friction"}), "for 'load'; an arm load belongs there"
     ),
     "true as a number": (design_with("rotation", of="program", to=True), "for 'rotation'; there are counter-cl"),
     "half a rotation": (design_with("rotation", of="program", to=1.0), "for 'rotation'; there are counter-cl"),
@@ -928,7 +928,7 @@ def test_what_cannot_be_saved_is_told_in_the_panel(monkeypatch, tmp_path):
     app = explore(OscillatingRollerCam(motion=own), pressure_angle, width=4, height=3)
     save = next(child for child in app.children[2].children if getattr(child, "description", "") == "Save design")
     save._handle_custom_msg({"wanted": True}, [])
-    assert said(app) == "Nothing is saved: the law of the Rise is a function of one's own, which no file can hold."
+    assert said(app) == "Nothing is saved: the law of the rise is a function of one's own, which no file can hold."
 
 
 def test_the_page_comes_back_with_its_methods_and_a_measure_of_ones_own(page, monkeypatch, tmp_path):

@@ -580,6 +580,26 @@ def test_what_is_ticked_is_free_between_the_bounds_that_are_typed(finder):
     assert (finder.front.x[:, 1] >= 63.5 * mm).all()
 
 
+def test_a_refusal_goes_as_soon_as_something_good_is_typed(finder):
+    for box, bad, better in ((finder.population, "many", "40"), (finder.bounds["lift_arm"].low, "1/2", "46")):
+        box.text = bad
+        assert bad in alert(finder)
+        box.text = better
+        assert alert(finder) == ""
+        assert box.value == float(better)
+
+
+def test_bounds_that_no_design_lies_between_are_told_when_they_are_typed(finder):
+    low, high = (getattr(finder.bounds["lift_arm"], end) for end in ("low", "high"))
+    low.text = "70"
+    assert alert(finder).startswith(
+        "This cannot be searched: the bounds of the lift arm are 70 mm and 55 mm; they must"
+    )
+    high.text = "80"
+    assert alert(finder) == ""
+    assert finder.bounds["lift_arm"].value == pytest.approx((70 * mm, 80 * mm))
+
+
 def test_a_search_that_cannot_be_is_refused_in_a_sentence(finder):
     before = finder.front
     finder.bounds["relief_arm"].free.value = True

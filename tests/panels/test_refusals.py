@@ -36,7 +36,7 @@ from camkit import (
 from camkit.data import load as reference
 from camkit.decision.ahp import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
 from camkit.files.designs import Work, from_json, to_json
-from camkit.panels import ahp_panel, explore
+from camkit.panels import ahp_panel, choose_panel, explore
 from camkit.quantities import quantities_of
 from camkit.render.cam import pressure_angle
 from camkit.search.front import Front
@@ -134,6 +134,17 @@ REFUSALS = [
      "the bounds of the lift arm are 50 mm and nan mm; they must be finite, the first below the second"),
     (lambda: a_study(free={"lift_arm": (-5 * mm, 50 * mm)}),
      "the bounds of the lift arm are -5 mm and 50 mm; each must be a finite number above 0 mm"),
+    (lambda: a_study(at_most={height: 60}, at_least={height: 70}),
+     "the height is to be at least 70000 mm and at most 60000 mm; no design can be both"),
+    (lambda: explore(CAM, pressure_angle, at_most={height: 60}, at_least={height: 70}),
+     "the height is to be at least 70000 mm and at most 60000 mm; no design can be both"),
+    (lambda: explore(DoorHandleCam, pressure_angle),
+     "the argument design is the class DoorHandleCam; it must be a design that can be analysed, such as a cam"),
+    (lambda: explore(CAM, 3), "the argument views is (3,); it must be a tuple of which each is a function"),
+    (lambda: picture(3, pressure_angle), "the view pressure angle does not apply to 3, which has no curves"),
+    (lambda: picture(CAM, 3), "one of the views is 3; it must be a function"),
+    (lambda: choose_panel(3),
+     "the argument source is 3; it must be a panel with a front, such as `pareto_panel` gives"),
     (lambda: a_study(at_most={height: NAN}), "the limit of the height is nan; it must be a finite number"),
     (lambda: door_handle_study().evaluate([[1.0, 2.0]]), "x has 2 columns; this study has 3 free quantities"),
     (lambda: lift_curve_study(space={"relief_arm": (70 * mm, 80 * mm)}),
@@ -190,14 +201,14 @@ REFUSALS = [
     (lambda: from_json('{"schema": "camkit/1"}'), 
      "the file is damaged: beside its schema it must hold one design, one work or one front"),
     (lambda: a_file(kind="Boat"), "the file names a 'Boat', which this camkit does not know"),
-    (lambda: a_file(wing=3), "the file has 'wing', which a DoorHandleCam does not have"),
+    (lambda: a_file(wing=3), "the file has 'wing', which a door handle cam does not have"),
     (lambda: a_file(**{"lift_arm [mm]": "50"}),
      "the file says '50' for 'lift_arm [mm]'; it must be a finite number above 0 mm"),
     (lambda: a_file(**{"lift_arm [mm]": NAN}), "the file is damaged: it says NaN; every number must be finite"),
     (lambda: a_file(motion_law="wobbly"),
      "the file says 'wobbly' for 'motion_law'; there are simple harmonic, parabolic, cycloidal, modified trapezoid, "
      "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial"),
-    (lambda: from_json(to_json(CAM), Work), "the file holds a DoorHandleCam; a Work is wanted here"),
+    (lambda: from_json(to_json(CAM), Work), "the file holds a door handle cam; a work is wanted here"),
 
     # names
     (lambda: ArmLoad().replace(weight=1),

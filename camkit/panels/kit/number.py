@@ -24,7 +24,7 @@ def staying(what: str, tell: Callable[[str], None], verb: str = "stays") -> Call
 class NumberBox(anywidget.AnyWidget):
     """A box for a number; ``value`` is the last one that could be read, and ``text`` what the page shows.
 
-    ``refused(sentence)`` is called for a text that is none, with an empty sentence when the last number is typed again.
+    ``refused(sentence)`` is called for a text that is none, with an empty sentence before each number that is taken.
     The arrow keys go up and down by ``step``.
     """
 
@@ -60,8 +60,7 @@ class NumberBox(anywidget.AnyWidget):
             self._show()
             self.refused(str(refusal))
         else:
-            if value == self.value:
-                self.refused("")
+            self.refused("")
             self.value = value
             self._show()
 
