@@ -21,7 +21,8 @@ from ..kinds import refuse_arguments
 from ..quantities import Measure, declarations, fails, quantity
 from ..study.study import Study
 from ..units import mm
-from .high_speed_cam import FreeLawCam, HighSpeedAnalysis, HighSpeedCam, number
+from .high_speed_analysis import HighSpeedAnalysis, number
+from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
 from .high_speed_study import (
     CLEAR,

@@ -14,7 +14,8 @@ from ..kinds import refuse_arguments
 from ..quantities import Measure, PeakMeasure
 from ..study.study import Space, Study
 from ..units import mm
-from .high_speed_cam import FreeLawCam, HighSpeedCam, number
+from .high_speed_analysis import number
+from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import InertialSpringLoad
 
 

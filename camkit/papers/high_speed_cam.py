@@ -9,7 +9,8 @@ import numpy as np
 
 from ..data import as_printed
 from ..machines.cam_lever import CamLever, cam_lever_study
-from ..machines.high_speed_cam import HighSpeedAnalysis, HighSpeedCam
+from ..machines.high_speed_analysis import HighSpeedAnalysis
+from ..machines.high_speed_cam import HighSpeedCam
 from ..machines.high_speed_load import ConstantTorque, InertialSpringLoad
 from ..machines.high_speed_study import GEOMETRY, high_speed_study, peak_stress, peak_wear
 from ..quantities import Measure
