@@ -500,7 +500,7 @@ def test_a_weak_spring_loses_contact():
         ({"rise_law": "cycloidal"}, r"the rise law is 'cycloidal'; it must be one of"),
         ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be one of"),
         ({"rise_c0": "much"}, r"the rise c0 c_0 is 'much'"),
-        ({"rotation": 0}, r"the rotation is 0; it must be \+1 or -1"),
+        ({"rotation": 0}, r"the rotation is 0; it must be one of 1 \(counter-clockwise\), -1 \(clockwise\)"),
     ],
 )
 def test_what_cannot_be_built_is_refused_in_a_sentence(change, sentence):
