@@ -104,6 +104,7 @@ GIVEN = {
     MotionProgram: (PROGRAM.segments,),
     Skewed: (LAW,),
     FreePolynomial: (),
+    camkit.ShapedLaw: (LAW, (0.1, 0.0, 0.0, 0.0)),
     SplineLaw: ((0.5,), (0.5,)),
     TableLaw: ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)),
     Box: ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),

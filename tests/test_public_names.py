@@ -189,9 +189,11 @@ GOOD = {
     "k": lambda: 2,
     "laws": lambda: (camkit.Cycloidal(),),
     "limit": lambda: 1e6,
+    "lift": lambda: 10.0,
     "longest": lambda: 1.0,
     "make": lambda: one,
     "matrices": lambda: [[1, 3], [1 / 3, 1]],
+    "most": lambda: 100.0,
     "names": lambda: ("a", "b"),
     "pair": camkit.ContactPair,
     "panel": app,
@@ -262,6 +264,7 @@ GOOD = {
     "convergence.generations": lambda: [generation()],
     "cams_beside.shown": lambda: Beside({"one": camkit.HighSpeedCam().analyse()}, slope),
     "curves_beside.shown": lambda: Beside({"one": CAM.analyse(31)}, slope),
+    "motion_in.make": lambda: lambda: CAM.motion,
     "departure.target": lambda: 0.5,
 }
 """Right values by the name of an argument, or of a function and its argument."""

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import a_number, finite, listed, numbers, one_number, refuse_lengths, shown
+from ..kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
 from ..quantities import Declared, Quantity, fails
 from ..units import deg
 from .closing import TURN, closed, closing
@@ -54,6 +54,7 @@ def motion_in(unit: str, lift: float, most: float, make: Callable[[], MotionProg
 
     A usual ``lift`` and the largest that a slider offers are in that unit; ``make`` makes the field's default.
     """
+    refuse_arguments(motion_in, locals())
     says = {
         "lift": Quantity("h", lift, most / 60, most, unit, LIFT.meaning, at_least=0),
         "start": Quantity("s_0", 0, -most, most, unit, START.meaning, above=None),

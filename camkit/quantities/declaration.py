@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
@@ -155,7 +155,7 @@ class Choice:
 
     symbol: str
     default: Any
-    options: Any
+    options: Sequence[Any] | Mapping[str, Any]
     meaning: str
 
     def __post_init__(self) -> None:
@@ -169,7 +169,8 @@ class Choice:
     @cached_property
     def named(self) -> dict[str, Any]:
         """The options by their names."""
-        return {option.name: option for option in self.options}
+        options: tuple[Any, ...] = tuple(self.options)
+        return {option.name: option for option in options}
 
     def text(self, value: Any) -> str:
         """What the option ``value``, or another like them, is called."""
@@ -196,7 +197,7 @@ class Choice:
     def allows(self, value: Any) -> bool:
         """Whether ``value`` is one of the options or, where they are more than plain values, another like them."""
         if self._plain:
-            return np.ndim(value) == 0 and value in self.options
+            return isinstance(value, Hashable) and value in self.options
         if isinstance(value, type):
             return False
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
