@@ -29,7 +29,7 @@ CELLS = [
     """
 from camkit import DoorHandleCam, deg, door_handle_study, explore
 from camkit.machines.door_handle import CURVE_TABLE, WORSE_CURVE
-from camkit.render.cam import DOOR_HANDLE_VIEWS
+from camkit.views import CAM_VIEWS
 
 paper = DoorHandleCam(door_torque=10)
 study = door_handle_study(paper)
@@ -37,7 +37,7 @@ sliders = ["lift_arm", "lift_start_angle", "relief_arm", "lift_centre_distance",
            "roller_radius", "lift_swing", "relief_swing", "relief_cam_angle", "motion_law", "friction",
            "cam_friction_circle", "roller_friction_circle", "pivot_friction_circle", "lift_arm_mass",
            "relief_arm_mass", "handle_speed", "door_torque", "flap_torque", "door_spring"]
-app = explore(paper, *DOOR_HANDLE_VIEWS, free=sliders, measures=(*WORSE_CURVE.values(), *CURVE_TABLE),
+app = explore(paper, *CAM_VIEWS, free=sliders, measures=(*WORSE_CURVE.values(), *CURVE_TABLE),
               at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app""",
     """
@@ -47,7 +47,7 @@ from matplotlib import rc_context
 from camkit import mm
 from camkit.render.artists import STYLE
 
-mechanism, *others = DOOR_HANDLE_VIEWS
+mechanism, *others = CAM_VIEWS
 places = [ax.get_position() for ax in app.picture.axes]
 
 def redraw(lift_arm):

@@ -14,9 +14,9 @@ CELLS = [
     """
 from camkit import DoorHandleCam, lift_curve_study, explore, search
 from camkit.machines.door_handle import LIFT_SPACE
-from camkit.render.cam import cam_mechanism
+from camkit.views import mechanism
 
-app = explore(DoorHandleCam(), cam_mechanism)
+app = explore(DoorHandleCam(), mechanism)
 search(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""
 ]
 

@@ -2,9 +2,55 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
+
+@dataclass(frozen=True)
+class Body:
+    """A part of a plane mechanism to scale, with its path: its place (m) and angle (rad) at each position.
+
+    ``x``, ``y`` and ``angle`` are numbers, or ``(n,)`` with one for each position.  Parts of one ``name`` belong
+    together; ``part`` says what it is: "body", "profile", "flank", "pitch", "arm", "face", "roller", "pivot", "axis".
+    """
+
+    name: str
+    part: str
+    x: Any = field(default=0.0, kw_only=True)
+    y: Any = field(default=0.0, kw_only=True)
+    angle: Any = field(default=0.0, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Outline(Body):
+    """A body by points ``(2, k)`` of its own frame, joined in their order; one alone is a pin.
+
+    >>> arm = Outline("arm", "arm", np.array([[0.0, 2.0], [0.0, 0.0]]), x=1.0, angle=np.array([0.0, np.pi / 2]))
+    >>> arm.at(1).round(6).tolist()
+    [[1.0, 1.0], [0.0, 2.0]]
+    """
+
+    points: Any
+    cut: Any = None
+    """At which points it is cut away, ``(k,)``; ``None``: nowhere."""
+
+    def at(self, i: Any) -> np.ndarray:
+        """Its points in the machine's frame at position ``i``, ``(2, k)``, m."""
+        x, y, angle = (np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y, self.angle))
+        return rotated(self.points, angle) + np.stack(np.broadcast_arrays(x, y))[:, None]
+
+
+@dataclass(frozen=True)
+class Disc(Body):
+    """A round body of a radius (m) about its place."""
+
+    radius: Any
+
+    def at(self, i: Any) -> np.ndarray:
+        """Its centre at position ``i``, ``(2,)``, m."""
+        return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
 
 
 def rotated(points: Any, angle: Any) -> np.ndarray:

@@ -20,9 +20,9 @@ from camkit import AnalysisCurve, Box, Measure, PeakMeasure, Study, TranslatingR
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.render.beside import Beside
-from camkit.render.cam import pressure_angle
 from camkit.search.front import front_of
 from camkit.search.nsga2 import nsga2_generations
+from camkit.views import pressure_angle
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 WINGS = [
@@ -105,7 +105,14 @@ def _arguments(thing):
     except ValueError:  # of a class of exceptions
         return {}
     own = {p.name: p for p in parameters if p.kind is not p.VAR_KEYWORD}
-    return dict(list(own.items())[:1]) if "ax" in own else own
+    return dict(list(own.items())[:1]) if _is_view(thing) else own
+
+
+def _is_view(thing):
+    """Whether it makes a picture of what it is given first."""
+    signature = inspect.signature(thing)
+    drawn = thing.__module__.startswith("camkit.views.") and signature.return_annotation == "Picture"
+    return drawn or "ax" in signature.parameters
 
 
 CAM = TranslatingRollerCam()
@@ -282,7 +289,7 @@ def good(name, parameter):
 def call(thing, given):
     """``thing(**given)``, a view through a picture, a generator to its first step."""
     parameters = inspect.signature(thing).parameters
-    if "ax" in parameters:
+    if _is_view(thing):
         return camkit.picture(*given.values(), thing, width=3, height=2)
     gathered = [name for name, p in parameters.items() if p.kind is p.VAR_POSITIONAL]
     before = [name for name in given if gathered and name in list(parameters)[: list(parameters).index(gathered[0])]]
@@ -311,7 +318,7 @@ def given(name):
     return {n: good(name, p) for n, p in _arguments(PUBLIC[name]).items()}
 
 
-OTHERS = [name for name, thing in PUBLIC.items() if "ax" not in inspect.signature(thing).parameters]
+OTHERS = [name for name, thing in PUBLIC.items() if not _is_view(thing)]
 """All but views, which take what another mechanism does not have; as measures do."""
 
 

@@ -44,7 +44,7 @@ from camkit.motion import (
     ShapedLaw,
 )
 from camkit.quantities import choices_of, declared_in, quantities_of, quantity, value_of, with_quantities
-from camkit.render.cam import pressure_angle
+from camkit.views import pressure_angle
 
 DESIGNS = [
     TranslatingRollerCam(),

@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import offset_curvature, rotated
+from ..geometry import Body, offset_curvature, rotated
 from ..kinds import columns
 from ..motion import Kinematics
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
-from . import groove, peaks, statics
+from . import bodies, groove, peaks, statics
 from .peaks import Extreme
 
 JUMP = 1e-6
@@ -169,6 +169,21 @@ class CamAnalysis(ABC):
     def curves(self) -> dict[str, Any]:
         """Every cam curve of the machine by its name: this one."""
         return {"cam": self}
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """What is drawn of one design: the cam, and the follower over the turn."""
+        return (*bodies.disk(self, bool(getattr(self, "groove", False))), *self.follower)
+
+    @property
+    @abstractmethod
+    def follower(self) -> tuple[Body, ...]:
+        """The follower's bodies."""
+
+    @property
+    @abstractmethod
+    def max_curvature(self) -> Any:
+        """The largest curvature of the pitch curve, convex or concave, that the follower can run on, 1/m."""
 
     @property
     def stretch(self) -> np.ndarray:
@@ -345,6 +360,12 @@ class RollerAnalysis(CamAnalysis):
         radius = _radius(most) - np.atleast_1d(self.cam.roller_radius)[..., 0]
         return Extreme(radius[()], angle)
 
+    @property
+    def max_curvature(self) -> Any:
+        """``1 / r_T``; ``inf`` for a knife edge."""
+        with np.errstate(divide="ignore"):
+            return np.divide(1.0, self.cam.roller_radius)
+
     @cached_property
     def groove_gap(self) -> Any:
         """Least width of the wall between two parts of an open groove, m; below 0 they merge (see `groove.gap`).
@@ -470,6 +491,11 @@ class FlatAnalysis(CamAnalysis):
         found, corner = self.lowest(lambda analysis: analysis.profile_radius), self.corner(-1)
         drops = (corner.value > 0) & ~np.isnan(found.value)
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
+
+    @property
+    def max_curvature(self) -> Any:
+        """``inf``: a face is undercut where the profile is concave, not where it is sharp."""
+        return np.inf
 
     @property
     def driving_flank(self) -> Any:

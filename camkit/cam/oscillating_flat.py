@@ -19,10 +19,12 @@ from typing import Any
 
 import numpy as np
 
+from ..geometry import Body, Outline
 from ..kinds import a_number
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
 from ..units import deg, mm, rpm
+from . import bodies
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .directions import ROTATIONS
@@ -228,6 +230,19 @@ class OscillatingFlatAnalysis(FlatAnalysis):
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The arm: its pivot ``(2,)`` and where its face is touched ``(2, n)``, machine's frame, m."""
         return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.contact_point())}
+
+    @property
+    def follower(self) -> tuple[Body, ...]:
+        """The arm, cranked by the face's offset, with its face, as narrow as it may be."""
+        length, offset, place = self.cam.arm_length, -self.cam.face_offset, {"x": self.cam.centre_distance}
+        arm = np.array([[0.0, 0.0, length], [0.0, offset, offset]])
+        face = np.stack([np.array(self.face_reach), np.full(2, offset)])
+        along = np.pi - self.arm_angle
+        return (
+            Outline("arm", "arm", arm, angle=along, **place),
+            Outline("arm", "pivot", bodies.PIN, **place),
+            Outline("arm", "face", face, angle=along, **place),
+        )
 
     @property
     def bearing(self) -> Pivot:

@@ -17,10 +17,12 @@ from typing import Any
 
 import numpy as np
 
+from ..geometry import Body
 from ..kinds import a_number
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
 from ..units import deg, mm
+from . import bodies
 from .analysis import RollerAnalysis
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
@@ -127,6 +129,12 @@ class OscillatingRollerAnalysis(RollerAnalysis):
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Every rocking arm by its name: its pivot ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
         return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.roller_centre)}
+
+    @property
+    def follower(self) -> tuple[Body, ...]:
+        """The arm with its roller."""
+        ((name, (pivot, centre)),) = self.cranks.items()
+        return *bodies.rocker(name, pivot, centre), bodies.roller(name, centre, self.cam.roller_radius)
 
     @cached_property
     def pitch_radius(self) -> np.ndarray:

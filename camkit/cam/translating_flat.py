@@ -15,10 +15,12 @@ from typing import Any
 
 import numpy as np
 
+from ..geometry import Body, Outline
 from ..kinds import a_number
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import mm
+from . import bodies
 from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .directions import ROTATIONS
@@ -165,6 +167,13 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         """The follower: the mouth of its guide ``(2,)`` and its axis at the face ``(2, n)``, machine's frame, m."""
         foot = np.stack(np.broadcast_arrays(self.cam.offset, self.height))
         return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), foot)}
+
+    @property
+    def follower(self) -> tuple[Body, ...]:
+        """The stem with its face, as narrow as it may be."""
+        ((name, (mouth, foot)),) = self.cranks.items()
+        face = np.stack([np.array(self.face_reach), np.zeros(2)])
+        return *bodies.stem(name, mouth, foot), Outline(name, "face", face, x=foot[0], y=foot[1])
 
     @property
     def bearing(self) -> Guide:

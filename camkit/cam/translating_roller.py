@@ -16,10 +16,12 @@ from typing import Any
 
 import numpy as np
 
+from ..geometry import Body
 from ..kinds import a_number
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
+from . import bodies
 from .analysis import RollerAnalysis, highest
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
@@ -236,6 +238,12 @@ class TranslatingRollerAnalysis(RollerAnalysis):
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The follower: the mouth of its guide ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
         return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), self.roller_centre)}
+
+    @property
+    def follower(self) -> tuple[Body, ...]:
+        """The stem with its roller."""
+        ((name, (mouth, centre)),) = self.cranks.items()
+        return *bodies.stem(name, mouth, centre), bodies.roller(name, centre, self.cam.roller_radius)
 
     @property
     def bearing(self) -> Guide:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..cam import groove
+from ..cam import bodies, groove
 from ..cam.loads import ArmLoad, Friction, refuse_table
 from ..cam.measures import (
     CURVE,
@@ -31,7 +31,7 @@ from ..cam.measures import (
     worst,
 )
 from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
-from ..geometry import angle_opposite, rotated
+from ..geometry import Body, angle_opposite, rotated
 from ..kinds import listed, refuse_arguments
 from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
@@ -243,6 +243,18 @@ class DoorHandleAnalysis:
         pivot = self.from_relief(np.array([self.cam.relief_centre_distance, 0.0]))
         lift = self.lift.cranks["arm"]
         return {"lift": lift, "relief": (pivot, self.from_relief(self.relief.roller_centre))}
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """What is drawn of one design: the cam with its groove, and both cranks with their rollers."""
+        radius, cranks = self.cam.roller_radius, self.cranks.items()
+        arms = [(*bodies.rocker(name, pivot, end), bodies.roller(name, end, radius)) for name, (pivot, end) in cranks]
+        return (*bodies.disk(self, True), *(body for arm in arms for body in arm))
+
+    @property
+    def max_curvature(self) -> Any:
+        """The largest curvature of the pitch curve that both rollers can run on, 1/m."""
+        return self.lift.max_curvature
 
     @property
     def turn(self) -> np.ndarray:

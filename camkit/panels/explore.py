@@ -24,10 +24,11 @@ from ..quantities import (
     with_quantities,
     words,
 )
-from ..render.picture import View, below, positions_of, small_png, strip
+from ..render.picture import below, positions_of, small_png, strip
 from ..study.study import keeps, refuse_limits
 from ..study.tolerances import ANGLES
 from ..units import deg
+from ..views.picture import View
 from .kit.controls import Download, Menu, NumberRow, Upload, banner, control, show_message, tables_html
 from .kit.orbit import Orbit
 from .kit.panel import IMPOSSIBLE, Panel, reason

@@ -14,6 +14,13 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
+from ..views.picture import Formula as Formula
+from ..views.picture import gaps as gaps
+from .draw import drawn as drawn
+from .draw import moving as moving
+from .draw import plain as plain
+from .draw import theme_style
+
 INK = "#1f2933"
 GREY = "#7b8794"
 PALE = "#e4e7eb"
@@ -44,58 +51,8 @@ def _mixed(colour: str, towards: float, share: float) -> str:
     return to_hex((red, green, blue))
 
 
-STYLE: Any = {
-    "font.size": 11,
-    "font.family": "DejaVu Sans",
-    "axes.titlesize": 11.5,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.titlecolor": INK,
-    "axes.labelsize": 11,
-    "axes.labelcolor": INK,
-    "axes.edgecolor": GREY,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "grid.color": PALE,
-    "grid.linewidth": 0.8,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "xtick.labelsize": 10,
-    "ytick.labelsize": 10,
-    "legend.fontsize": 9.5,
-    "legend.frameon": False,
-    "legend.handlelength": 1.2,
-    "lines.linewidth": 1.9,
-    "figure.facecolor": "white",
-}
-"""Matplotlib settings of every picture; ``matplotlib.rc_context(STYLE)`` around one's own."""
-
-
-class Formula(str):
-    """Text between dollars that is meant as a formula."""
-
-    __slots__ = ()
-
-
-def plain(words: Any) -> str:
-    """Text that is drawn letter by letter: matplotlib reads what stands between two dollars as a formula.
-
-    >>> print(plain("5 $ or 6 $"))
-    5 \\$ or 6 \\$
-    """
-    return words if isinstance(words, Formula) else str(words).replace("$", r"\$")
-
-
-def _find(ax: Axes, key: str) -> Any:
-    return next((artist for artist in (*ax.lines, *ax.patches, *ax.texts) if artist.get_gid() == key), None)
-
-
-def moving(ax: Axes) -> list[Any]:
-    """Everything on ``ax`` that was drawn with a key, lowest first."""
-    found = [artist for artist in (*ax.patches, *ax.lines, *ax.texts) if artist.get_gid()]
-    return sorted(found, key=lambda artist: artist.get_zorder())
+STYLE = theme_style()
+_find = drawn
 
 
 def new(ax: Axes) -> bool:
@@ -149,8 +106,3 @@ def beside_title(ax: Axes, handles: Any = None) -> None:
     handles = handles or ax.get_legend_handles_labels()[0]
     place: Any = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.99), "borderaxespad": 0.1}
     ax.legend(handles=handles, ncols=len(handles), columnspacing=0.9, handletextpad=0.4, **place)
-
-
-def gaps(values: Any, where: Any) -> np.ndarray:
-    """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
-    return np.where(where, values, np.nan)

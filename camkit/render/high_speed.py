@@ -16,6 +16,7 @@ from ..geometry import circle, rotated
 from ..kinds import refuse_arguments, refuse_empty
 from ..search.minimise import Minimum
 from ..units import deg, factor, mm
+from ..views.cam import cam_torque, mechanism, pressure_angle
 from .artists import (
     BLUE,
     GREEN,
@@ -34,7 +35,6 @@ from .artists import (
     new,
     text,
 )
-from .cam import cam_mechanism, cam_torque, pressure_angle
 from .progress import axis_label, unit_text
 
 AWAY_BACK = (("away", BLUE), ("back", ORANGE))
@@ -148,7 +148,7 @@ def hertz_pressure(analysis: Any, ax: Axes) -> Axes:
 
 
 HIGH_SPEED_VIEWS = (
-    cam_mechanism,
+    mechanism,
     motion_over_turn,
     pressure_angle,
     contact_stress,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import io
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,9 +17,9 @@ from PIL import Image
 from ..kinds import a_number, applied, refuse_arguments
 from ..study.study import refuse_limits
 from ..units import deg
-from .artists import STYLE
+from ..views.picture import View
+from .draw import draw_picture, theme_style
 
-View = Callable[..., Axes]
 LARGEST = 100
 """No figure is wider or higher, inches."""
 
@@ -28,7 +28,7 @@ class Picture(Figure):
     """A figure that shows itself in a notebook, as a small file; pyplot never sees it, so none is left behind."""
 
     def _repr_png_(self) -> bytes:
-        with rc_context(STYLE):
+        with rc_context(theme_style()):
             self.canvas.draw()
         return small_png(self)
 
@@ -64,7 +64,7 @@ def layout(
         raise ValueError("the picture needs one or more views")
     for name, size in (("width", width), ("height", height)):
         a_number(size, f"the {name} of the picture", f"be from 0.1 to {LARGEST} inches", lambda s: 0.1 <= s <= LARGEST)
-    with rc_context(STYLE):
+    with rc_context(theme_style()):
         figure = Picture(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(figure)
         rest = len(views) - 1
@@ -92,11 +92,15 @@ def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: An
     ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` that are at most allowed (a
     mapping from measures to SI), so that a picture shows the limit that its panel or its study has.
     """
-    with rc_context(STYLE):
+    with rc_context(theme_style()):
         for view, ax in zip(views, axes, strict=True):
             takes = inspect.signature(view).parameters
+            given = {name: value for name, value in asked.items() if name in takes}
             with applied(f"the view {_name(view)}", analysis):
-                view(analysis, ax, **{name: value for name, value in asked.items() if name in takes})
+                if "ax" in takes:
+                    view(analysis, ax, **given)
+                else:
+                    draw_picture(view(analysis, **given), ax)
 
 
 def _name(view: View) -> str:
@@ -128,13 +132,13 @@ def picture(
 
 def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Picture:
     """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
-    with rc_context(STYLE):
+    with rc_context(theme_style()):
         turns = tuple(turns)
         figure = Picture(figsize=(width, height), dpi=100, layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots(1, len(turns))
         for ax, turn in zip(axes, turns, strict=True):
-            view(analysis, ax, turn=turn)
+            draw(analysis, [ax], [view], turn=turn)
             _bare(ax, f"{turn / deg:.0f}°")
         limits = [np.array([ax.get_xlim(), ax.get_ylim()]) for ax in axes]
         low, high = np.min(limits, axis=0)[:, 0], np.max(limits, axis=0)[:, 1]

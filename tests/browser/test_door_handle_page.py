@@ -23,8 +23,8 @@ from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CU
 from camkit.motion import LAWS
 from camkit.quantities import declarations
 from camkit.render.artists import BLUE, ORANGE
-from camkit.render.cam import DOOR_HANDLE_VIEWS, cam_mechanism, pressure_angle
 from camkit.units import in_unit
+from camkit.views import CAM_VIEWS, mechanism, pressure_angle
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 
 START = DoorHandleCam(door_torque=10)
@@ -163,9 +163,9 @@ def test_dragging_a_slider_moves_box_table_and_picture(book: Workbook) -> None:
     design = START.replace(lift_arm=arm * mm)
     shows(book, design)
     assert book.value("app.design.lift_arm") == pytest.approx(arm * mm, rel=1e-9)
-    mechanism, angle = DOOR_HANDLE_VIEWS.index(cam_mechanism), DOOR_HANDLE_VIEWS.index(pressure_angle)
-    eventually(lambda: drawn(book, "app", mechanism, profile_points(design, TURN), BLUE).all())
-    assert drawn(book, "app", mechanism, profile_points(START, TURN), BLUE).mean() < 0.5
+    cam, angle = CAM_VIEWS.index(mechanism), CAM_VIEWS.index(pressure_angle)
+    eventually(lambda: drawn(book, "app", cam, profile_points(design, TURN), BLUE).all())
+    assert drawn(book, "app", cam, profile_points(START, TURN), BLUE).mean() < 0.5
     lift = design.analyse().lift
     curve = np.array([lift.cam_angle, lift.pressure_angle])[:, 420::30] / deg
     eventually(lambda: drawn(book, "app", angle, curve, BLUE).all())

@@ -13,10 +13,10 @@ from lab import LabServer, cell_output, eventually, kernel_value, open_notebook,
 EXPLORER = """
 from camkit import DoorHandleCam, deg, door_handle_study, explore, judge
 from camkit.machines.door_handle import CURVE_TABLE
-from camkit.render.cam import DOOR_HANDLE_VIEWS
+from camkit.views import CAM_VIEWS
 
 study = door_handle_study()
-app = explore(DoorHandleCam(), *DOOR_HANDLE_VIEWS, free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,
+app = explore(DoorHandleCam(), *CAM_VIEWS, free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,
               at_most=study.at_most, turn=75 * deg)
 moves = []
 app.on_change(lambda design: moves.append(design.lift_arm))

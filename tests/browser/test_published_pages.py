@@ -18,7 +18,7 @@ REPOSITORY = Path(__file__).parents[2]
 SEARCH = """
 from camkit import DoorHandleCam, door_handle_study, explore, search
 from camkit.machines.door_handle import PAPER_SPACE
-from camkit.render.cam import pressure_angle
+from camkit.views import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
 search(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)

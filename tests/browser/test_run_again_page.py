@@ -13,7 +13,7 @@ EXPLORER = """
 from camkit import DoorHandleCam, door_handle_study, explore, search
 from camkit.panels.kit.running import RUNNING
 from camkit.machines.door_handle import PAPER_SPACE
-from camkit.render.cam import pressure_angle
+from camkit.views import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
 app

@@ -14,8 +14,8 @@ CELLS = (
     """
 from camkit import *
 from camkit import edit_program
-from camkit.render.cam import cam_mechanism
-app = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=["base_radius", "roller_radius"])
+from camkit.views import mechanism
+app = explore(TranslatingRollerCam(groove=False), mechanism, free=["base_radius", "roller_radius"])
 app""",
     """
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
@@ -23,7 +23,7 @@ editor = edit_program(MotionProgram((Rise(100 * deg, 20 * mm, Cycloidal()), Dwel
                                      Return(100 * deg, 20 * mm, Cycloidal()), Dwell(100 * deg))))
 editor""",
     """
-finder = search(explore(DoorHandleCam(), free=["lift_arm"], *[cam_mechanism]), {"door": door_handle_study},
+finder = search(explore(DoorHandleCam(), free=["lift_arm"], *[mechanism]), {"door": door_handle_study},
                 space={"lift_arm": (45 * mm, 55 * mm)}, free=["lift_arm"])
 finder""",
 )

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import OscillatingRollerCam, Study
+from camkit import OscillatingRollerCam, Study, views
 from camkit.cam.analysis import FlatAnalysis
 from camkit.cam.conjugate import opposite, pair_forces
 from camkit.cam.loads import ArmLoad, Friction
@@ -24,7 +24,6 @@ from camkit.files.designs import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 from camkit.quantities import unremarked
-from camkit.render import cam as views
 from camkit.render.picture import picture
 from camkit.units import N, deg, kg, m, mm, rpm
 
@@ -961,7 +960,7 @@ def test_every_analysis_offers_the_same(cam):
 
 
 @every_cam
-@pytest.mark.parametrize("view", views.DOOR_HANDLE_VIEWS, ids=lambda view: view.__name__)
+@pytest.mark.parametrize("view", views.CAM_VIEWS, ids=lambda view: view.__name__)
 def test_every_view_draws_every_cam(cam, view):
     assert len(picture(cam, view, turn=40 * deg, width=4, height=3)._repr_png_()) > 1000
 

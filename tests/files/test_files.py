@@ -54,10 +54,10 @@ from camkit.motion.families.shaped import SPLINE, Family, ShapedLaw
 from camkit.papers.high_speed_cam import with_printed_sizes
 from camkit.papers.problems import KnownProblem
 from camkit.quantities import Design, Quantity, declarations
-from camkit.render.cam import pressure_angle
 from camkit.search.front import front_of
 from camkit.study.study import WeightedSum, weighted
 from camkit.units import FACTORS, deg, mm
+from camkit.views import pressure_angle
 
 FILES = Path(__file__).parents[1] / "data" / "files"
 PYTHON = "object|NoneType|zip|int\\(|float:|inhomogeneous|unpack|multiply|subscript|iterable|dataclass|literal|argument"

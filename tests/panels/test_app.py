@@ -58,12 +58,12 @@ from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import unfinished
 from camkit.quantities import Measure, Quantity
 from camkit.render.artists import _find
-from camkit.render.cam import cam_mechanism, curvature, pressure_angle
 from camkit.render.front import shown_objectives
 from camkit.search.checkpoint import read
 from camkit.search.front import Front
 from camkit.search.nsga2 import Generation, nsga2_generations
 from camkit.units import deg, mm
+from camkit.views import curvature, mechanism, pressure_angle
 
 SMALL = {"width": 4.0, "height": 2.6}
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction")
@@ -282,7 +282,7 @@ def test_what_is_impossible_is_said_in_place_of_the_picture(app, name, typed, se
 
 
 def test_turning_the_mechanism_does_not_hide_that_the_sliders_are_impossible():
-    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], **SMALL)
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], **SMALL)
     app.controls["lift_arm"].box.value = -3.0
     next(iter(app.positions.values())).slider.value = 90.0
     assert alert(app).startswith("This cannot be built: the lift arm")
@@ -314,7 +314,7 @@ def test_a_loaded_design_moves_every_slider_and_calls_followers_once(app):
 
 
 def test_the_angle_shown_turns_the_mechanism_only():
-    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
     pixels, analysis = app.picture.widget.data, app.analysis
     (knob,) = app.positions.values()
     assert knob.value == pytest.approx(75 * deg)
@@ -394,7 +394,7 @@ def test_a_measure_that_is_infinite_now_and_at_the_start_is_left_out():
 
 
 def test_without_a_kernel_the_mechanism_stands_in_four_positions():
-    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm"], **SMALL)
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], **SMALL)
     plain, still = (Image.open(io.BytesIO(data)).convert("RGB") for data in (app.picture.png(), app.still()))
     assert still.width == plain.width
     assert still.height > plain.height

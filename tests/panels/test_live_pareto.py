@@ -26,7 +26,6 @@ from camkit.panels.kit.latest_only import Debounced, LatestOnly
 from camkit.panels.live_pareto import live_pareto_panel
 from camkit.quantities import Design, quantity
 from camkit.render.artists import _find
-from camkit.render.cam import curvature
 from camkit.render.front import shown_objectives
 from camkit.render.live_front import LiveFront, live_pareto, searches_compared
 from camkit.render.picture import draw, layout
@@ -34,6 +33,7 @@ from camkit.search.checkpoint import versions
 from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
 from camkit.search.front import Front, reference_point
 from camkit.units import mm
+from camkit.views import curvature
 
 FOUR = {n: EXPANDED_SPACE[n] for n in ("lift_arm", "lift_start_angle", "lift_centre_distance", "relief_cam_angle")}
 

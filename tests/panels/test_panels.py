@@ -51,7 +51,6 @@ from camkit.panels import (
 from camkit.panels.kit.number import NumberBox, WholeBox
 from camkit.quantities import Measure, PeakMeasure
 from camkit.render.beside import Beside, cams_beside, curves_beside
-from camkit.render.cam import DOOR_HANDLE_VIEWS, cam_mechanism, contact_force, curvature, efficiency, pressure_angle
 from camkit.render.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
 from camkit.render.linkage import CURVES, linkage_in_space
 from camkit.render.picture import picture
@@ -63,6 +62,7 @@ from camkit.render.valve import VALVE_VIEWS
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.typed import typed_number, typed_whole
+from camkit.views import CAM_VIEWS, contact_force, curvature, efficiency, mechanism, pressure_angle
 
 # ---------------------------------------------------------------- numbers as people type them
 
@@ -131,13 +131,13 @@ def test_a_box_for_a_count_refuses_what_a_program_may_set_only_in_range():
 # ---------------------------------------------------------------- every box of every panel
 
 TYPED = ("1e160", "-1e300", "1e308", "0")
-LEVER = (cam_mechanism, pressure_angle, curvature, contact_force)
+LEVER = (mechanism, pressure_angle, curvature, contact_force)
 PANELS = {
-    "door handle": (DoorHandleCam(), DOOR_HANDLE_VIEWS, DoorHandleCam.measures),
+    "door handle": (DoorHandleCam(), CAM_VIEWS, DoorHandleCam.measures),
     "arm with roller": (OscillatingRollerCam(), (*LEVER, efficiency), OscillatingRollerCam.measures),
     "arm with face": (OscillatingFlatCam(), LEVER, OscillatingFlatCam.measures),
     "slide with roller": (TranslatingRollerCam(groove=False), LEVER, TranslatingRollerCam.measures),
-    "slide with face": (TranslatingFlatCam(), (cam_mechanism, curvature), TranslatingFlatCam.measures),
+    "slide with face": (TranslatingFlatCam(), (mechanism, curvature), TranslatingFlatCam.measures),
     "high speed": (HighSpeedCam(), HIGH_SPEED_VIEWS, HIGH_SPEED_MEASURES),
     "lever": (CamLever(), CAM_LEVER_VIEWS, CAM_LEVER_MEASURES),
     "valve": (ValveCam(), VALVE_VIEWS, VALVE_MEASURES),
@@ -190,7 +190,7 @@ def test_no_number_makes_a_panel_show_another_design(name):
 
 
 def test_a_number_far_too_large_is_refused_in_one_sentence_and_the_picture_stays():
-    panel = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=["base_radius"])
+    panel = explore(TranslatingRollerCam(groove=False), mechanism, free=["base_radius"])
     shown = panel.picture.widget.data
     panel.controls["base_radius"].box.text = "1e300"
     said = sentence(panel._banner)
@@ -204,7 +204,7 @@ def test_a_number_far_too_large_is_refused_in_one_sentence_and_the_picture_stays
 
 def test_a_number_that_only_its_unit_makes_infinite_is_refused_too():
     spring = "load.spring_rate"
-    panel = explore(TranslatingRollerCam(groove=False), cam_mechanism, free=[spring])
+    panel = explore(TranslatingRollerCam(groove=False), mechanism, free=[spring])
     knob = panel.controls[spring]
     first, shown = knob.value, knob.box.text
     assert 1e308 * knob.declared.factor == math.inf
@@ -255,7 +255,7 @@ def test_a_curve_beyond_all_bounds_is_not_drawn():
 
 
 def test_a_follower_that_fails_stops_no_other():
-    panel, seen = explore(TranslatingFlatCam(), cam_mechanism, free=["base_radius"]), []
+    panel, seen = explore(TranslatingFlatCam(), mechanism, free=["base_radius"]), []
 
     def fails(design):
         raise OverflowError("too large")
@@ -282,7 +282,7 @@ SPACE = {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
 
 def other_panels(app):
     """Every panel that belongs to a door handle's, by name."""
-    fast = explore(HighSpeedCam(), cam_mechanism, free=["rise_angle"])
+    fast = explore(HighSpeedCam(), mechanism, free=["rise_angle"])
     make = partial(high_speed_study)
     program = (Rise(2.0, 20 * mm, Cycloidal()), Dwell(1.0), Return(2.0, 20 * mm, Cycloidal()))
     return {
@@ -301,7 +301,7 @@ def other_panels(app):
 @pytest.mark.parametrize("name", ["survey", "tolerate", "live front", "search", "improve", "shorten", "program"])
 def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm", "door_torque"])
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "door_torque"])
     panel = other_panels(app)[name]()
     box_of = getattr(panel, "runner", None)
     banner = box_of.banner if box_of else panel._banner
@@ -321,7 +321,7 @@ def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatc
 @pytest.mark.filterwarnings("ignore:.*encountered in:RuntimeWarning")
 def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    app = explore(DoorHandleCam(), cam_mechanism, free=["lift_arm", "door_torque", "handle_speed"])
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "door_torque", "handle_speed"])
     space = {"lift_arm": (40 * mm, 50 * mm), "relief_cam_angle": (50 * deg, 75 * deg)}  # some of it is feasible
     study = door_handle_study(space=space)
     kept, made = shortlist(app, study), live_pareto_panel(app, {"door": plane_study}, space)
@@ -389,7 +389,7 @@ def test_a_measure_without_a_limit_has_no_verdict():
 
 def band(ax):
     """The limits that a picture of the pressure angle draws, deg."""
-    return sorted({abs(line.get_ydata()[0]) for line in ax.lines if line.get_gid() is None})
+    return sorted({abs(y) for patch in ax.patches for _, y in patch.get_xy()})
 
 
 def test_the_limit_that_is_drawn_is_that_of_the_panel():
@@ -451,7 +451,7 @@ def test_walls_that_merge_are_told():
 
 
 def test_the_panel_says_it_and_takes_it_back():
-    panel = explore(TranslatingFlatCam(), cam_mechanism, free=["base_radius"])
+    panel = explore(TranslatingFlatCam(), mechanism, free=["base_radius"])
     assert sentence(panel._undercut) == ""
     panel.controls["base_radius"].box.text = "8"
     assert sentence(panel._undercut) == f"<div role='status'>{undercut_in_words(panel.analysis)}</div>"

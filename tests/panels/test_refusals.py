@@ -38,9 +38,9 @@ from camkit.decision.ahp import crowding_distance, judged_weights, judgement_ran
 from camkit.files.designs import Work, from_json, to_json
 from camkit.panels import ahp_panel, choose_panel, explore
 from camkit.quantities import quantities_of
-from camkit.render.cam import pressure_angle
 from camkit.search.front import Front
 from camkit.units import deg, factor, mm
+from camkit.views import pressure_angle
 
 NAN, INF = float("nan"), float("inf")
 height = Measure("height", "mm", lambda analysis: analysis)

@@ -18,10 +18,10 @@ from camkit.motion import Poly345
 from camkit.panels.kit.controls import Download
 from camkit.panels.shortlist import shortlist
 from camkit.render.artists import _find
-from camkit.render.cam import pressure_angle
 from camkit.render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
 from camkit.render.picture import draw, layout
 from camkit.units import mm
+from camkit.views import pressure_angle
 
 ARMS = (50 * mm, 46 * mm, 54 * mm)
 DESIGNS = {f"arm {arm / mm:.0f}": DoorHandleCam(lift_arm=arm) for arm in ARMS}

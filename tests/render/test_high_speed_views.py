@@ -10,7 +10,6 @@ from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_study import peak_pressure, peak_stress, peak_wear
 from camkit.render.artists import INK, WARNING, _find, moving
-from camkit.render.cam import cam_mechanism
 from camkit.render.high_speed import (
     CAM_LEVER_VIEWS,
     HIGH_SPEED_VIEWS,
@@ -28,6 +27,7 @@ from camkit.render.high_speed_sketch import high_speed_sketch
 from camkit.render.picture import draw, layout
 from camkit.search.minimise import minimise
 from camkit.units import MPa, cm, deg, mm
+from camkit.views import mechanism
 
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)
@@ -170,7 +170,7 @@ def test_motion_is_shown_with_its_dwells():
 
 @pytest.mark.parametrize("turn", [0, 40, 90, 200, 300])
 def test_the_roller_touches_the_turned_cam(turn):
-    ax = drawn(FIRST, cam_mechanism, turn=turn * deg)
+    ax = drawn(FIRST, mechanism, turn=turn * deg)
     profile, roller, (arm_x, arm_y) = xy(ax, "profile"), xy(ax, "arm roller"), xy(ax, "arm arm")
     centre = np.array([[arm_x[1]], [arm_y[1]]])
     assert_allclose(np.hypot(*(roller - centre)), 30)
@@ -181,14 +181,14 @@ def test_the_roller_touches_the_turned_cam(turn):
 # --- the lever --------------------------------------------------------------------------------------------------------
 
 
-def mechanism(turn, press=PRESS):
+def press_at(turn, press=PRESS):
     ax = drawn(press, cam_lever_mechanism, turn=turn * deg)
     return {key: xy(ax, key) for key in ("profile", "pitch", "roller", "arm", "lever", "slider", "guide")}
 
 
 @pytest.mark.parametrize("turn", [0, 30, 61, 200, 300])
 def test_cam_lever_and_slider_to_scale(turn):
-    shown = mechanism(turn)
+    shown = press_at(turn)
     centre, pivot = shown["arm"].T
     assert_allclose(pivot, (525 - 250, -180))  # the paper's sizes: pivot beside and below the cam axis
     assert np.hypot(*(centre - pivot)) == pytest.approx(313)
@@ -199,7 +199,7 @@ def test_cam_lever_and_slider_to_scale(turn):
 
 
 def test_the_slider_rises_by_its_stroke_and_arm_and_lever_are_one_piece():
-    low, high = mechanism(0), mechanism(100)
+    low, high = press_at(0), press_at(100)
     assert high["lever"][1, 1] - low["lever"][1, 1] == pytest.approx(18)
     assert low["lever"][1, 1] + high["lever"][1, 1] == pytest.approx(-360)  # level at half stroke
 
@@ -208,7 +208,7 @@ def test_the_slider_rises_by_its_stroke_and_arm_and_lever_are_one_piece():
         return np.arctan2(arm[0] * lever[1] - arm[1] * lever[0], arm @ lever)
 
     for turn in (20, 45, 100, 210):
-        assert bend(mechanism(turn)) == pytest.approx(bend(low), abs=1e-9)
+        assert bend(press_at(turn)) == pytest.approx(bend(low), abs=1e-9)
 
 
 def test_stress_over_the_lift_in_the_papers_unit():

@@ -26,10 +26,10 @@ from camkit.panels.kit import picture as live
 from camkit.panels.tolerances import MOVING, SETTLED, general_tolerances, tolerance_panel
 from camkit.quantities import Design, Quantity, quantity
 from camkit.render.artists import _find
-from camkit.render.cam import pressure_angle
 from camkit.render.front import shown_objectives
 from camkit.render.tolerances import band, cloud, deviation, sobol_bars
 from camkit.study.tolerances import AnalysisCurve, Indices, Tolerances, general_tolerance
+from camkit.views import pressure_angle
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,9 @@ import numpy as np
 import traitlets
 from matplotlib import rc_context
 
-from ...render.artists import STYLE, moving
-from ...render.picture import View, draw, encoded, layout, pixels, small_png
+from ...render.draw import moving, theme_style
+from ...render.picture import draw, encoded, layout, pixels, small_png
+from ...views.picture import View
 
 SETTLE, PAUSE = 0.25, 1.0
 """Seconds after the last move until everything is drawn again, and seconds after which a move is no longer a drag."""
@@ -113,7 +114,7 @@ class LivePicture:
                 ax.autoscale_view()
                 for artist in moving(ax):
                     artist.set_animated(True)
-            with rc_context(STYLE):
+            with rc_context(theme_style()):
                 self.figure.canvas.draw()
             self.figure.set_layout_engine("none")  # the first drawing has laid the axes out; that takes half a second
             self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]

@@ -1,0 +1,292 @@
+"""Draws a picture on matplotlib's axes: the first time anew, the next time by moving what is there.
+
+Each mark is one artist, known by the mark's key.  Roles get their colours and widths here and nowhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
+from matplotlib.patches import Polygon
+from matplotlib.ticker import NullLocator
+
+from ..geometry import circle
+from ..views import picture as shown
+
+
+class Role(NamedTuple):
+    """How a meaning looks: its colour in each theme, the width of its lines in points, their dashes."""
+
+    light: str
+    dark: str
+    print: str
+    width: float = 1.9
+    dashes: Any = "-"
+
+
+ROLES: dict[str, Role] = {
+    "ink": Role("#1f2933", "#e6edf3", "#000000", 1.5),
+    "paper": Role("#ffffff", "#111417", "#ffffff", 7.0),
+    "guide": Role("#7b8794", "#93a1af", "#6b6b6b", 1.0),
+    "ghost": Role("#c5ccd4", "#4a545e", "#bdbdbd", 1.0),
+    "body": Role("#e4e7eb", "#2a3138", "#e6e6e6", 1.0),
+    "profile": Role("#0072B2", "#4da3dd", "#004f7c", 2.4),
+    "flank": Role("#56B4E9", "#8ccbf2", "#3a8fbf", 1.4),
+    "pitch": Role("#7b8794", "#93a1af", "#6b6b6b", 1.0, "--"),
+    "follower": Role("#E69F00", "#f0ad3c", "#a87400", 2.2),
+    "position": Role("#0072B2", "#4da3dd", "#004f7c"),
+    "velocity": Role("#009E73", "#4cc38a", "#006e50"),
+    "acceleration": Role("#E69F00", "#f0ad3c", "#a87400"),
+    "jerk": Role("#CC79A7", "#e09cc2", "#99557b", 1.9, ":"),
+    "limit": Role("#D55E00", "#ff8a5c", "#a34700", 1.2),
+    "allowed": Role("#009E73", "#4cc38a", "#006e50", 1.0),
+    "trouble": Role("#D55E00", "#ff8a5c", "#a34700", 4.5),
+    "series": Role("", "", ""),
+}
+"""Okabe and Ito's colour-blind-safe palette; vermilion is kept for limits and trouble."""
+
+SERIES = ("position", "follower", "velocity", "jerk", "flank")
+"""The roles whose colours a series takes in turn: blue, orange, green, purple, sky."""
+SHADES = ((0.0, 0.0), (0.0, 0.45), (1.0, 0.5), (0.0, 0.7))
+"""The colours of a series return darker and paler: towards black (0) or white (1), and how far."""
+
+STROKES: dict[str, dict[str, Any]] = {
+    "thin": {"linewidth": 1.0},
+    "bold": {"linewidth": 3.0},
+    "dashed": {"linestyle": "--"},
+    "dotted": {"linestyle": ":"},
+    "dashdot": {"linestyle": "-."},
+    "arm": {"linewidth": 4.5, "solid_capstyle": "round"},
+    "bar": {"linewidth": 16, "solid_capstyle": "butt"},
+}
+FORMS = {"dot": "o", "plus": "+", "cross": "x", "star": "*", "square": "s", "diamond": "D", "triangle": "^"}
+
+
+def theme_style(theme: str = "light") -> Any:
+    """Matplotlib's settings for pictures of a theme; ``matplotlib.rc_context(theme_style())`` around one's own."""
+    ink, guide, pale, paper = (getattr(ROLES[name], theme) for name in ("ink", "guide", "body", "paper"))
+    return {
+        "font.size": 11,
+        "font.family": "DejaVu Sans",
+        "text.color": ink,
+        "axes.titlesize": 11.5,
+        "axes.titleweight": "bold",
+        "axes.titlelocation": "left",
+        "axes.titlecolor": ink,
+        "axes.labelsize": 11,
+        "axes.labelcolor": ink,
+        "axes.edgecolor": guide,
+        "axes.facecolor": paper,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "grid.color": pale,
+        "grid.linewidth": 0.8,
+        "xtick.color": ink,
+        "ytick.color": ink,
+        "xtick.labelsize": 10,
+        "ytick.labelsize": 10,
+        "legend.fontsize": 9.5,
+        "legend.frameon": False,
+        "legend.handlelength": 1.2,
+        "lines.linewidth": 1.9,
+        "figure.facecolor": paper,
+    }
+
+
+def colour(role: str, index: int = 0, theme: str = "light") -> str:
+    """The colour of a role; a series has 20 that differ and begins anew.
+
+    >>> colour("trouble"), len({colour("series", i) for i in range(20)})
+    ('#D55E00', 20)
+    """
+    if role != "series":
+        return str(getattr(ROLES[role], theme))
+    towards, share = SHADES[index // len(SERIES) % len(SHADES)]
+    plain_colour = to_rgb(getattr(ROLES[SERIES[index % len(SERIES)]], theme))
+    red, green, blue = ((1 - share) * c + share * towards for c in plain_colour)
+    return to_hex((red, green, blue))
+
+
+def plain(words: Any) -> str:
+    """Text that is drawn letter by letter: matplotlib reads what stands between two dollars as a formula.
+
+    >>> print(plain("5 $ or 6 $"))
+    5 \\$ or 6 \\$
+    """
+    return words if isinstance(words, shown.Formula) else str(words).replace("$", r"\$")
+
+
+def moving(ax: Axes) -> list[Any]:
+    """Everything on ``ax`` that was drawn with a key, lowest first."""
+    found = [artist for artist in (*ax.patches, *ax.lines, *ax.texts) if artist.get_gid()]
+    return sorted(found, key=lambda artist: artist.get_zorder())
+
+
+def drawn(ax: Axes, key: str) -> Any:
+    """The artist of the mark ``key``, if there is one."""
+    return next((artist for artist in moving(ax) if artist.get_gid() == key), None)
+
+
+def draw_picture(picture: shown.Picture, ax: Axes, theme: str = "light") -> None:
+    """``picture`` on ``ax``: marks that are there already move, others appear, those that are gone disappear."""
+    there = {artist.get_gid(): artist for artist in moving(ax)}
+    for gone in there.keys() - {mark.key for mark in picture.marks}:
+        there[gone].remove()
+    for order, mark in enumerate(picture.marks):
+        _put(ax, mark, there.get(mark.key), theme).set_zorder(2.6 + 0.002 * order)
+    _frame(ax, picture.axes)
+    _legend(ax, picture)
+
+
+def _put(ax: Axes, mark: shown.Mark, artist: Any, theme: str) -> Any:
+    """The artist of ``mark``, made or moved."""
+    style = {"alpha": mark.opacity, "label": plain(mark.label) if mark.label else f"_{mark.key}"}
+    tint = colour(mark.role, mark.index, theme)
+    if isinstance(mark, shown.Text):
+        return _put_text(ax, mark, artist, {**style, "color": tint}, theme)
+    if isinstance(mark, (shown.Band, shown.Area, shown.Polygon)):
+        return _put_patch(ax, mark, artist, {**style, "facecolor": tint, **_edge(mark, tint)})
+    x, y = _places(mark)
+    if artist is None:
+        (artist,) = ax.plot(x, y, gid=mark.key)
+    else:
+        artist.set_data(x, y)
+    artist.set(**style, **_stroke(mark, tint, theme))
+    return artist
+
+
+def _places(mark: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a line, places of points, a circle's outline."""
+    if isinstance(mark, shown.Circle):
+        x, y = circle((mark.x, mark.y), mark.radius)
+        return np.asarray(x), np.asarray(y)
+    x, y = np.broadcast_arrays(np.atleast_1d(mark.x), np.atleast_1d(mark.y))
+    return x, y
+
+
+def _stroke(mark: Any, tint: str, theme: str) -> dict[str, Any]:
+    """Width and dashes of a line, form and size of points."""
+    if isinstance(mark, shown.Points):
+        inside = {"full": tint, "paper": colour("paper", theme=theme), "none": "none"}[mark.fill]
+        form = {"marker": FORMS[mark.mark], "markersize": mark.size, "markeredgewidth": _rim(mark)}
+        return {"linestyle": "none", "color": tint, "markerfacecolor": inside, **form}
+    role = ROLES[mark.role]
+    style: dict[str, Any] = {"color": tint, "linewidth": role.width, "linestyle": role.dashes}
+    for name in getattr(mark, "stroke", "").split():
+        style |= STROKES[name]
+    return style | ({"drawstyle": "steps-post"} if getattr(mark, "steps", False) else {})
+
+
+def _rim(mark: shown.Points) -> float:
+    return 0.0 if mark.fill == "full" and mark.mark not in ("plus", "cross") else 2.0 if mark.size > 6 else 1.2
+
+
+def _edge(mark: Any, tint: str) -> dict[str, Any]:
+    edged = getattr(mark, "edged", isinstance(mark, shown.Band))
+    return {"edgecolor": tint if edged else "none", "linewidth": ROLES[mark.role].width if edged else 0.0}
+
+
+def _put_patch(ax: Axes, mark: Any, artist: Any, style: dict[str, Any]) -> Any:
+    corners = _corners(mark)
+    if artist is None:
+        over = {"x": ax.get_yaxis_transform, "y": ax.get_xaxis_transform}
+        place = {"transform": over[mark.along]()} if isinstance(mark, shown.Band) else {}
+        artist = ax.add_patch(Polygon(corners, closed=True, gid=mark.key, **place))
+    artist.set_xy(corners)
+    if isinstance(mark, shown.Band):
+        style |= {"facecolor": (*to_rgb(style["facecolor"]), mark.opacity), "alpha": None}
+    artist.set(**style)
+    return artist
+
+
+def _corners(mark: Any) -> np.ndarray:
+    """The outline of a patch, ``(m, 2)``; a band's ends lie just outside the axes, where no edge shows."""
+    if isinstance(mark, shown.Polygon):
+        return np.stack([np.asarray(mark.x, dtype=float), np.asarray(mark.y, dtype=float)], axis=-1)
+    if isinstance(mark, shown.Area):
+        x, low, high = (np.asarray(v, dtype=float) for v in (mark.x, mark.low, mark.high))
+        return np.stack([np.append(x, x[::-1]), np.append(low, high[::-1])], axis=-1)
+    ends, across = np.array([-0.05, 1.05, 1.05, -0.05]), np.array([mark.low, mark.low, mark.high, mark.high])
+    return np.stack([ends, across] if mark.along == "x" else [across, ends], axis=-1)
+
+
+def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, Any], theme: str) -> Any:
+    if artist is None:
+        artist = ax.text(0, 0, "", gid=mark.key, clip_on=False)
+        if mark.boxed:
+            paper = colour("paper", theme=theme)
+            artist.set_bbox({"facecolor": paper, "edgecolor": "none", "pad": 1.0, "alpha": 0.75})
+    at = mark.anchor.split()
+    across = next((a for a in at if a in ("left", "right")), "center")
+    upright = next((a for a in at if a in ("top", "bottom")), "center")
+    artist.set(position=(mark.x, mark.y), text=plain(mark.words), ha=across, va=upright, fontsize=mark.size, **style)
+    artist.set_fontweight("bold" if mark.bold else "normal")
+    return artist
+
+
+def _frame(ax: Axes, axes: shown.Axes) -> None:
+    """Title, labels, scales and window; few ticks: text takes three quarters of a drawing's time."""
+    ax.set_title(plain(axes.title), loc="left")
+    ax.set_xlabel(plain(axes.xlabel))
+    ax.set_ylabel(plain(axes.ylabel))
+    _scale(ax, "x", axes.log, axes.xticks, axes.xlim)
+    _scale(ax, "y", axes.log, axes.yticks, axes.ylim)
+    if axes.equal:
+        ax.set_aspect("equal", adjustable="box" if axes.bare or axes.xlim else "datalim")
+    if axes.bare:
+        ax.set_axis_off()
+
+
+def _scale(ax: Axes, name: Any, log: str, ticks: Any, ends: Any) -> None:
+    """Scale, ticks and ends of the axis ``name``."""
+    kind = "log" if name in log else "linear"
+    if getattr(ax, f"get_{name}scale")() != kind:
+        getattr(ax, f"set_{name}scale")(kind)
+    if ticks is not None:
+        getattr(ax, f"set_{name}ticks")(list(ticks), [plain(words) for words in ticks.values()])
+        getattr(ax, f"{name}axis").set_minor_locator(NullLocator())
+        ax.grid(axis=name, visible=False)
+    elif kind == "linear":
+        ax.locator_params(axis=name, nbins=5)
+    if ends is not None:
+        getattr(ax, f"set_{name}lim")(*ends)
+
+
+LETTER, BOLD, SAMPLE = 6.3, 9.1, 33.0
+"""Pixels, of 100 an inch, that a letter of the legend and of the title takes, and the sample before a name."""
+
+
+def _legend(ax: Axes, picture: shown.Picture) -> None:
+    """Labelled marks in one row above the axes if there is room beside the title, else below; no curve meets them."""
+    labels = list(dict.fromkeys(plain(mark.label) for mark in picture.marks if mark.label))
+    legend = ax.get_legend()
+    if labels == [text.get_text() for text in (legend.get_texts() if legend else ())]:
+        return
+    if legend:
+        legend.remove()
+    if labels:
+        named = {artist.get_label(): artist for artist in reversed(moving(ax))}
+        ax.legend(handles=[named[label] for label in labels], **_place(ax, picture.axes, labels))
+
+
+def _place(ax: Axes, axes: shown.Axes, labels: Sequence[str]) -> dict[str, Any]:
+    room = 1.1 * ax.get_window_extent().width * 100 / ax.figure.dpi  # the layout to come widens them a little
+    row = sum(map(len, labels)) * LETTER + SAMPLE * len(labels)
+    if not axes.equal and row + BOLD * len(axes.title) < room:
+        spaces = {"columnspacing": 0.9, "handletextpad": 0.4, "borderaxespad": 0.1}
+        return {"loc": "lower right", "bbox_to_anchor": (1.02, 0.99), "ncols": len(labels), **spaces}
+    columns = max(1, min(len(labels), int(room / (LETTER * max(map(len, labels)) + SAMPLE + 9))))
+    below = 1.0 if axes.bare else 4.2 if axes.xlabel else 2.6
+    return {
+        "loc": "upper center",
+        "bbox_to_anchor": (0.5, 0),
+        "borderaxespad": below,
+        "ncols": columns,
+        "columnspacing": 1.2,
+    }

@@ -1,0 +1,159 @@
+"""Views of cams: the mechanism to scale, and the curves over the cam angle.
+
+They show whatever analysis offers ``bodies`` (see `camkit.geometry.Body`) and ``curves`` by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..geometry import Body, Disc
+from ..quantities import Measure
+from ..units import deg, mm
+from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps, picture
+
+ANGLE = "cam angle  [deg]"
+PARTS = {"body": "", "pitch": "pitch curve", "profile": "profile", "flank": "groove's outer flank"}
+"""The cam's parts and their names in the legend."""
+
+MOTION = ("position", "velocity", "acceleration", "jerk")
+
+
+def position(analysis: Any, turn: Any) -> Any:
+    """Which of the positions of ``analysis`` is nearest to ``turn`` (rad)."""
+    return np.argmin(abs(analysis.cam_angle - turn), axis=-1)
+
+
+def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
+    """The cam as it is cut and its followers, to scale, with the cam turned by ``turn`` (rad).
+
+    Of a groove the band between its two flanks is filled; trouble: stretches that the follower undercuts.
+    """
+    axes = Axes(title="Cam and follower", xlabel="x  [mm]", ylabel="y  [mm]", equal=True)
+    return picture(axes, bodies(analysis.bodies, position(analysis, turn)))
+
+
+def bodies(shown: tuple[Body, ...], i: Any, away: Any = 0.0, prefix: str = "", index: int | None = None) -> list[Mark]:
+    """Marks of bodies at position ``i``, shifted by ``away`` mm along x.
+
+    What belongs to one name has one colour; with ``index`` all have that of the series.
+    """
+    names = list(dict.fromkeys(body.name for body in shown if body.name))
+    marks: list[Mark] = []
+    for body in shown:
+        number = names.index(body.name) if body.name and index is None else index
+        style: Any = {"role": "series", "index": number or 0} if body.name or index is not None else {}
+        marks += _body(body, i, away, f"{prefix} {body.name} {body.part}".strip().replace("  ", " "), style)
+    return marks
+
+
+def _body(body: Any, i: Any, away: Any, key: str, style: Any) -> Iterator[Mark]:
+    """The marks of one body."""
+    x, y = body.at(i) / mm
+    x = x + away
+    if isinstance(body, Disc):
+        yield Circle(key, x, y, body.radius / mm, **style)
+    elif body.part in ("pivot", "axis"):
+        yield Points(key, x, y, mark="plus" if body.part == "axis" else "dot", size=10, fill="paper", **style)
+    elif body.part == "body":
+        yield Polygon(key, x, y, role="body")
+    elif body.part in ("arm", "face"):
+        yield Line(key, x, y, stroke="arm", opacity=0.85 if body.part == "arm" else 1.0, **style)
+    else:
+        yield Line(key, x, y, **({"role": body.part, "label": PARTS[body.part]} | style))
+        if body.cut is not None:
+            cut = gaps(x, body.cut), gaps(y, body.cut)
+            label = "undercut" if body.part == "profile" else ""
+            yield Line(f"{key} undercut", *cut, role="trouble", label=label)
+
+
+def motion(analysis: Any) -> Picture:
+    """Position, velocity, acceleration and jerk of every follower, each over its own peak."""
+    marks = []
+    for name, curve in analysis.curves.items():
+        moves = _moving(curve)
+        for key, role, values in zip(
+            "svaj", ("position", "velocity", "acceleration", "jerk"), curve.motion, strict=True
+        ):
+            peak = np.max(abs(values), axis=-1)
+            share = values / np.where(peak > 0, peak, 1.0)
+            marks.append(Line(f"{name} {key}", curve.cam_angle / deg, gaps(share, moves), role=role, label=key))
+    return picture(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
+
+
+def _moving(curve: Any) -> Any:
+    """Where the follower moves, and one sample on either side."""
+    v = curve.velocity != 0
+    still = np.zeros_like(v[:1])
+    return v | np.concatenate([v[1:], still]) | np.concatenate([still, v[:-1]])
+
+
+def _each(analysis: Any, name: str, unit: float, named: bool = True) -> list[Mark]:
+    """A curve of every follower, ``named`` in the legend where there are several."""
+    several = named and len(analysis.curves) > 1
+    return [
+        Line(key, curve.cam_angle / deg, getattr(curve, name) / unit, role="series", index=i, label=several * key)
+        for i, (key, curve) in enumerate(analysis.curves.items())
+    ]
+
+
+def pressure_angle(analysis: Any, limits: Mapping[Measure, float] | None = None) -> Picture:
+    """The signed pressure angle, and the band that the ``limits`` of its measures leave; without any, no band."""
+    allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
+    bands = [
+        Band(f"allowed {i}", -limit, limit, role="allowed", opacity=0.1) for i, limit in enumerate(sorted(allowed))
+    ]
+    axes = Axes(title="Pressure angle", xlabel=ANGLE, ylabel="alpha  [deg]")
+    return picture(axes, bands, _each(analysis, "pressure_angle", deg))
+
+
+def contact_force(analysis: Any) -> Picture:
+    """Force between cam and follower, without friction."""
+    axes = Axes(title="Contact force", xlabel=ANGLE, ylabel="F  [N]")
+    return picture(axes, _each(analysis, "contact_force", 1.0))
+
+
+def cam_torque(analysis: Any) -> Picture:
+    """Torque on the cam, without friction."""
+    axes = Axes(title="Cam torque", xlabel=ANGLE, ylabel="M  [N mm]")
+    return picture(axes, _each(analysis, "cam_torque", mm))
+
+
+def curvature(analysis: Any) -> Picture:
+    """Curvature of the pitch curve (full) and of the profile (thin), with the limits that the follower sets.
+
+    Outside the band of plus and minus one over the roller's radius a flank is undercut.
+    """
+    limit = analysis.max_curvature * mm
+    x = np.asarray(analysis.cam_angle)[[0, -1]] / deg
+    bounds = [
+        Line(f"limit {sign}", x, [sign * limit] * 2, role="limit", label="1 / roller radius" if sign > 0 else "")
+        for sign in (-1, 1)
+    ]
+    marks = _each(analysis, "curvature", 1 / mm, named=False)
+    for i, (name, curve) in enumerate(analysis.curves.items()):
+        inner = curve.profile_curvature * mm
+        shown = gaps(inner, abs(inner) < 2 * limit)
+        style: Any = {"role": "series", "index": i, "stroke": "thin dashed"}
+        marks.append(Line(f"{name} profile", curve.cam_angle / deg, shown, **style))
+    return picture(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
+
+
+def efficiency(analysis: Any) -> Picture:
+    """Power out over power in: from the free-body diagram (full) and, of a rocking roller, as published (thin)."""
+    marks, several = [], len(analysis.curves) > 1
+    for i, (name, curve) in enumerate(analysis.curves.items()):
+        style: Any = {"role": "series", "index": i}
+        x, moves = curve.cam_angle / deg, _moving(curve)
+        marks.append(Line(name, x, gaps(100 * curve.efficiency, moves), label=several * name, **style))
+        if hasattr(curve, "published_efficiency"):
+            published = gaps(100 * curve.published_efficiency, moves)
+            marks.append(Line(f"{name} published", x, published, stroke="thin dashed", **style))
+    return picture(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
+
+
+CAM_VIEWS = (mechanism, motion, pressure_angle, contact_force, cam_torque, curvature, efficiency)
+"""What a designer of a cam wants to see at once."""

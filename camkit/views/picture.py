@@ -1,0 +1,198 @@
+"""A picture as data: axes, and marks with roles.  A view makes one of an analysis, a renderer draws it.
+
+A mark has a key, by which a renderer moves it when the picture changes, and a role, which says what it means: colours
+and widths belong to the renderer.  Marks are drawn in their order, later ones above.  What has a label is named in
+the legend.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+ROLES = (
+    "ink",  # what is read: letters, the design in hand, edges
+    "paper",  # the background, to part what crosses
+    "guide",  # lines that help to read: axes, circles, zero
+    "ghost",  # what was, or what is left out
+    "body",  # a solid, filled
+    "profile",  # what is cut, or the curve that the picture is about
+    "flank",  # the other side of a groove
+    "pitch",  # the way of a roller's centre
+    "follower",  # what is moved
+    "position",
+    "velocity",
+    "acceleration",
+    "jerk",
+    "limit",  # what must not be crossed
+    "allowed",  # where limits are kept; what is known to be right
+    "trouble",  # what misses a limit or cannot be made
+    "series",  # one of several alike things, by its index
+)
+"""What a mark may mean."""
+
+
+class Formula(str):
+    """Text between dollars that is meant as a formula."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Axes:
+    """How a picture is framed: its title, what its axes show, in which window."""
+
+    title: str = ""
+    xlabel: str = ""
+    ylabel: str = ""
+    equal: bool = False
+    """Whether both axes have one scale."""
+    xlim: tuple[Any, Any] | None = None
+    ylim: tuple[Any, Any] | None = None
+    """Ends of an axis, either of which may be ``None``; without them the axis fits what is drawn."""
+    log: str = ""
+    """The axes with a logarithmic scale: "x", "y" or "xy"."""
+    xticks: Mapping[float, str] | None = None
+    yticks: Mapping[float, str] | None = None
+    """Places with their names, instead of numbers."""
+    bare: bool = False
+    """Whether there are neither scales nor frame."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What all marks share; places are in the units of the axes."""
+
+    key: str
+    role: str = field(kw_only=True, default="ink")
+    index: int = field(kw_only=True, default=0)
+    """Of a "series"."""
+    label: str = field(kw_only=True, default="")
+    """Its name in the legend."""
+    opacity: float = field(kw_only=True, default=1.0)
+
+
+@dataclass(frozen=True)
+class Line(Mark):
+    """A curve through points; ``nan`` parts it."""
+
+    x: Any
+    y: Any
+    stroke: str = field(kw_only=True, default="")
+    """How it is drawn, if not as its role: "thin", "dashed", "dotted", "bold", "arm", "bar", or two of them."""
+    steps: bool = field(kw_only=True, default=False)
+    """Whether each value holds up to the next place."""
+
+
+@dataclass(frozen=True)
+class Band(Mark):
+    """All between two values of one axis; a line where they are equal."""
+
+    low: Any
+    high: Any
+    along: str = field(kw_only=True, default="x")
+    """The axis along which it runs, from end to end; the values are of the other one."""
+
+
+@dataclass(frozen=True)
+class Area(Mark):
+    """All between two curves over the same places."""
+
+    x: Any
+    low: Any
+    high: Any
+
+
+@dataclass(frozen=True)
+class Polygon(Mark):
+    """A filled outline; ``nan`` parts it."""
+
+    x: Any
+    y: Any
+    edged: bool = field(kw_only=True, default=False)
+
+
+@dataclass(frozen=True)
+class Points(Mark):
+    """Marks of one kind."""
+
+    x: Any
+    y: Any
+    mark: str = field(kw_only=True, default="dot")
+    """Its form: "dot", "plus", "cross", "star", "square", "diamond", "triangle"."""
+    size: float = field(kw_only=True, default=8.0)
+    """Its diameter on the page, points (1/72 inch)."""
+    fill: str = field(kw_only=True, default="full")
+    """Inside: "full", "paper" or "none"."""
+
+
+@dataclass(frozen=True)
+class Circle(Mark):
+    """A circle that is to scale; a knife edge, whose radius is 0, is a point."""
+
+    x: Any
+    y: Any
+    radius: Any
+
+
+@dataclass(frozen=True)
+class Text(Mark):
+    """Words at a place."""
+
+    x: Any
+    y: Any
+    words: str
+    anchor: str = field(kw_only=True, default="")
+    """Which part of the words is at the place: "left" or "right", "top" or "bottom", or both; else the middle."""
+    size: float = field(kw_only=True, default=10.0)
+    bold: bool = field(kw_only=True, default=False)
+    boxed: bool = field(kw_only=True, default=False)
+    """Whether the background is kept clear behind them."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Axes, and marks in the order in which they are drawn."""
+
+    axes: Axes
+    marks: tuple[Mark, ...]
+
+    def __post_init__(self) -> None:
+        keys = [mark.key for mark in self.marks]
+        if len(set(keys)) < len(keys):
+            twice = next(key for key in keys if keys.count(key) > 1)
+            raise ValueError(f"two marks of a picture have the key {twice!r}; each needs its own")
+        for mark in self.marks:
+            if mark.role not in ROLES:
+                raise ValueError(f"the mark {mark.key!r} has the role {mark.role!r}; it must be one of {ROLES}")
+
+    def __getitem__(self, key: str) -> Any:
+        """The mark with that key.
+
+        >>> Picture(Axes(), (Points("here", [1.0], [2.0]),))["here"].y
+        [2.0]
+        """
+        for mark in self.marks:
+            if mark.key == key:
+                return mark
+        raise KeyError(key)
+
+    def __contains__(self, key: str) -> bool:
+        return any(mark.key == key for mark in self.marks)
+
+
+View = Callable[..., Any]
+"""``view(analysis) -> Picture``; it may ask for ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` by name."""
+
+
+def picture(axes: Axes, *marks: Mark | Iterable[Mark]) -> Picture:
+    """A picture of ``marks``, one by one or several at once."""
+    return Picture(axes, tuple(m for some in marks for m in ((some,) if isinstance(some, Mark) else some)))
+
+
+def gaps(values: Any, where: Any) -> Any:
+    """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
+    return np.where(where, values, np.nan)
