@@ -13,7 +13,8 @@ class Body:
     """A part of a plane mechanism to scale, with its path: its place (m) and angle (rad) at each position.
 
     ``x``, ``y`` and ``angle`` are numbers, or ``(n,)`` with one for each position.  Parts of one ``name`` belong
-    together; ``part`` says what it is: "body", "profile", "flank", "pitch", "arm", "face", "roller", "pivot", "axis".
+    together; ``part`` is what it is: "body", "profile", "flank", "pitch", "axis", "guide", "arm",
+    "face", "block", "roller", "pivot".
     """
 
     name: str

@@ -19,10 +19,10 @@ import camkit
 from camkit import AnalysisCurve, Box, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
-from camkit.render.beside import Beside
 from camkit.search.front import front_of
 from camkit.search.nsga2 import nsga2_generations
 from camkit.views import pressure_angle
+from camkit.views.beside import Beside
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 WINGS = [

@@ -10,13 +10,15 @@ a constant force of 123 N and 50 rpm, which give the paper's first row: F_sigma 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from ..cam import bodies
 from ..cam.loads import Table, refuse_table, tabulated
+from ..geometry import Body, Outline, rotated
 from ..kinds import refuse_arguments
 from ..quantities import Measure, declarations, fails, quantity
 from ..study.study import Study
@@ -146,6 +148,30 @@ class CamLeverAnalysis(HighSpeedAnalysis):
         return self.cam.load.way(self.motion, self.cam.swing)
 
     @property
+    def bodies(self) -> tuple[Body, ...]:
+        """Cam, arm with roller, lever and slider as they stand: the slider goes up and down, the lever level at half.
+
+        The arm lies under the cam, its pivot below the cam axis and beside it, where the paper's sizes put it.
+        """
+        press, x = self.press, self.press.lever
+        down = -np.arctan2(press.pivot_height, press.slider_distance - x)
+        pivot, centre = (rotated(point * _mirror(point), down) for point in (self.cranks["arm"][0], self.roller_centre))
+        tilt = self.motion.s - press.swing / 2
+        end = np.reshape(pivot, (2, 1)) + x * np.stack([np.cos(tilt), np.sin(tilt)])
+        return (
+            *(self._mirrored(part, down) for part in bodies.disk(self, False)),
+            Outline("", "guide", GUIDE, x=end[0], y=end[1]),
+            *bodies.rocker("arm", pivot, centre),
+            bodies.roller("arm", centre, self.cam.roller_radius),
+            *bodies.rocker("lever", pivot, end),
+            Outline("slider", "block", BLOCK, x=end[0], y=end[1]),
+        )
+
+    def _mirrored(self, part: Any, down: Any) -> Body:
+        """A part of the cam turned over, so that the arm lies under it."""
+        return replace(part, points=part.points * _mirror(part.points), angle=down - part.angle)
+
+    @property
     def inertia(self) -> Any:
         """``J = j x^2`` of the lever, kg m^2: of a press speeds are in rad/s."""
         return self.press.lever_mass * self.press.lever**2
@@ -155,6 +181,16 @@ class CamLeverAnalysis(HighSpeedAnalysis):
         """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight."""
         press, slowing = self.press, self.moving.tops(_slowing)
         return press.inertia_speed2 * slowing / (press.weight * press.lever)
+
+
+GUIDE = np.array([[0, 0], [-90, 90]]) * mm
+BLOCK = np.array([[-16, 16, 16, -16, -16], [-34, -34, 34, 34, -34]]) * mm
+"""The line on which the slider goes, and the slider: their sizes are those of a drawing."""
+
+
+def _mirror(points: Any) -> np.ndarray:
+    """What ``points`` ``(2, ...)`` are multiplied with to be mirrored in the x axis."""
+    return np.reshape([1.0, -1.0], (2,) + (1,) * (np.ndim(points) - 1))
 
 
 def _slowing(part: Any) -> Any:

@@ -5,6 +5,7 @@ Each mark is one artist, known by the mark's key.  Roles get their colours and w
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -122,6 +123,16 @@ def plain(words: Any) -> str:
     return words if isinstance(words, shown.Formula) else str(words).replace("$", r"\$")
 
 
+def unit_text(words: str) -> str:
+    """Text with the powers of its units, in brackets, raised.
+
+    >>> print(unit_text("x^2  [N^0.5 mm^-0.5]"))
+    x^2  [N$^{0.5}$ mm$^{-0.5}$]
+    """
+    name, bracket, unit = words.rpartition("[")
+    return name + bracket + re.sub(r"\^(-?[\d.]+)", r"$^{\1}$", unit) if bracket else words
+
+
 def moving(ax: Axes) -> list[Any]:
     """Everything on ``ax`` that was drawn with a key, lowest first."""
     found = [artist for artist in (*ax.patches, *ax.lines, *ax.texts) if artist.get_gid()]
@@ -233,8 +244,8 @@ def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, Any], th
 def _frame(ax: Axes, axes: shown.Axes) -> None:
     """Title, labels, scales and window; few ticks: text takes three quarters of a drawing's time."""
     ax.set_title(plain(axes.title), loc="left")
-    ax.set_xlabel(plain(axes.xlabel))
-    ax.set_ylabel(plain(axes.ylabel))
+    ax.set_xlabel(unit_text(plain(axes.xlabel)))
+    ax.set_ylabel(unit_text(plain(axes.ylabel)))
     _scale(ax, "x", axes.log, axes.xticks, axes.xlim)
     _scale(ax, "y", axes.log, axes.yticks, axes.ylim)
     if axes.equal:

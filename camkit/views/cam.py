@@ -39,13 +39,17 @@ def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
 def bodies(shown: tuple[Body, ...], i: Any, away: Any = 0.0, prefix: str = "", index: int | None = None) -> list[Mark]:
     """Marks of bodies at position ``i``, shifted by ``away`` mm along x.
 
-    What belongs to one name has one colour; with ``index`` all have that of the series.
+    What belongs to one name has one colour, and its name in the legend where there are several; with ``index`` all
+    have that of the series.
     """
     names = list(dict.fromkeys(body.name for body in shown if body.name))
     marks: list[Mark] = []
     for body in shown:
-        number = names.index(body.name) if body.name and index is None else index
-        style: Any = {"role": "series", "index": number or 0} if body.name or index is not None else {}
+        style: Any = {}
+        if index is not None:
+            style = {"role": "series", "index": index, "label": ""}
+        elif body.name:
+            style = {"role": "series", "index": names.index(body.name), "label": body.name if len(names) > 1 else ""}
         marks += _body(body, i, away, f"{prefix} {body.name} {body.part}".strip().replace("  ", " "), style)
     return marks
 
@@ -60,10 +64,10 @@ def _body(body: Any, i: Any, away: Any, key: str, style: Any) -> Iterator[Mark]:
         yield Points(key, x, y, mark="plus" if body.part == "axis" else "dot", size=10, fill="paper", **style)
     elif body.part == "body":
         yield Polygon(key, x, y, role="body")
-    elif body.part in ("arm", "face"):
-        yield Line(key, x, y, stroke="arm", opacity=0.85 if body.part == "arm" else 1.0, **style)
+    elif body.part in ("arm", "face", "block"):
+        yield Line(key, x, y, stroke="arm", opacity=1.0 if body.part == "face" else 0.85, **style)
     else:
-        yield Line(key, x, y, **({"role": body.part, "label": PARTS[body.part]} | style))
+        yield Line(key, x, y, **({"role": body.part, "label": PARTS.get(body.part, "")} | style))
         if body.cut is not None:
             cut = gaps(x, body.cut), gaps(y, body.cut)
             label = "undercut" if body.part == "profile" else ""

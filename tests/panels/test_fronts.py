@@ -19,7 +19,6 @@ from camkit.panels.fronts import compare_fronts
 from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity
 from camkit.render.artists import _find, moving
-from camkit.render.beside import Beside, cams_beside, curves_beside
 from camkit.render.front import ShownFronts, fronts_overlaid
 from camkit.render.picture import draw, layout
 from camkit.search.epsilon_constraint import dominated_shares, trade_off, trade_off_steps
@@ -27,6 +26,7 @@ from camkit.search.front import Front, front_of
 from camkit.search.minimise import minimise
 from camkit.search.nsga2 import nsga2_generations
 from camkit.units import deg, mm
+from camkit.views.beside import Beside, cams_beside, curves_beside
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ def test_cams_beside_each_other_do_not_meet(designs, peak):
     cams, curves = drawn(Beside(analyses, peak), cams_beside, curves_beside, turn=40 * deg)
     spans, offsets = [], []
     for name, analysis in analyses.items():
-        outline = _find(cams, f"{name} cam").get_xy()
+        outline = _find(cams, f"{name} body").get_xy()
         offsets.append(float(xy(cams, f"{name} axis")[0, 0]))
         radius = np.hypot(*(outline - [offsets[-1], 0]).T)
         assert radius.max() == pytest.approx(np.hypot(*analysis.profile).max() / mm)
@@ -189,7 +189,7 @@ def test_a_turned_roller_touches_its_turned_cam():
         arm = next(key for key in (line.get_gid() for line in ax.lines) if key.endswith(" roller"))
         circle = xy(ax, arm)
         centre = (circle.max(1) + circle.min(1)) / 2
-        gap = np.hypot(*(_find(ax, "a cam").get_xy() - centre).T).min()
+        gap = np.hypot(*(_find(ax, "a body").get_xy() - centre).T).min()
         assert gap == pytest.approx(30, abs=0.05)
 
 

@@ -20,13 +20,13 @@ from camkit.machines.high_speed_study import (
 from camkit.panels.cycle_time import cycle_time_panel
 from camkit.panels.optimise import optimise_panel
 from camkit.render.artists import _find
-from camkit.render.high_speed import contact_stress
 from camkit.render.progress import unit_text
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.minimise import minimise
 from camkit.search.protocol import Monitor, SearchStopped, monitored
 from camkit.study.study import KEPT, Study
 from camkit.units import cm, deg, mm
+from camkit.views.high_speed import contact_stress
 
 FIRST = HighSpeedCam()
 GOALS = {"stress": peak_stress, "wear": peak_wear}

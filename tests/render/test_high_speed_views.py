@@ -10,24 +10,23 @@ from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_study import peak_pressure, peak_stress, peak_wear
 from camkit.render.artists import INK, WARNING, _find, moving
-from camkit.render.high_speed import (
-    CAM_LEVER_VIEWS,
-    HIGH_SPEED_VIEWS,
-    cam_lever_mechanism,
-    contact_stress,
-    hertz_pressure,
-    lever_stress_over_way,
-    lever_wear_over_way,
-    motion_over_turn,
-    radius_sweep,
-    slider_load,
-    wear,
-)
 from camkit.render.high_speed_sketch import high_speed_sketch
 from camkit.render.picture import draw, layout
 from camkit.search.minimise import minimise
 from camkit.units import MPa, cm, deg, mm
 from camkit.views import mechanism
+from camkit.views.high_speed import (
+    CAM_LEVER_VIEWS,
+    HIGH_SPEED_VIEWS,
+    contact_stress,
+    hertz_pressure,
+    motion_over_turn,
+    radius_sweep,
+    slider_load,
+    stress_over_way,
+    wear,
+    wear_over_way,
+)
 
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)
@@ -182,14 +181,15 @@ def test_the_roller_touches_the_turned_cam(turn):
 
 
 def press_at(turn, press=PRESS):
-    ax = drawn(press, cam_lever_mechanism, turn=turn * deg)
-    return {key: xy(ax, key) for key in ("profile", "pitch", "roller", "arm", "lever", "slider", "guide")}
+    ax = drawn(press, mechanism, turn=turn * deg)
+    keys = {"roller": "arm roller", "arm": "arm arm", "lever": "lever arm", "slider": "slider block"}
+    return {key: xy(ax, keys.get(key, key)) for key in ("profile", "pitch", "guide", *keys)}
 
 
 @pytest.mark.parametrize("turn", [0, 30, 61, 200, 300])
 def test_cam_lever_and_slider_to_scale(turn):
     shown = press_at(turn)
-    centre, pivot = shown["arm"].T
+    pivot, centre = shown["arm"].T
     assert_allclose(pivot, (525 - 250, -180))  # the paper's sizes: pivot beside and below the cam axis
     assert np.hypot(*(centre - pivot)) == pytest.approx(313)
     assert np.hypot(*(shown["lever"][:, 1] - pivot)) == pytest.approx(250)
@@ -214,8 +214,8 @@ def test_the_slider_rises_by_its_stroke_and_arm_and_lever_are_one_piece():
 def test_stress_over_the_lift_in_the_papers_unit():
     analysis = PRESS.analyse()
     for view, measure, power in (
-        (lever_stress_over_way, lever_stress, "0.5"),
-        (lever_wear_over_way, lever_wear, "1.5"),
+        (stress_over_way, lever_stress, "0.5"),
+        (wear_over_way, lever_wear, "1.5"),
     ):
         ax = drawn(PRESS, view)
         tops = [xy(ax, f"{way} peak") for way in ("away", "back")]
