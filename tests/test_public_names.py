@@ -19,6 +19,7 @@ import camkit
 from camkit import AnalysisCurve, Box, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
+from camkit.render.picture import draw, layout
 from camkit.search.front import front_of
 from camkit.search.nsga2 import nsga2_generations
 from camkit.views import pressure_angle
@@ -286,11 +287,17 @@ def good(name, parameter):
     return parameter.default
 
 
+@cache
+def axes(view):
+    """Where a picture draws what a view shows; nothing is drawn there of what is refused."""
+    return layout([view], 3, 2)[1]
+
+
 def call(thing, given):
-    """``thing(**given)``, a view through a picture, a generator to its first step."""
+    """``thing(**given)``, a view as a picture draws it, a generator to its first step."""
     parameters = inspect.signature(thing).parameters
     if _is_view(thing):
-        return camkit.picture(*given.values(), thing, width=3, height=2)
+        return draw(*given.values(), axes(thing), [thing])
     gathered = [name for name, p in parameters.items() if p.kind is p.VAR_POSITIONAL]
     before = [name for name in given if gathered and name in list(parameters)[: list(parameters).index(gathered[0])]]
     named = {name: value for name, value in given.items() if name not in (*before, *gathered)}

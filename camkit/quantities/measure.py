@@ -61,6 +61,7 @@ class PeakMeasure(Measure):
     A search then sees every point and not only the largest, which jumps from one to another.  ``-PeakMeasure`` of
     the negative curve is a least value.  ``angle`` says at which cam angle each point of the curve stands.
 
+    >>> import numpy as np
     >>> lowest = -PeakMeasure("least height", "mm", lambda analysis: -analysis["height"])
     >>> float(lowest({"height": np.array([0.05, 0.02, 0.04])}))
     0.02

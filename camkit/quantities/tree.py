@@ -95,7 +95,8 @@ def with_quantities(design: Any, values: Mapping[str, Any]) -> Any:
 
     All that changes in one part changes at once, and what its constructor refuses is refused.
 
-    >>> from camkit import TranslatingRollerCam, value_of
+    >>> from camkit import TranslatingRollerCam
+    >>> from camkit.quantities import value_of
     >>> cam = with_quantities(TranslatingRollerCam(), {"motion.rise.law": "modified sine", "rotation": "clockwise"})
     >>> value_of(cam, "motion.rise.law").name, cam.rotation
     ('modified sine', -1)
