@@ -27,16 +27,17 @@ PRESSES, DRAG_SECONDS, DRAGS, MOVES = 24, 6, 3, 200
 # The panel of notebooks/01_door_handle_cam.ipynb; the same seven views under interact; what the kernel holds on to.
 CELLS = [
     """
-from camkit import DoorHandleCam, deg, door_handle_study, explore
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore
 from camkit.machines.door_handle import CURVE_TABLE, WORSE_CURVE
 from camkit.views import CAM_VIEWS
 
-paper = DoorHandleCam(door_torque=10)
+paper = DoorHandleCam(lift_load=ArmLoad(torque=10))
 study = door_handle_study(paper)
 sliders = ["lift_arm", "lift_start_angle", "relief_arm", "lift_centre_distance", "relief_centre_distance",
-           "roller_radius", "lift_swing", "relief_swing", "relief_cam_angle", "motion_law", "friction",
-           "cam_friction_circle", "roller_friction_circle", "pivot_friction_circle", "lift_arm_mass",
-           "relief_arm_mass", "handle_speed", "door_torque", "flap_torque", "door_spring"]
+           "roller_radius", "lift_swing", "relief_swing", "relief_cam_angle", "motion_law",
+           "lift_load.mass", "lift_load.speed", "lift_load.torque", "lift_load.spring_rate", "relief_load.mass",
+           "relief_load.torque", "friction.coefficient", "friction.cam_axis", "friction.roller_pin",
+           "friction.arm_pivot"]
 app = explore(paper, *CAM_VIEWS, free=sliders, measures=(*WORSE_CURVE.values(), *CURVE_TABLE),
               at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app""",

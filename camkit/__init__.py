@@ -36,7 +36,16 @@ from .machines.valve_cam import ValveCam
 from .machines.valve_study import corrected_valve_study, valve_front_study, valve_study
 from .motion import *  # noqa: F403
 from .motion import __all__ as _motion_names
-from .quantities import Measure, PeakMeasure, UnitRemark, quantity
+from .quantities import (
+    Measure,
+    PeakMeasure,
+    UnitRemark,
+    choices_of,
+    quantities_of,
+    quantity,
+    value_of,
+    with_quantities,
+)
 from .search.polish import polish
 from .study.design_map import DesignMap
 from .study.residuals import SumOfResiduals
@@ -125,6 +134,7 @@ __all__ = [
     "ValveCam",
     "ahp",
     "cam_lever_study",
+    "choices_of",
     "cm",
     "corrected_valve_study",
     "most_isolated",
@@ -147,6 +157,7 @@ __all__ = [
     "polish",
     "profile_csv",
     "profile_dxf",
+    "quantities_of",
     "quantity",
     "rad",
     "rpm",
@@ -155,11 +166,13 @@ __all__ = [
     "shaft_study",
     "side_by_side",
     "topsis",
+    "value_of",
     "valve_front_study",
     "valve_study",
     "weighted",
     "weighted_sum",
     "winner_map",
+    "with_quantities",
     *(_LATER if _LAB else ()),
     *_motion_names,
 ]

@@ -218,7 +218,7 @@ class Reading:
                 return option
         value = self.thing(entry) if isinstance(entry, dict) else None
         if value is None or not declared.allows(value):
-            raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {', '.join(declared.named)}")
+            raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {declared.offered}")
         return value
 
 

@@ -6,11 +6,28 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any
 
-RENAMED: dict[tuple[str, str], str] = {}
+from ..units import factor
+
+RENAMED: dict[tuple[str, str], str] = {
+    ("DoorHandleCam", "friction"): "friction.coefficient",
+    ("DoorHandleCam", "cam_friction_circle"): "friction.cam_axis",
+    ("DoorHandleCam", "roller_friction_circle"): "friction.roller_pin",
+    ("DoorHandleCam", "pivot_friction_circle"): "friction.arm_pivot",
+    ("DoorHandleCam", "lift_arm_mass"): "lift_load.mass",
+    ("DoorHandleCam", "handle_speed"): "lift_load.speed [rpm]",
+    ("DoorHandleCam", "door_torque"): "lift_load.torque",
+    ("DoorHandleCam", "door_spring"): "lift_load.spring_rate",
+    ("DoorHandleCam", "gravity"): "lift_load.gravity",
+    ("DoorHandleCam", "up_angle"): "lift_load.up_angle",
+    ("DoorHandleCam", "door_torque_table"): "lift_load.torque_table",
+    ("DoorHandleCam", "relief_arm_mass"): "relief_load.mass",
+    ("DoorHandleCam", "flap_torque"): "-relief_load.torque",
+}
 """``{(where, earlier name): name of today}``.
 
 ``where`` is the class whose field or path it is, such as ``"HighSpeedCam"``; or ``"kind"`` for a class, ``"measure"``
-for a measure, ``"rule"`` or ``"mode"`` for an entry of a search's menus.  Names stand without their units.  What was a
+for a measure, ``"rule"`` or ``"mode"`` for an entry of a search's menus.  Names stand without their units, but for a
+new name whose number has another unit today; a minus before it stands for a number of the other sign.  What was a
 field of its own and stands deeper in the design today has a path for its new name, such as ``"load.spring_rate"``; the
 order of a file's entries then is the order in which they are put in, so a law comes before its coefficients.  What is
 renamed twice has a row for each of its earlier names.
@@ -47,9 +64,17 @@ class Renaming:
         minus = "-" if where == "measure" and entry.startswith("-") else ""
         before, bracket, unit = entry.removeprefix(minus).partition(" [")
         now = self.table.get((where, before), before)
-        if now != before:
-            self.renamed[before] = now
-        return f"{minus}{now}{bracket}{unit}"
+        if now == before:
+            return entry
+        now, other, changed = now.partition(" [") if where in self.kinds else (now, "", "")
+        self.renamed[before] = now.removeprefix("-") if where in self.kinds else now
+        return f"{minus}{self.renamed[before]}{other or bracket}{changed or unit}"
+
+    def times(self, where: str, name: str) -> float:
+        """What the number of a field or path of an earlier name is multiplied by."""
+        before, _, unit = name.removesuffix("]").partition(" [")
+        now, _, changed = self.table.get((where, before), "").removesuffix("]").partition(" [")
+        return (-1.0 if now.startswith("-") else 1.0) * (factor(unit) / factor(changed) if changed else 1.0)
 
     def design(self, entry: Any) -> Any:
         """A design, a law, or whatever else says its kind, and all that is inside it."""
@@ -59,8 +84,14 @@ class Renaming:
             return entry
         kind = entry.get("kind")
         kind = kind if isinstance(kind, str) and kind in self.kinds else self.name("kind", kind)
-        inner = {self.name(str(kind), k): self.design(v) for k, v in entry.items() if k != "kind"}
+        inner = dict(self._field(str(kind), k, v) for k, v in entry.items() if k != "kind")
         return {"kind": kind, **inner} if "kind" in entry else inner
+
+    def _field(self, kind: str, name: str, entry: Any) -> tuple[str, Any]:
+        """A field of today; what is a thing itself and not a number is no field that went deeper."""
+        if isinstance(entry, dict) and "." in self.table.get((kind, name), ""):
+            return name, self.design(entry)
+        return self.name(kind, name), _multiplied(self.design(entry), self.times(kind, name))
 
     def study(self, entry: Any) -> Any:
         """A study, and all that is saved with it."""
@@ -70,7 +101,15 @@ class Renaming:
         start = parts.get("start")
         where = str(start.get("kind")) if isinstance(start, dict) else ""
         if isinstance(entry.get("free"), dict):
-            parts["free"] = {self.name(where, k): bounds for k, bounds in entry["free"].items()}
+            times = [self.times(where, k) for k in entry["free"]]
+            bounds = zip(entry["free"].items(), times, strict=True)
+            parts["free"] = {
+                self.name(where, k): _multiplied(ends, t)[:: 1 if t > 0 else -1] for (k, ends), t in bounds
+            }
+            if any(t != 1 for t in times) and isinstance(entry.get("front"), list):
+                parts["front"] = [
+                    [_multiplied(x, t) for x, t in zip(row, times, strict=True)] for row in entry["front"]
+                ]
         return parts
 
     def _part(self, name: str, entry: Any) -> Any:
@@ -89,3 +128,12 @@ class Renaming:
         if isinstance(entry, dict):
             return {k: self._part(k, v) for k, v in entry.items()}
         return self.name("measure", entry)
+
+
+def _multiplied(entry: Any, times: float) -> Any:
+    """A number, or each in a list; anything else is left to what reads it."""
+    if times == 1:
+        return entry
+    if isinstance(entry, list):
+        return [_multiplied(each, times) for each in entry]
+    return entry * times + 0.0 if isinstance(entry, (int, float)) and not isinstance(entry, bool) else entry

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..cam import bodies, groove
-from ..cam.loads import ArmLoad, Friction, refuse_table
+from ..cam.loads import ArmLoad, Friction
 from ..cam.measures import (
     CURVE,
     MOTION,
@@ -33,12 +33,14 @@ from ..cam.measures import (
 from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
 from ..geometry import Body, angle_opposite, rotated
 from ..kinds import listed, refuse_arguments
-from ..motion import LAWS, Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
 from ..study.study import Space, Study, weighted
 from ..units import deg, mm
 
 BOTH = ("lift", "relief")
+SHARED = ("speed", "gravity", "up_angle")
+"""What the loads of both cranks have in common."""
 
 
 @dataclass(frozen=True)
@@ -66,25 +68,16 @@ class DoorHandleCam(Design):
     relief_swing: float = quantity("tau_2", 10, 2, 20, "deg", "swing of the relief crank")
     relief_cam_angle: float = quantity("phi_2", 30, 15, 90, "deg", "handle angle for the relief crank")
     handle_angle: float = quantity("phi", 180, 120, 200, "deg", "handle angle in all; the rest is for the lift crank")
-    motion_law: Any = choice("law", Cycloidal(), LAWS, "motion law of both cranks")
-    friction: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and rollers", at_least=0)
-    cam_friction_circle: float = quantity("rho_1", 1.5, 0, 4, "mm", "friction circle of the cam axis", at_least=0)
-    roller_friction_circle: float = quantity("rho_2", 0.5, 0, 4, "mm", "friction circle of the roller pins", at_least=0)
-    pivot_friction_circle: float = quantity("rho_3", 1, 0, 4, "mm", "friction circle of the arm pivots", at_least=0)
-    lift_arm_mass: float = quantity("m_1", 2, 0, 10, "kg", "uniform lift arm", at_least=0)
-    relief_arm_mass: float = quantity("m_2", 0.5, 0, 10, "kg", "uniform relief arm", at_least=0)
-    handle_speed: float = quantity("omega", 90, 0, 360, "deg/s", "speed of the handle", at_least=0)
-    door_torque: float = quantity("T_d", 0, 0, 30, "N m", "constant torque of the door on the lift crank", above=None)
-    flap_torque: float = quantity("T_f", 0, 0, 30, "N m", "constant torque of the flap on the relief crank", above=None)
-    door_spring: float = quantity("c", 0, 0, 30, "N m/rad", "torsion spring on the lift crank", at_least=0)
-    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arms; 0: they turn level", at_least=0)
-    up_angle: float = quantity("u", 90, -180, 180, "deg", "from the lift line of centres to straight up", above=None)
-    door_torque_table: tuple[tuple[float, float], ...] = field(default=())
-    """Pairs of lift travel [rad] and torque [N m] added to ``door_torque``; straight lines between."""
+    motion_law: Any = choice("law", Cycloidal(), LAW_MENU, "motion law of both cranks")
+    lift_load: ArmLoad = field(default_factory=ArmLoad)
+    """What the lift crank resists with; its speed, gravity and direction of straight up are those of both cranks."""
+    relief_load: ArmLoad = field(default_factory=lambda: ArmLoad(mass=0.5))
+    """What the relief crank resists with; its swing away from the cam goes against its angle, hence torques < 0."""
+    friction: Friction = field(default_factory=Friction)
+    """Of both rollers and cranks."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        refuse_table("torque table", "travel", "torque", self.door_torque_table)
         shares = self.relief_cam_angle < self.handle_angle
         if fails(shares):
             raise ValueError(
@@ -124,11 +117,9 @@ class DoorHandleCam(Design):
         """``psi'``: the relief arm's angle with its roller on the base circle."""
         return angle_opposite(self.base_radius, self.relief_arm, self.relief_centre_distance)
 
-    @property
-    def _rub(self) -> Friction:
-        return Friction(
-            self.friction, self.cam_friction_circle, self.roller_friction_circle, self.pivot_friction_circle
-        )
+    def following(self) -> dict[str, str]:
+        """What the relief crank's load shares with the lift crank's."""
+        return {f"relief_load.{name}": f"it is that of the lift_load: lift_load.{name}" for name in SHARED}
 
     @cached_property
     def lift(self) -> OscillatingRollerCam:
@@ -142,16 +133,8 @@ class DoorHandleCam(Design):
             start_angle=self.lift_start_angle,
             roller_radius=self.roller_radius,
             rotation=1,
-            load=ArmLoad(
-                mass=self.lift_arm_mass,
-                speed=self.handle_speed,
-                torque=self.door_torque,
-                spring_rate=self.door_spring,
-                gravity=self.gravity,
-                up_angle=self.up_angle,
-                torque_table=self.door_torque_table,
-            ),
-            friction=self._rub,
+            load=self.lift_load,
+            friction=self.friction,
         )
 
     @cached_property
@@ -166,14 +149,12 @@ class DoorHandleCam(Design):
             start_angle=self._relief_rest_angle + self.relief_swing,
             roller_radius=self.roller_radius,
             rotation=-1,
-            load=ArmLoad(
-                mass=self.relief_arm_mass,
-                speed=self.handle_speed,
-                torque=-self.flap_torque,
-                gravity=self.gravity,
-                up_angle=self.relief_direction - self.up_angle,
+            load=self.relief_load.replace(
+                speed=self.lift_load.speed,
+                gravity=self.lift_load.gravity,
+                up_angle=self.relief_direction - self.lift_load.up_angle,
             ),
-            friction=self._rub,
+            friction=self.friction,
         )
 
     @cached_property
@@ -426,7 +407,7 @@ def door_handle_study(
 
     Two things to know before a front is believed.  The **lift arm stays on its lower bound**: neither strength nor
     wear resists a short arm here, and the contact force ``T / (l cos alpha)`` of a door torque, which does, weighs
-    too little in the paper's judgements to lift it off.  And a constant ``door_torque`` ``T`` that outweighs the arms'
+    too little in the paper's judgements to lift it off.  And a constant ``lift_load.torque`` that outweighs the arms'
     inertia has the **peak torque T times the largest velocity**: motion law, swing and cam angle alone fix it, so
     where these are not free its judgement weighs nothing.  Without one, as in the paper, the arms' inertia is the only
     load and forces are tenths of a newton; the notebooks open at 10 N m, an assumption.
@@ -491,9 +472,9 @@ def lift_curve_study(
     refuse_arguments(lift_curve_study, locals())
     start = start or DoorHandleCam()
     free = space or LIFT_SPACE
-    for name in free:
-        if name in WITHOUT_LIFT:
-            raise ValueError(f"the {words(name)} has no effect on the lift curve; it must not be free")
+    for path in free:
+        if path.startswith(WITHOUT_LIFT):
+            raise ValueError(f"the {words(path)} has no effect on the lift curve; it must not be free")
     of = LIFT_CURVE
     return Study(
         start=start,
@@ -509,15 +490,11 @@ WITHOUT_LIFT = (
     "relief_arm",
     "relief_centre_distance",
     "relief_swing",
-    "relief_arm_mass",
-    "flap_torque",
+    "relief_load",
     "roller_radius",
     "friction",
-    "cam_friction_circle",
-    "roller_friction_circle",
-    "pivot_friction_circle",
 )
-"""Quantities that neither the lift curve's pitch curve nor its frictionless forces depend on."""
+"""How paths begin of quantities that neither the lift curve's pitch curve nor its frictionless forces depend on."""
 
 
 def _effort(of: Any, reference: DoorHandleCam, weights: Any) -> Measure:

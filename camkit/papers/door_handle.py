@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..cam.loads import ArmLoad
 from ..cam.measures import (
     max_pressure_angle,
     min_concave_radius,
@@ -41,7 +42,7 @@ def _printed(*keys: str) -> Any:
 
 def before() -> DoorHandleCam:
     """The paper's design before the optimisation, at the speed that its torques imply."""
-    return DoorHandleCam(handle_speed=float(np.sqrt(deg)))
+    return DoorHandleCam(lift_load=ArmLoad(speed=float(np.sqrt(deg))))
 
 
 def after() -> DoorHandleCam:

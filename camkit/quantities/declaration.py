@@ -21,6 +21,8 @@ from ..units import factor, in_unit
 OURS = __name__.partition(".")[0]
 BEYOND = 1000
 """How many times larger than all that a slider offers a number may be, unless its declaration says ``at_most``."""
+MANY = 8
+"""So many options of a choice are named in a sentence."""
 FAR = 4
 """A number is far out of its range if it is at least so many times larger than its end, or smaller."""
 
@@ -203,10 +205,17 @@ class Choice:
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
 
     @property
+    def offered(self) -> str:
+        """The names of the options, the first of them where they are many."""
+        names = list(self.named)
+        return ", ".join(names[:MANY]) + f" and {len(names) - MANY} more" * (len(names) > MANY)
+
+    @property
     def possible(self) -> str:
         """What can be chosen, in words."""
-        said = [f"{option!r} ({name})" for name, option in self.named.items()] if self._plain else list(self.named)
-        return f"one of {', '.join(said)}" + ("" if self._plain else " or another like them")
+        if self._plain:
+            return f"one of {', '.join(f'{option!r} ({name})' for name, option in self.named.items())}"
+        return f"one of {self.offered} or another like them"
 
     @cached_property
     def _types(self) -> frozenset[type]:

@@ -65,9 +65,16 @@ def _walk(part: Any, said: Mapping[str, Quantity]) -> Iterator[tuple[str, Leaf]]
                 yield path, leaf
 
 
+def _leaves_of(design: Any) -> dict[str, Leaf]:
+    """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
+    if not isinstance(design, Declared) or not dataclasses.is_dataclass(design):
+        raise ValueError(f"the design is {shown(design)}; it must be a design, such as a cam, or a part of one")
+    return dict(_walk(design, {}))
+
+
 def declared_in(design: Any) -> dict[str, Quantity | Choice]:
     """The declarations of a design and of all that it holds, by path and in order."""
-    return {path: leaf.declared for path, leaf in _walk(design, {})}
+    return {path: leaf.declared for path, leaf in _leaves_of(design).items()}
 
 
 def quantities_of(design: Any) -> dict[str, Quantity]:
@@ -106,6 +113,8 @@ def with_quantities(design: Any, values: Mapping[str, Any]) -> Any:
     ValueError: 'motion.rise.lifts' is no path of TranslatingRollerCam; near it are motion.rise.lift, motion.rise.law, \
 motion.rise.angle
     """
+    if not isinstance(values, Mapping):
+        raise ValueError(f"the values are {shown(values)}; they must be a mapping from paths to values")
     if first := {p: v for p, v in values.items() if any(str(other).startswith(f"{p}.") for other in values)}:
         design = Paths(design, first).put(design, list(first.values()))  # what is chosen has quantities of its own
     rest = {p: v for p, v in values.items() if p not in first}
@@ -151,7 +160,7 @@ class Paths:
     """
 
     def __init__(self, design: Any, paths: Iterable[str], kind: type = object) -> None:
-        every = {p: leaf for p, leaf in _walk(design, {}) if isinstance(leaf.declared, kind)}
+        every = {p: leaf for p, leaf in _leaves_of(design).items() if isinstance(leaf.declared, kind)}
         self.declared: dict[str, Any] = {}
         self._change, self._leaves = _Change(), []
         for place, path in enumerate(paths):

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from camkit import DoorHandleCam, ahp, door_handle_study
+from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
 from camkit.decision.ahp import CHOOSERS, judgement_ranges
 from camkit.decision.summary import side_by_side
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
-PAPER, SPACE = DoorHandleCam(door_torque=10), DOOR_HANDLE_SPACE
+PAPER, SPACE = DoorHandleCam(lift_load=ArmLoad(torque=10)), DOOR_HANDLE_SPACE
 STUDY = door_handle_study(PAPER).replace(minimise=(ANGLE, FORCE, -RADIUS))
 
 

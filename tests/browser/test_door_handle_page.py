@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from camkit import DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
+from camkit import ArmLoad, DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
 from camkit.cam.measures import groove_gap
 from camkit.decision.ahp import CHOOSERS
 from camkit.files.designs import from_json
@@ -27,7 +27,7 @@ from camkit.units import in_unit
 from camkit.views import CAM_VIEWS, mechanism, pressure_angle
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
 
-START = DoorHandleCam(door_torque=10)
+START = DoorHandleCam(lift_load=ArmLoad(torque=10))
 MEASURES = (*WORSE_CURVE.values(), groove_gap, *CURVE_TABLE)
 TURN = 75 * deg
 

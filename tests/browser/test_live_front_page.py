@@ -11,11 +11,11 @@ import pytest
 from numpy.testing import assert_allclose
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from camkit import DoorHandleCam, ahp, door_handle_study, mm
+from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study, mm
 from camkit.search.fast_front import quick_front
 from lab import LabServer, kernel_value, open_notebook, run_all
 
-PAPER = DoorHandleCam(door_torque=10)
+PAPER = DoorHandleCam(lift_load=ArmLoad(torque=10))
 
 
 @dataclass(frozen=True)

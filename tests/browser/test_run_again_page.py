@@ -74,7 +74,7 @@ def test_a_cell_that_was_changed_ends_the_search(running: Page) -> None:
     change = (
         """(source) => window.jupyterapp.shell.currentWidget.content.widgets[0].model.sharedModel.setSource(source)"""
     )
-    running.evaluate(change, EXPLORER.replace("DoorHandleCam()", "DoorHandleCam(friction=0.2)"))
+    running.evaluate(change, EXPLORER.replace("DoorHandleCam()", "DoorHandleCam(roller_radius=0.004)"))
     run_all(running)
     eventually(lambda: kernel_value(running, THREADS) == [])
     expect(cell(running, 1).get_by_role("button", name="Optimise")).to_be_enabled()

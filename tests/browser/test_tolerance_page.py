@@ -8,12 +8,13 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from camkit import DoorHandleCam, deg, door_handle_study, mm
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, mm
 from camkit.panels.tolerances import SETTLED
 from camkit.study.tolerances import Tolerances
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all
 
-CAM = DoorHandleCam(lift_arm=45 * mm, lift_start_angle=27 * deg, relief_cam_angle=45 * deg, door_torque=10)
+SIZES = {"lift_arm": 45 * mm, "lift_start_angle": 27 * deg, "relief_cam_angle": 45 * deg}
+CAM = DoorHandleCam(**SIZES, lift_load=ArmLoad(torque=10))
 MEDIUM = {"lift_arm": 0.3 * mm, "lift_centre_distance": 0.3 * mm, "lift_start_angle": 0.5 * deg}
 
 

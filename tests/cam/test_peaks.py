@@ -188,7 +188,8 @@ def test_both_curves_of_a_door_handle():
     rng = np.random.default_rng(7)
     for law in LAWS:
         l, psi, split = rng.uniform(42, 58), rng.uniform(0.3, 0.5), rng.uniform(16, 80)
-        cam = DoorHandleCam(l * mm, psi, 78 * mm, relief_cam_angle=split * deg, motion_law=law, door_torque=5)
+        split *= deg
+        cam = DoorHandleCam(l * mm, psi, 78 * mm, relief_cam_angle=split, motion_law=law, lift_load=ArmLoad(torque=5))
         analysis = cam.analyse(61)
         for name in ("lift", "relief"):
             for measure, value in expected(getattr(cam, name)).items():

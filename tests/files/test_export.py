@@ -70,9 +70,9 @@ def door_handles(of):
     def build(sizes, law, table):
         sizes = {k: v for k, v in sizes.items() if k not in ("relief_cam_angle", "handle_angle", "relief_arm")}
         try:
-            return DoorHandleCam(**sizes, motion_law=law, door_torque_table=table)
+            return DoorHandleCam(**sizes, motion_law=law, lift_load=ArmLoad(torque_table=table))
         except ValueError:  # the relief crank does not reach; another time
-            return DoorHandleCam(motion_law=law, door_torque_table=table)
+            return DoorHandleCam(motion_law=law, lift_load=ArmLoad(torque_table=table))
 
     kinds = numbers(DoorHandleCam, of)
     for name in kinds:
@@ -133,7 +133,11 @@ def test_files_say_their_schema_and_units(tmp_path):
     assert content["schema"] == SCHEMA == "camkit/1"
     design = content["design"]
     assert (design["kind"], design["motion_law"]) == ("DoorHandleCam", "cycloidal")
-    assert (design["lift_arm [mm]"], design["lift_start_angle [deg]"], design["friction"]) == (48.09, 20.5, 0.05)
+    assert (design["lift_arm [mm]"], design["lift_start_angle [deg]"], design["friction"]["coefficient"]) == (
+        48.09,
+        20.5,
+        0.05,
+    )
     assert load(path) == DoorHandleCam(lift_arm=48.09 * mm, lift_start_angle=20.5 * deg)
 
 

@@ -21,6 +21,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import camkit
 from camkit import (
+    ArmLoad,
     DoorHandleCam,
     HighSpeedCam,
     Measure,
@@ -420,7 +421,7 @@ def numbers_in(content):
 def test_the_old_files_hold_what_was_saved():
     design = load(FILES / OLD[0], DoorHandleCam, tell=list)
     assert (design.lift_arm, design.lift_start_angle, design.motion_law) == (48.09 * mm, 20.5 * deg, Poly345())
-    assert design.door_torque_table == ((0.0, 1.0), (0.5, -2.25))
+    assert design.lift_load.torque_table == ((0.0, 1.0), (0.5, -2.25))
     program = load(FILES / OLD[1], OscillatingRollerCam, tell=list)
     assert program.motion.segments[1] == Rise(1.1, 0.4, Skewed(Poly345(), 0.4))
     work = load(FILES / OLD[2], Work, tell=list)
@@ -430,7 +431,7 @@ def test_the_old_files_hold_what_was_saved():
 
 
 GOOD = {
-    "design": to_json(DoorHandleCam(door_torque_table=((0.0, 1.0), (0.5, -2.25)))),
+    "design": to_json(DoorHandleCam(lift_load=ArmLoad(torque_table=((0.0, 1.0), (0.5, -2.25))))),
     "program": to_json(
         OscillatingRollerCam(
             motion=MotionProgram((Rise(1.1, 0.4, SHAPED), Dwell(0.2), Return(0.9, 0.3, Skewed(Cycloidal(), 0.4))))
@@ -471,7 +472,8 @@ def test_spaces_and_line_ends_are_no_change_of_content():
 
 def test_a_field_that_is_lacking_takes_its_default_with_a_remark():
     content = json.loads(to_json(DoorHandleCam(lift_arm=48 * mm)))
-    del content["design"]["gravity [m/s^2]"], content["design"]["motion_law"], content["design"]["door_torque_table"]
+    del content["design"]["motion_law"], content["design"]["lift_load"]["gravity [m/s^2]"]
+    del content["design"]["lift_load"]["torque_table"]
     found = read(json.dumps(content))
     assert found.thing == DoorHandleCam(lift_arm=48 * mm)
     assert "lacks" in found.remarks[1]
@@ -496,7 +498,7 @@ def test_a_study_that_lacks_an_entry_takes_its_default_with_a_remark(name):
 HOSTILE = {
     "evil_study.json": r"^the file has the name 'effort<img src=x.*'; a name has up to 100 letters, digits, spaces",
     "motion_is_number.json": r"^the file says 0 for 'motion'; a motion program belongs there$",
-    "empty_row_table.json": r"^the file says \[\[\]\] for 'door_torque_table'; a list of pairs of numbers belongs",
+    "empty_row_table.json": r"^the file says \[\[\]\] for 'lift_load.torque_table'; a list of pairs of numbers belongs",
     "angles_study.json": r"^the file says 1000000000 for 'angles'; it must be a whole number of at least 2",
 }
 
@@ -919,7 +921,7 @@ def test_a_law_that_the_menu_does_not_offer_is_shown_when_it_is_loaded(page, mon
     assert app.design == design
     assert menu.menu.label == "skewed"
     app.load(DoorHandleCam())
-    assert "skewed" not in [name for name, _ in menu.menu.options]
+    assert design.motion_law not in [law for _, law in menu.menu.options]
 
 
 def test_what_cannot_be_saved_is_told_in_the_panel(monkeypatch, tmp_path):

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import (
+    ArmLoad,
     DoorHandleCam,
     OscillatingRollerCam,
     door_handle_paper_study,
@@ -40,6 +41,7 @@ from camkit.machines.door_handle import (
     stroke_radius,
 )
 from camkit.motion import LAWS, Cycloidal, MotionProgram, Return
+from camkit.quantities import value_of, with_quantities
 from camkit.units import deg, kg, mm, rad
 
 DENSE = 60001
@@ -318,22 +320,24 @@ def test_the_relief_crank_swings_first_then_the_lift_crank():
 # ---------------------------------------------------------------- loads
 
 LOADED = DoorHandleCam(
-    door_torque=4,
-    flap_torque=1.5,
-    door_spring=2.5,
-    gravity=9.81,
-    up_angle=65 * deg,
-    handle_speed=1.2,
-    lift_arm_mass=3 * kg,
-    relief_arm_mass=1.25 * kg,
-    door_torque_table=((0.0, 0.0), (20 * deg, 6.0), (69 * deg, 1.0)),
+    lift_load=ArmLoad(
+        mass=3 * kg,
+        speed=1.2,
+        torque=4,
+        spring_rate=2.5,
+        gravity=9.81,
+        up_angle=65 * deg,
+        torque_table=((0.0, 0.0), (20 * deg, 6.0), (69 * deg, 1.0)),
+    ),
+    relief_load=ArmLoad(mass=1.25 * kg, torque=-1.5),
 )
 
 
 @pytest.mark.parametrize("name", BOTH)
 def test_weight_torque_is_the_slope_of_the_potential_energy(name):
     """Height of the arm's middle in the machine, along the direction that is up."""
-    only_weight = LOADED.replace(door_torque=0, flap_torque=0, door_spring=0, handle_speed=0, door_torque_table=())
+    weight = LOADED.lift_load.replace(torque=0, spring_rate=0, speed=0, torque_table=())
+    only_weight = LOADED.replace(lift_load=weight, relief_load=LOADED.relief_load.replace(torque=0))
     analysis = only_weight.analyse(90001)
     curve = getattr(analysis, name)
     pivot, centre = analysis.cranks[name]
@@ -362,7 +366,7 @@ def test_the_handles_work_is_what_is_stored_and_what_is_done():
 
 def test_the_doors_torque_follows_the_lift():
     """Table, spring and constant torque added, without inertia or weight."""
-    still = LOADED.replace(gravity=0, handle_speed=0)
+    still = LOADED.replace(lift_load=LOADED.lift_load.replace(gravity=0, speed=0))
     lift = still.analyse(721).lift
     s = lift.motion.s
     table = np.where(s < 20 * deg, 6 * s / (20 * deg), 6 - 5 * (s - 20 * deg) / (49 * deg))
@@ -372,7 +376,7 @@ def test_the_doors_torque_follows_the_lift():
 
 
 def test_inertia_grows_with_the_square_of_the_speed():
-    slow, fast = (DoorHandleCam(handle_speed=k).analyse(181) for k in (1.0, 3.0))
+    slow, fast = (DoorHandleCam(lift_load=ArmLoad(speed=k)).analyse(181) for k in (1.0, 3.0))
     for name in BOTH:
         assert_allclose(getattr(fast, name).cam_torque, 9 * getattr(slow, name).cam_torque, rtol=1e-12)
 
@@ -480,7 +484,7 @@ def test_the_strokes_radius_does_not_know_the_base_circle_nor_how_finely_it_is_s
 
 def test_a_constant_door_torque_leaves_the_arms_no_part_in_the_peak_torque():
     """T times the largest velocity: so says the power balance, and the judgement of the torque weighs nothing."""
-    study = lift_curve_study(DoorHandleCam(door_torque=10, lift_arm_mass=0))
+    study = lift_curve_study(DoorHandleCam(lift_load=ArmLoad(torque=10, mass=0)))
     x = np.random.default_rng(1).uniform(*study.bounds, (50, 2))
     torque = LIFT_CURVE[peak_torque](study.analyse(x))
     assert_allclose(torque, torque[0], rtol=1e-12)
@@ -600,22 +604,22 @@ COLUMNS = {
     "relief_arm": [75 * mm, 20 * mm, 80 * mm],  # 20 mm does not reach the base circle
     "relief_cam_angle": [30 * deg, 40 * deg, 60 * deg],
     "roller_radius": [5 * mm, 4 * mm, 3 * mm],
-    "door_torque": [0.0, 3.0, 7.0],
+    "lift_load.torque": [0.0, 3.0, 7.0],
 }
 GROOVE = ("pitch", "profile", "outer_profile", "curvature", "profile_angle")
 
 
 def test_a_population_is_its_members_bit_for_bit():
-    many = DoorHandleCam(**{k: np.array(v)[:, None] for k, v in COLUMNS.items()}).analyse(181)
+    many = with_quantities(DoorHandleCam(), {k: np.array(v)[:, None] for k, v in COLUMNS.items()}).analyse(181)
     for i in (0, 2):
-        single = DoorHandleCam(**{k: v[i] for k, v in COLUMNS.items()}).analyse(181)
+        single = with_quantities(DoorHandleCam(), {k: v[i] for k, v in COLUMNS.items()}).analyse(181)
         for name in GROOVE:
             assert_array_equal(getattr(many, name)[..., i, :], getattr(single, name), name)
         for measure in DoorHandleCam.measures:
             assert_array_equal(measure(many)[i], measure(single), measure.name)
     assert np.isnan(many.relief.pressure_angle[1]).all()
     with pytest.raises(ValueError, match="reaches"):
-        DoorHandleCam(**{k: v[1] for k, v in COLUMNS.items()})
+        with_quantities(DoorHandleCam(), {k: v[1] for k, v in COLUMNS.items()})
 
 
 @pytest.mark.parametrize(
@@ -645,26 +649,27 @@ def test_a_member_that_cannot_be_built_is_nan_and_disturbs_nobody(name, good, ba
 one_by_one = pytest.mark.parametrize(
     "name",
     ["lift_arm", "relief_arm", "lift_swing", "relief_swing", "handle_angle", "relief_cam_angle", "roller_radius",
-     "lift_arm_mass", "flap_torque", "friction", "gravity", "handle_speed"],
+     "lift_load.mass", "relief_load.torque", "friction.coefficient", "lift_load.gravity", "lift_load.speed"],
 )  # fmt: skip
 
 
 @one_by_one
 def test_measures_of_a_population_that_differs_in_one_quantity(name):
     """Also where only one of the two curves has members that differ, or neither."""
-    good = getattr(BEFORE, name) or 0.5
-    many = DoorHandleCam(**{name: np.array([[good], [0.97 * good]])}).analyse(31)
+    good = value_of(BEFORE, name) or 0.5
+    many = with_quantities(DoorHandleCam(), {name: np.array([[good], [0.97 * good]])}).analyse(31)
+    singles = [with_quantities(DoorHandleCam(), {name: value}).analyse(31) for value in (good, 0.97 * good)]
     for measure in DoorHandleCam.measures:
-        expected = [measure(DoorHandleCam(**{name: value}).analyse(31)) for value in (good, 0.97 * good)]
+        expected = [measure(single) for single in singles]
         assert_array_equal(np.broadcast_to(measure(many), 2), expected, measure.name)
 
 
 @one_by_one
 def test_the_groove_of_a_population_that_differs_in_one_quantity(name):
-    good = getattr(BEFORE, name) or 0.5
-    many = DoorHandleCam(**{name: np.array([[good], [0.97 * good]])}).analyse(31)
+    good = value_of(BEFORE, name) or 0.5
+    many = with_quantities(DoorHandleCam(), {name: np.array([[good], [0.97 * good]])}).analyse(31)
     for i, value in enumerate((good, 0.97 * good)):
-        single = DoorHandleCam(**{name: value}).analyse(31)
+        single = with_quantities(DoorHandleCam(), {name: value}).analyse(31)
         for groove in GROOVE:
             whole = getattr(many, groove)
             row = whole if np.ndim(whole) == np.ndim(getattr(single, groove)) else whole[..., i, :]

@@ -27,7 +27,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
 from camkit import (
+    ArmLoad,
     DoorHandleCam,
+    Friction,
     OscillatingRollerCam,
     ahp,
     ahp_panel,
@@ -66,7 +68,7 @@ from camkit.units import deg, mm
 from camkit.views import curvature, mechanism, pressure_angle
 
 SMALL = {"width": 4.0, "height": 2.6}
-SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction")
+SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction.coefficient")
 STUDIES = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
 
 
@@ -267,7 +269,7 @@ def test_no_file_is_made_of_another_design_than_the_controls_show(app, descripti
     ],
 )  # fmt: skip
 def test_what_is_impossible_is_said_in_place_of_the_picture(app, name, typed, sentence):
-    app.controls["friction"].box.value = 0.08
+    app.controls["friction.coefficient"].box.value = 0.08
     good, seen = app.design, []
     app.on_change(seen.append)
     app.controls[name].box.value = typed
@@ -302,15 +304,15 @@ def test_reset_goes_back_to_the_start(app):
 def test_a_loaded_design_moves_every_slider_and_calls_followers_once(app):
     seen = []
     app.on_change(seen.append)
-    wanted = DoorHandleCam(lift_arm=47.123456789 * mm, motion_law=Poly345(), door_torque=3.0)
+    wanted = DoorHandleCam(lift_arm=47.123456789 * mm, motion_law=Poly345(), lift_load=ArmLoad(torque=3.0))
     app.load(wanted)
     assert app.design is wanted
     assert seen == [wanted]
     assert app.controls["lift_arm"].value == 47.123456789 * mm
     assert app.controls["lift_arm"].slider.value == pytest.approx(47.12)  # the step nearest to it
     assert app.controls["motion_law"].menu.value == Poly345()
-    app.controls["friction"].slider.value = 0.1
-    assert app.design == wanted.replace(friction=0.1)  # what has no slider is kept, and every digit
+    app.controls["friction.coefficient"].slider.value = 0.1
+    assert app.design == wanted.replace(friction=Friction(0.1))  # what has no slider is kept, and every digit
 
 
 def test_the_angle_shown_turns_the_mechanism_only():
@@ -453,8 +455,8 @@ FILE = to_json(DoorHandleCam())
         (FILE.replace("50.0", "9" * 400, 1), "the "),
         ("[" * 100000, "the file is damaged"),
         (
-            FILE.replace('"door_torque_table": []', '"door_torque_table": [[0, "a"]]'),
-            "the file says [[0, 'a']] for 'door_torque_table'; a list of pairs of numbers belongs there",
+            FILE.replace('"torque_table": []', '"torque_table": [[0, "a"]]'),
+            "the file says [[0, 'a']] for 'torque_table'; a list of pairs of numbers belongs there",
         ),
         (to_json(OscillatingRollerCam()), "the file holds a"),
     ],
@@ -770,7 +772,7 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     weighed = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
     importance = ahp_panel(["effort", "least radius"], [1])
     same = {"space": EXPANDED_SPACE, "free": list(DOOR_HANDLE_SPACE), "criteria": weighed, "importance": importance}
-    other_start = explore(DoorHandleCam(friction=0.2), pressure_angle, free=SLIDERS, **SMALL)
+    other_start = explore(DoorHandleCam(friction=Friction(0.2)), pressure_angle, free=SLIDERS, **SMALL)
     pages = {
         "problems": pareto_panel(an_explorer(), {"another": door_handle_study}, **same),
         "judgements": pareto_panel(an_explorer(), STUDIES, **(same | {"importance": None})),

@@ -218,7 +218,7 @@ def test_a_number_that_only_its_unit_makes_infinite_is_refused_too():
 
 
 def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():
-    panel = explore(DoorHandleCam(), pressure_angle, free=["lift_arm", "friction"])
+    panel = explore(DoorHandleCam(), pressure_angle, free=["lift_arm", "friction.coefficient"])
     panel.controls["lift_arm"].box.text = "48,5"
     good, analyse = panel.design, DoorHandleCam.analyse
     for error in (OverflowError("math range error"), np.linalg.LinAlgError("Singular matrix")):
@@ -301,7 +301,7 @@ def other_panels(app):
 @pytest.mark.parametrize("name", ["survey", "tolerate", "live front", "search", "improve", "shorten", "program"])
 def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "door_torque"])
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "lift_load.torque"])
     panel = other_panels(app)[name]()
     box_of = getattr(panel, "runner", None)
     banner = box_of.banner if box_of else panel._banner
@@ -321,7 +321,7 @@ def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatc
 @pytest.mark.filterwarnings("ignore:.*encountered in:RuntimeWarning")
 def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "door_torque", "handle_speed"])
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "lift_load.torque", "lift_load.speed"])
     space = {"lift_arm": (40 * mm, 50 * mm), "relief_cam_angle": (50 * deg, 75 * deg)}  # some of it is feasible
     study = door_handle_study(space=space)
     kept, made = shortlist(app, study), live_pareto_panel(app, {"door": plane_study}, space)
