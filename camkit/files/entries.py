@@ -158,13 +158,23 @@ class Reading:
         """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
         for k, entry in entries.items():
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
-            if k not in found:
-                raise ValueError(
-                    f"the file has {shown(k)}, which {kind_words(type(thing), article=True)} does not have"
-                )
-            path, declared = found[k]
-            thing = with_quantities(thing, {path: self._declared(entry, k, declared)})
+            if k in found:
+                path, declared = found[k]
+                thing = with_quantities(thing, {path: self._declared(entry, k, declared)})
+            else:
+                thing = self._plain(thing, k, k, entry)
         return thing
+
+    def _plain(self, thing: Any, path: str, name: str, entry: Any) -> Any:
+        """``thing`` with a field at ``path`` that is neither a quantity nor a choice, such as a table."""
+        branch, _, below = path.partition(".")
+        if below and branch in thing.branches():
+            return thing.changed({branch: self._plain(thing.branches()[branch], below, name, entry)})
+        plain = {f.name: f for f in fields(thing) if f.init and not f.metadata}
+        if path not in plain:
+            raise ValueError(f"the file has {shown(name)}, which {kind_words(type(thing), article=True)} does not have")
+        kind: type = type(thing)
+        return thing.changed({path: self._field(entry, name, plain[path], None, _hints(kind)[path])})
 
     def _fields(self, kind: type, entries: Mapping[str, Any], deeper: Iterable[str]) -> dict[str, Any]:
         declared = _declarations(kind)

@@ -33,6 +33,8 @@ order of a file's entries then is the order in which they are put in, so a law c
 renamed twice has a row for each of its earlier names.
 """
 
+MANY = 4
+"""So many names are remarked on by name."""
 MEASURES_AT = ("at_most", "at_least", "made", "weights")
 """Entries of a study whose keys are measures."""
 
@@ -54,8 +56,9 @@ class Renaming:
     @property
     def remarks(self) -> list[str]:
         """What is to be remarked about it."""
-        each = ", ".join(f"{before} is now {now}" for before, now in self.renamed.items())
-        return [each.replace("_", " ")] if each else []
+        each = [f"{before} is now {now}".replace("_", " ") for before, now in self.renamed.items()]
+        more = f" and {len(each) - MANY} names more are others" * (len(each) > MANY)
+        return [", ".join(each[:MANY]) + more] if each else []
 
     def name(self, where: str, entry: Any) -> Any:
         """The name of today for ``entry``, its unit and its sign kept; anything but a name as it is."""
@@ -84,12 +87,18 @@ class Renaming:
             return entry
         kind = entry.get("kind")
         kind = kind if isinstance(kind, str) and kind in self.kinds else self.name("kind", kind)
-        inner = dict(self._field(str(kind), k, v) for k, v in entry.items() if k != "kind")
+        earlier = any(self._is_earlier(str(kind), k) for k in entry)
+        inner = dict(self._field(str(kind), k, v, earlier) for k, v in entry.items() if k != "kind")
         return {"kind": kind, **inner} if "kind" in entry else inner
 
-    def _field(self, kind: str, name: str, entry: Any) -> tuple[str, Any]:
-        """A field of today; what is a thing itself and not a number is no field that went deeper."""
-        if isinstance(entry, dict) and "." in self.table.get((kind, name), ""):
+    def _is_earlier(self, kind: str, name: str) -> bool:
+        """Whether this was the name of a field, and is none today."""
+        before = name.partition(" [")[0]
+        return (kind, before) in self.table and not self.table[kind, before].startswith(f"{before}.")
+
+    def _field(self, kind: str, name: str, entry: Any, earlier: bool) -> tuple[str, Any]:
+        """A field of today; a name that is also one of today's is renamed only among ``earlier`` ones."""
+        if not earlier:
             return name, self.design(entry)
         return self.name(kind, name), _multiplied(self.design(entry), self.times(kind, name))
 
@@ -102,13 +111,12 @@ class Renaming:
         where = str(start.get("kind")) if isinstance(start, dict) else ""
         if isinstance(entry.get("free"), dict):
             times = [self.times(where, k) for k in entry["free"]]
-            bounds = zip(entry["free"].items(), times, strict=True)
-            parts["free"] = {
-                self.name(where, k): _multiplied(ends, t)[:: 1 if t > 0 else -1] for (k, ends), t in bounds
-            }
+            bounds = [_multiplied(ends, t) for ends, t in zip(entry["free"].values(), times, strict=True)]
+            parts["free"] = dict(zip((self.name(where, k) for k in entry["free"]), bounds, strict=True))
             if any(t != 1 for t in times) and isinstance(entry.get("front"), list):
                 parts["front"] = [
-                    [_multiplied(x, t) for x, t in zip(row, times, strict=True)] for row in entry["front"]
+                    [x * t for x, t in zip(row, times, strict=False)] if len(row) == len(times) else row
+                    for row in entry["front"]
                 ]
         return parts
 
@@ -135,5 +143,6 @@ def _multiplied(entry: Any, times: float) -> Any:
     if times == 1:
         return entry
     if isinstance(entry, list):
-        return [_multiplied(each, times) for each in entry]
+        each = [_multiplied(x, times) for x in entry]
+        return each[::-1] if times < 0 else each  # bounds stay in order
     return entry * times + 0.0 if isinstance(entry, (int, float)) and not isinstance(entry, bool) else entry

@@ -546,7 +546,7 @@ ABSURD = {
         changed(work_with("front", to=[row] * 4000), "work", "angles", to=20_000), "4000 designs at 20000 angles each"
     ),
     "a long table": (
-        design_with("door_torque_table", to=[[i, 1] for i in range(6000)]), "of 6000 entries"
+        design_with("lift_load", "torque_table", to=[[i, 1] for i in range(6000)]), "of 6000 entries"
     ),
     "a program of 600 segments": (
         design_with("motion", "segments", of="program", to=[{"kind": "Dwell", "angle": 0.01}] * 600), "of 600 entries"
@@ -577,7 +577,7 @@ ABSURD = {
     "half a rotation": (design_with("rotation", of="program", to=1.0), "for 'rotation'; there are counter-cl"),
     "a groove of text": (design_with("groove", of="program", to="no"), "for 'groove'; there are groove, plate"),
     "a table of bare numbers": (
-        design_with("door_torque_table", to=[1.0, 2.0]), "a list of pairs of numbers"
+        design_with("lift_load", "torque_table", to=[1.0, 2.0]), "a list of pairs of numbers"
     ),
     "an angle of text": (
         design_with("motion", "segments", 1, "angle", of="program", to="12"), "for 'angle'; a number belongs"
@@ -898,7 +898,8 @@ def test_a_remark_shows_in_the_panel(page, monkeypatch, tmp_path):
     assert said(app) == f"The file is loaded, but {EDITED}."
     page.load_json((FILES / OLD[2]).read_bytes())
     assert len(page.front) == 20
-    assert said(page).startswith(f"The file is loaded, but {UNMARKED}; and it lacks 'methods' of the study")
+    assert said(page).startswith(f"The file is loaded, but {UNMARKED}; and friction is now friction.coefficient, ")
+    assert " and 9 names more are others; and it lacks 'methods' of the study" in said(page)
     app.load(DoorHandleCam())
 
 

@@ -102,7 +102,7 @@ def test_what_is_renamed_is_found_by_the_table_with_a_remark(monkeypatch, name, 
 
 def test_without_a_row_an_old_name_is_refused_by_name():
     old = text("sessions_0.1.0", "high_speed_shaped_laws").replace("max_radius", "largest_radius")
-    with pytest.raises(ValueError, match=r"'largest_radius \[mm\]', which a HighSpeedCam does not have"):
+    with pytest.raises(ValueError, match=r"'largest_radius \[mm\]', which a high speed cam does not have"):
         read(old)
 
 
@@ -118,7 +118,7 @@ def test_what_was_a_field_of_its_own_is_put_where_it_stands_today(monkeypatch):
     assert "closing law is now motion.return.law, spring is now load.spring rate" in found.remarks
     assert not any("lacks" in remark for remark in found.remarks)
     content["design"]["load.spring_rates [N/mm]"] = 7.5
-    with pytest.raises(ValueError, match=r"'load.spring_rates \[N/mm\]', which a TranslatingRollerCam does not have"):
+    with pytest.raises(ValueError, match=r"'load.spring_rates \[N/mm\]', which a slide load does not have"):
         read(json.dumps(content))
 
 
