@@ -17,8 +17,17 @@ from .cam.slide import SlideFriction, SlideLoad
 from .cam.translating_flat import TranslatingFlatCam
 from .cam.translating_roller import TranslatingRollerCam
 from .contact import line_contact
-from .decision.ahp import ahp, judgement_ranges, knee, most_isolated, topsis, weighted_sum, winner_map
-from .decision.summary import side_by_side
+from .decision import (
+    Judgements,
+    ahp,
+    judgement_ranges,
+    knee,
+    most_isolated,
+    side_by_side,
+    topsis,
+    weighted_sum,
+    winner_map,
+)
 from .files.designs import load, save
 from .files.profiles import profile_csv, profile_dxf
 from .linkage.load import RockerLoad
@@ -110,6 +119,7 @@ __all__ = [
     "GPa",
     "HighSpeedCam",
     "InertialSpringLoad",
+    "Judgements",
     "MPa",
     "Measure",
     "N",

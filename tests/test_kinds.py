@@ -41,7 +41,7 @@ from camkit import (
     UniversalJointShaft,
     cam_lever_study,
 )
-from camkit.decision.ahp import random_index
+from camkit.decision import random_index
 from camkit.machines.high_speed_study import peak_stress
 from camkit.machines.shaft import shaft_study
 from camkit.quantities import Choice, Quantity

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import camkit
-from camkit import Study
-from camkit.decision.summary import side_by_side
+from camkit import Judgements, Study
+from camkit.decision import side_by_side
 from camkit.files.profiles import table_csv
 from camkit.markup import Html, attribute, csv_cell, escaped, html, joined, markdown, table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
@@ -261,7 +261,7 @@ def test_the_explorer_and_what_belongs_to_it(explorer):
 
 def test_judgements_and_fronts(explorer, front, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook
-    judged = ahp_panel([EVIL, "b"], [3], EVIL)
+    judged = ahp_panel(Judgements([EVIL, "b"], [3]), EVIL)
     assert_panel_harmless(judged, 3)
     judged.boxes[0, 1].value = EVIL
     assert_panel_harmless(judged, 4)

@@ -16,7 +16,7 @@ import pytest
 from test_kinds import BAD, CLASSES, FUNCTIONS, NOT_MADE_BY_HAND, outcome
 
 import camkit
-from camkit import AnalysisCurve, Box, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
+from camkit import AnalysisCurve, Box, Judgements, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.render.picture import draw, layout
@@ -30,14 +30,13 @@ WINGS = [
     "panels",
     "search.competitive",
     "search.cycle_time",
-    "decision.ahp",
+    "decision",
     "search.front",
     "search.nsga2",
     "study.design_map",
     "render.picture",
     "search.polish",
     "machines.shaft",
-    "decision.summary",
     "study.sweep",
     "study.tolerances",
     "search.toolbox_genetic",
@@ -45,7 +44,7 @@ WINGS = [
     "papers.optimiser_trials",
 ]
 RESULTS = NOT_MADE_BY_HAND | {
-    *("Evaluation", "Generation", "IntervalStep", "Judgement", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
+    *("Evaluation", "Generation", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
     *("Polished", "Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
@@ -193,7 +192,7 @@ GOOD = {
     "generations": lambda: 1,
     "half_widths": lambda: {"base_radius": 0.0002},
     "head": lambda: ("law", "Cv"),
-    "judgements": lambda: [3],
+    "judgements": lambda: Judgements(("a", "b"), [3]),
     "k": lambda: 2,
     "laws": lambda: (camkit.Cycloidal(),),
     "limit": lambda: 1e6,

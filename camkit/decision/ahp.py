@@ -1,41 +1,31 @@
-"""From judgements to weights, and from a front to one design; and how sure that choice is.
-
-`ahp` is Saaty's analytic hierarchy process; not every pair needs to be judged.  The choosers take a front (anything
-with an ``f``, or the array itself: ``(p, k)``, every objective to be small) and return the index of the chosen design:
-one for weights ``(k,)``, an array ``(m,)`` for many at once ``(m, k)``.  `judgement_ranges` says how far each judgement
-may move before another design wins, `winner_map` which design wins at which weights.
-"""
+"""From pairwise judgements to weights: Saaty's analytic hierarchy process; not every pair needs to be judged."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from ..kinds import numbers, refuse_arguments, shown
+from ..kinds import listed, refuse_arguments, shown
 from ..quantities import counted
 from ..typed import typed_number
+from .weights import completed, judged_weights, lambda_max, refuse_method
 
 RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)
 """Saaty (1980): mean consistency index of random reciprocal matrices of order 1..10; `random_index` goes on."""
 
-LEAST_TOLD, MOST_TOLD = 1e-6, 1e6
+MIN_JUDGEMENT, MAX_JUDGEMENT = 1e-6, 1e6
 """Judgements beyond these are slips of the pen; Saaty's own scale ends at 1/9 and 9."""
 
 SAATY_SCALE = (*(1 / k for k in range(9, 1, -1)), *map(float, range(1, 10)))
 """The judgements that Saaty's scale knows, 1/9 .. 9."""
-
-ROUNDS, SETTLED = 1000, 1e-13
-"""How often missing judgements are improved at most, and by which share the last round may still move them."""
-
-SQUARINGS = 50
-"""How often a matrix is squared at most until its columns are its eigenvector."""
 
 ALIKE = 1e-9
 """Values of ``lambda_max`` that differ by less than this share are alike."""
@@ -55,28 +45,99 @@ def random_index(n: int) -> float:
 
 
 @dataclass(frozen=True)
-class Judgement:
-    """What follows from a matrix of pairwise judgements; unpacks as weights and consistency ratio.
+class Judgements:
+    """How many times each of ``names`` matters more than each other: pairwise judgements, and the weights they give.
 
-    ``matrix`` is ``nan`` where nobody has judged; ``completed`` holds there what contradicts the others least (see
-    `completed`).  ``note`` says which rounded reciprocals were read as exact ones.
+    ``matrix[i][j]`` says how many times the first, ``i``, matters more than the second.  Given is the reciprocal matrix
+    or what is above its diagonal, row by row; an entry is a number or text such as ``"1/3"``, and ``None`` (or ``nan``)
+    stands where nobody has judged.  Of a pair that is printed with rounded reciprocals, such as 3 and 0.33, the one
+    above 1 counts, and ``note`` says so.  ``method``: the weights are the principal eigenvector, ``"eigenvector"``
+    (Saaty 1980), or the geometric means of the rows, ``"geometric"`` (Crawford, Williams 1985).  Without names the
+    criteria are numbered.
+
+    >>> judgements = Judgements(("angle", "force", "torque"), [5, None, "1"])
+    >>> judgements.matrix[0], judgements.above, judgements.missing
+    ((1.0, 5.0, None), (5.0, None, 1.0), 1)
+    >>> (judgements.weights * 7).round(6).tolist()
+    [5.0, 1.0, 1.0]
+
+    Raises ``ValueError`` naming the entry that is not positive or not reciprocal, or the criteria that no judgement
+    connects.
     """
 
-    matrix: np.ndarray
-    completed: np.ndarray
-    weights: np.ndarray
-    lambda_max: float
-    note: str = ""
+    names: Sequence[str]
+    matrix: Any
+    method: str = "eigenvector"
+    note: str = field(default="", init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        matrix, note = _matrix(self.matrix)
+        names = listed(self.names, "the list of names", "criterion")
+        wrong = [name for name in names if not isinstance(name, str) or not name.strip()]
+        if wrong:
+            raise ValueError(f"the name of a criterion is {shown(wrong[0])}; it must be a text")
+        if names and len(names) != len(matrix):
+            raise ValueError(f"there are {len(matrix)} rows of judgements for {len(names)} criteria")
+        refuse_method(self.method)
+        rows = tuple(tuple(None if math.isnan(v) else v for v in row) for row in matrix.tolist())
+        object.__setattr__(self, "names", names or tuple(f"criterion {i + 1}" for i in range(len(matrix))))
+        object.__setattr__(self, "matrix", rows)
+        object.__setattr__(self, "note", note)
+
+    @cached_property
+    def array(self) -> np.ndarray:
+        """The matrix as an array ``(n, n)``, ``nan`` where nobody has judged."""
+        return np.array(self.matrix, dtype=float)
+
+    @property
+    def above(self) -> tuple[float | None, ...]:
+        """What is above the diagonal of the matrix, row by row."""
+        return tuple(self.matrix[i][j] for i, j in self.pairs)
+
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """The places in the matrix of what is `above` its diagonal."""
+        return list(combinations(range(len(self.matrix)), 2))
+
+    def judging(self, pair: tuple[int, int], value: Any) -> Judgements:
+        """The same judgements but for one pair; ``None`` leaves it open.
+
+        >>> Judgements(("a", "b"), [3]).judging((0, 1), "1/5").above
+        (0.2,)
+        """
+        refuse_arguments(Judgements.judging, locals())
+        if pair not in self.pairs:
+            raise ValueError(f"the pair is {shown(pair)}; there are {', '.join(map(str, self.pairs)) or 'none'}")
+        above = [value if p == pair else judged for p, judged in zip(self.pairs, self.above, strict=True)]
+        return replace(self, matrix=above)
+
+    def complete(self) -> Judgements:
+        """The same judgements, with those that are missing as they contradict the others least (see `completed`)."""
+        return replace(self, matrix=self._completed)
+
+    @cached_property
+    def _completed(self) -> np.ndarray:
+        return completed(self.array)
+
+    @cached_property
+    def weights(self) -> np.ndarray:
+        """The weights of the criteria, ``(n,)``; they add to 1."""
+        return judged_weights(self._completed, self.method)
+
+    @cached_property
+    def lambda_max(self) -> float:
+        """The largest eigenvalue of the matrix; ``n`` for judgements without contradiction."""
+        return float(lambda_max(self._completed))
 
     @property
     def missing(self) -> int:
         """How many pairs nobody has judged."""
-        return int(np.isnan(self.matrix).sum()) // 2
+        return self.above.count(None)
 
     @property
     def consistency_index(self) -> float:
         """``(lambda_max - n) / (n - 1)``; 0 for judgements without contradiction."""
-        n = len(self.weights)
+        n = len(self.matrix)
         return max((self.lambda_max - n) / (n - 1), 0.0) if n > 1 else 0.0
 
     @property
@@ -86,7 +147,7 @@ class Judgement:
         Fewer judgements contradict each other less, even at random: with ``m`` pairs missing the random index is
         ``1 - 2 m / ((n - 1) (n - 2))`` of the full one (Agoston, Csato 2022).
         """
-        n = len(self.weights)
+        n = len(self.matrix)
         random = random_index(n) * (1 - 2 * self.missing / ((n - 1) * (n - 2)) if n > 2 else 0)
         return self.consistency_index / random if random > 1e-9 else 0.0
 
@@ -101,11 +162,11 @@ class Judgement:
         >>> {pair: round(implied, 6) for pair, implied in ahp([9, 1 / 9, 9]).worst.items()}
         {(0, 1): 0.012346, (0, 2): 81.0, (1, 2): 0.012346}
         """
-        pairs = [pair for pair in combinations(range(len(self.matrix)), 2) if _spared(self.matrix, pair)]
+        pairs = [pair for pair in self.pairs if _redundant(self.array, pair)]
         if not pairs:
             return {}
-        others = completed(np.stack([_unjudged(self.matrix, pair) for pair in pairs]))
-        left = _lambda_max(others)
+        others = completed(np.stack([_unjudged(self.array, pair) for pair in pairs]))
+        left = lambda_max(others)
         return {
             pair: float(full[pair])
             for pair, full, value in zip(pairs, others, left, strict=True)
@@ -113,40 +174,29 @@ class Judgement:
         }
 
     def __iter__(self) -> Iterator[Any]:
+        """Unpacks as weights and consistency ratio."""
         return iter((self.weights, self.consistency_ratio))
 
 
-def judgement_matrix(judgements: Any) -> np.ndarray:
-    """The reciprocal matrix from itself or from its upper triangle, read row by row.
-
-    An entry is a number or text such as ``"1/3"``; ``None`` or ``nan`` stands where nobody has judged.  Of a pair
-    that is printed with rounded reciprocals, such as 3 and 0.33, the one above 1 counts.
-
-    >>> judgement_matrix([4, 3, 1 / 2]).tolist()
-    [[1.0, 4.0, 3.0], [0.25, 1.0, 0.5], [0.3333333333333333, 2.0, 1.0]]
-    >>> judgement_matrix(["4", None, "1/2"])[0].tolist()
-    [1.0, 4.0, nan]
-    >>> judgement_matrix([[1, 3], [0.33, 1]]).tolist()
-    [[1.0, 3.0], [0.3333333333333333, 1.0]]
-
-    Raises ``ValueError`` naming the entry that is not positive or not reciprocal, or the criteria that no judgement
-    connects.
-    """
-    return _read(judgements)[0]
-
-
-def _read(judgements: Any) -> tuple[np.ndarray, str]:
+def _matrix(judgements: Any) -> tuple[np.ndarray, str]:
     """The reciprocal matrix, and a note on the rounded reciprocals in it."""
-    told = _entries(judgements)
-    a = _from_upper(told) if told.ndim == 1 else told
+    given = _entries(judgements)
+    a = _from_above(given) if given.ndim == 1 else given
     if a.ndim != 2 or a.shape[0] != a.shape[1]:
         raise ValueError(f"the judgements have the shape {a.shape}; they must be a square matrix")
     with np.errstate(divide="ignore", over="ignore"):
         a = np.where(np.isnan(a), np.where(np.eye(len(a), dtype=bool), 1, 1 / a.T), a)
-    for i, j in np.argwhere(~(np.isnan(a) | ((a >= LEAST_TOLD) & (a <= MOST_TOLD)))):
+    for i, j in np.argwhere(~(np.isnan(a) | ((a >= MIN_JUDGEMENT) & (a <= MAX_JUDGEMENT)))):
         possible = 0 < a[i, j] < math.inf
-        must = f"nobody tells apart more than {MOST_TOLD:g} to 1" if possible else "it must be a positive number"
+        must = f"nobody tells apart more than {MAX_JUDGEMENT:g} to 1" if possible else "it must be a positive number"
         raise ValueError(f"judgement ({i + 1}, {j + 1}) is {a[i, j]:g}; {must}")
+    rounded = _exact_reciprocals(a)
+    _refuse_gaps(a)
+    return a, f"rounded reciprocals are read as exact ones: {', '.join(dict.fromkeys(rounded))}" if rounded else ""
+
+
+def _exact_reciprocals(a: np.ndarray) -> list[str]:
+    """Make rounded reciprocals in ``a`` exact, and say which; refuse what is no reciprocal."""
     rounded = []
     for i, j in np.argwhere(np.triu(abs(a * a.T - 1) > 1e-6)):
         more, less = max(a[i, j], a[j, i]), min(a[i, j], a[j, i])
@@ -157,8 +207,7 @@ def _read(judgements: Any) -> tuple[np.ndarray, str]:
             )
         rounded.append(f"{less:g} as 1/{more:g}")
         a[i, j], a[j, i] = (more, 1 / more) if a[i, j] == more else (1 / more, more)
-    _refuse_gaps(a)
-    return a, f"rounded reciprocals are read as exact ones: {', '.join(dict.fromkeys(rounded))}" if rounded else ""
+    return rounded
 
 
 ONE_OVER_THE_OTHER = "one must be 1 over the other (text such as '1/3' is exact, None leaves a place open)"
@@ -166,19 +215,19 @@ ONE_OVER_THE_OTHER = "one must be 1 over the other (text such as '1/3' is exact,
 
 def _entries(judgements: Any) -> np.ndarray:
     """Judgements as numbers, ``nan`` for none."""
-    wrong = "the judgements must be a square matrix of numbers or its upper triangle"
+    wrong = "the judgements must be a square matrix of numbers, or what is above its diagonal"
     try:
-        told = np.array(judgements, dtype=object)
+        given = np.array(judgements, dtype=object)
     except ValueError:
         raise ValueError(wrong) from None
-    if not told.ndim:
+    if not given.ndim:
         raise ValueError(wrong)
-    if not told.size:
+    if not given.size:
         raise ValueError("there are no judgements; those of a single criterion are [[1]]")
-    return np.array([_told(entry, wrong) for entry in told.flat]).reshape(told.shape)
+    return np.array([_entry(entry, wrong) for entry in given.flat]).reshape(given.shape)
 
 
-def _told(entry: Any, wrong: str) -> float:
+def _entry(entry: Any, wrong: str) -> float:
     if entry is None:
         return math.nan
     if isinstance(entry, str):
@@ -237,7 +286,7 @@ def _unjudged(a: np.ndarray, pair: tuple[int, int]) -> np.ndarray:
     return without
 
 
-def _spared(a: np.ndarray, pair: tuple[int, int]) -> bool:
+def _redundant(a: np.ndarray, pair: tuple[int, int]) -> bool:
     """Whether a pair is judged and all criteria are connected without that judgement too."""
     return not np.isnan(a[pair]) and _groups(_unjudged(a, pair))[0] == 1
 
@@ -250,419 +299,33 @@ def _refuse_gaps(a: np.ndarray) -> None:
         raise ValueError(f"no judgement connects criterion {first} with criterion {rest}; judge one such pair")
 
 
-def _from_upper(values: np.ndarray) -> np.ndarray:
+def _from_above(values: np.ndarray) -> np.ndarray:
     n = round((1 + np.sqrt(1 + 8 * len(values))) / 2)
     if n * (n - 1) // 2 != len(values):
-        raise ValueError(f"{len(values)} judgements are no upper triangle; 1, 3, 6, 10, ... are")
+        raise ValueError(
+            f"{len(values)} judgements are not what is above the diagonal of a matrix; 1, 3, 6, 10, ... are"
+        )
     a = np.full((n, n), np.nan)
     a[np.triu_indices(n, 1)] = values
     np.fill_diagonal(a, 1)
     return a
 
 
-def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
-    """Weights ``(..., n)`` of reciprocal matrices ``(..., n, n)``, `completed` where nobody has judged.
+def ahp(judgements: Any, method: str | None = None) -> Judgements:
+    """Pairwise judgements with their weights and consistency (Saaty 1980); unpacks as weights and consistency ratio.
 
-    ``"eigenvector"``: the principal eigenvector (Saaty 1980).  ``"geometric"``: the geometric means of the rows
-    (Crawford, Williams 1985).
-    """
-    if not isinstance(method, str) or method not in METHODS:
-        raise ValueError(f"the method is {shown(method)}; there are {' and '.join(map(repr, METHODS))}")
-    w = METHODS[method](completed(matrices))
-    return np.asarray(w / w.sum(-1, keepdims=True))
-
-
-def completed(matrices: Any) -> np.ndarray:
-    """Reciprocal matrices ``(..., n, n)`` with the missing judgements (``nan``) that contradict the others least.
-
-    They are those with the least ``lambda_max`` (Bozoki, Fulop, Ronyai 2010: there is one such completion).  With the
-    eigenvectors ``x`` of the matrix and ``y`` of its transpose ``lambda_max`` does not change with ``a_ij`` where
-    ``y_i a_ij x_j = y_j a_ji x_i``; each round puts that ``a_ij`` in.
-
-    >>> completed([[1, 5, np.nan], [1 / 5, 1, 1], [np.nan, 1, 1]]).round(9)[0].tolist()
-    [1.0, 5.0, 5.0]
-    """
-    must = "the judgements must be square matrices of numbers"
-    a = _numbers(matrices, must)
-    if not a.ndim:
-        raise ValueError(must)
-    if a.ndim < 2 or a.shape[-1] != a.shape[-2] or not a.size:
-        raise ValueError(f"the judgements have the shape {a.shape}; they must be square matrices")
-    known = ~np.isnan(a)
-    if known.all():
-        return a
-    full = np.where(known, a, _consistent(a, known))
-    open_ = np.arange(full[..., 0, 0].size)
-    flat, fixed = full.reshape(-1, *full.shape[-2:]), known.reshape(-1, *full.shape[-2:])
-    for _ in range(ROUNDS):
-        x, y = _eigenvectors(flat[open_])
-        level = np.sqrt(x[:, :, None] * y[:, None, :] / (x[:, None, :] * y[:, :, None]))
-        before = flat[open_]
-        flat[open_] = now = np.where(fixed[open_], before, level)
-        # A matrix that has settled needs no further round.
-        open_ = open_[(abs(now - before) > SETTLED * before).any((-2, -1))]
-        if not open_.size:
-            break
-    return flat.reshape(full.shape)
-
-
-def _consistent(a: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Ratios of weights that come nearest to the judgements that there are, in the squares of their logarithms."""
-    n = a.shape[-1]
-    laplacian = known.sum(-1)[..., None] * np.eye(n) - known
-    said = np.log(np.where(known, a, 1)).sum(-1)
-    # The weights' scale is free; a mean logarithm of 0 fixes it.
-    logs = np.linalg.solve(laplacian + 1 / n, said[..., None])
-    return np.asarray(np.exp(logs - np.swapaxes(logs, -1, -2)))
-
-
-def _eigenvectors(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Principal eigenvectors ``(..., n)`` of positive matrices ``(..., n, n)`` and of their transposes.
-
-    The columns of a high power of a matrix are its eigenvector, the rows that of its transpose.  All numbers are
-    positive, so nothing cancels; for thousands of small matrices at once this is 20 times as fast as LAPACK.
-    """
-    power = a / a.max((-2, -1), keepdims=True)
-    for _ in range(SQUARINGS):
-        before, power = power, power @ power
-        power /= power.max((-2, -1), keepdims=True)
-        # The error is squared in every round, so it is gone in the round after one that changes this little.
-        if (abs(power - before) <= 1e-9 * power).all():
-            break
-    return power.sum(-1), power.sum(-2)
-
-
-def _eigenvector(a: np.ndarray) -> np.ndarray:
-    return _eigenvectors(a)[0]
-
-
-def _lambda_max(a: np.ndarray) -> np.ndarray:
-    """The largest eigenvalue ``(...)`` of positive matrices ``(..., n, n)``."""
-    x = _eigenvector(a)[..., None]
-    return np.asarray((a @ x / x).mean((-2, -1)))
-
-
-def _geometric(a: np.ndarray) -> np.ndarray:
-    return np.asarray(np.exp(np.log(a).mean(-1)))
-
-
-METHODS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
-    "eigenvector": _eigenvector,
-    "geometric": _geometric,
-}
-"""Ways from judgements to weights, by name."""
-
-
-def ahp(judgements: Any, method: str = "eigenvector") -> Judgement:
-    """Weights and consistency of pairwise judgements (Saaty 1980).
-
-    ``judgements[i][j]`` says how many times criterion ``i`` matters more than ``j``; a reciprocal matrix, or its
-    upper triangle row by row, with ``None`` where nobody has judged (see `judgement_matrix`).  ``method``:
-    ``"eigenvector"`` (principal eigenvector) or ``"geometric"`` (row geometric means); see `judged_weights`.
+    ``judgements`` are `Judgements`, or a reciprocal matrix or what is above its diagonal, whose criteria have no names.
+    ``method``: ``"eigenvector"`` (unless said otherwise) or ``"geometric"``, see `Judgements`.
 
     >>> weights, ratio = ahp([[1, 5, 5], [1 / 5, 1, 1], [1 / 5, 1, 1]])
     >>> (weights * 7).round(6).tolist(), round(ratio, 6)
     ([5.0, 1.0, 1.0], 0.0)
-    >>> (ahp([5, None, 1]).weights * 7).round(6).tolist()
-    [5.0, 1.0, 1.0]
     >>> print(ahp([[1, 3], [0.33, 1]]).note)
     rounded reciprocals are read as exact ones: 0.33 as 1/3
 
     Raises ``ValueError`` for a matrix that is not square, positive and reciprocal, naming the entry, and for criteria
     that no judgement connects.
     """
-    a, note = _read(judgements)
-    full = completed(a)
-    return Judgement(a, full, judged_weights(full, method), float(_lambda_max(full)), note)
-
-
-def _numbers(value: Any, must: str) -> np.ndarray:
-    """An array of numbers, refused with a sentence where it is none."""
-    try:
-        return numbers(value, "all")
-    except ValueError:
-        raise ValueError(must) from None
-
-
-def _objectives(front: Any) -> np.ndarray:
-    f = _numbers(getattr(front, "f", front), "the front must be a table of numbers, a row for each design")
-    if not f.size:
-        raise ValueError("the front is empty; there is no design to choose")
-    if f.ndim != 2:
-        raise ValueError(f"the front has the shape {f.shape}; it must be a table, a row for each design")
-    if not np.isfinite(f).all():
-        raise ValueError("the front has an objective that is not a finite number")
-    return f
-
-
-def _weights(weights: Any, k: int) -> np.ndarray:
-    must = f"the weights are {shown(weights)}; they must be numbers"
-    w = np.full(k, 1 / k) if weights is None else _numbers(weights, must)
-    if w.ndim not in (1, 2) or w.shape[-1] != k:
-        raise ValueError(f"there are {w.shape[-1] if w.ndim else 1} weights for {k} objectives")
-    if not (np.isfinite(w).all() and (w >= 0).all() and (w.sum(-1) > 0).all()):
-        raise ValueError("the weights must be finite, none negative, not all 0")
-    return w / w.sum(-1, keepdims=True)
-
-
-def _chosen(merit: np.ndarray) -> Any:
-    """The index of the largest merit, for each set of weights."""
-    best = np.argmax(merit, axis=-1)
-    return best if best.ndim else int(best)
-
-
-def _whatever_the_weights(index: int, weights: Any, k: int) -> Any:
-    """The same design for every set of weights."""
-    return index if _weights(weights, k).ndim == 1 else np.full(len(weights), index)
-
-
-def normalised(f: Any) -> np.ndarray:
-    """Objectives scaled to 0 (best of the front) .. 1 (worst)."""
-    f = _of_size_one(_objectives(f))
-    span = np.ptp(f, axis=0)
-    return np.asarray((f - f.min(axis=0)) / np.where(span > 0, span, 1))
-
-
-def _of_size_one(f: np.ndarray) -> np.ndarray:
-    """Each objective divided by a power of two, which rounds nothing, so that no square or difference overflows."""
-    return np.asarray(np.ldexp(f, -np.frexp(abs(f).max(axis=0))[1]))
-
-
-def _of_length_one(f: Any) -> np.ndarray:
-    """Each objective as a vector over the designs, divided by its length."""
-    f = _of_size_one(_objectives(f))
-    length = np.sqrt((f**2).sum(axis=0))
-    return np.asarray(f / np.where(length > 0, length, 1))
-
-
-def weighted_sum(front: Any, weights: Any = None) -> Any:
-    """The design with the least weighted sum of normalised objectives.
-
-    >>> weighted_sum([[0, 1], [0.2, 0.2], [1, 0]])
-    1
-    >>> weighted_sum([[0, 1], [0.2, 0.2], [1, 0]], [[1, 9], [1, 1], [9, 1]]).tolist()
-    [2, 1, 0]
-    """
-    f = _objectives(front)
-    return _chosen(-_weights(weights, f.shape[1]) @ normalised(f).T)
-
-
-SCALES: dict[str, Callable[[Any], np.ndarray]] = {"vector": _of_length_one, "range": normalised}
-"""Ways to make objectives comparable, by name."""
-
-
-def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
-    """The design nearest the ideal and farthest from the worst (Hwang, Yoon 1981).
-
-    ``scale`` makes the objectives comparable: ``"vector"``, Hwang and Yoon's own way, divides each by its length as a
-    vector over all designs; ``"range"`` scales each to 0 .. 1 over the front, as the `weighted_sum` does.  They may
-    choose differently: a wish in which the designs hardly differ, measured by its size, counts less by the vector.
-
-    >>> three = [[0.1, 0.9], [0.5, 0.7], [0.9, 0.6]]
-    >>> topsis(three, [1, 2]), topsis(three, [1, 2], scale="range")
-    (0, 2)
-
-    Raises ``ValueError`` for a scale of another name.
-    """
-    if not isinstance(scale, str) or scale not in SCALES:
-        raise ValueError(f"the scale is {shown(scale)}; there are {' and '.join(map(repr, SCALES))}")
-    f = _objectives(front)
-    y, squares = SCALES[scale](f), _weights(weights, f.shape[1]) ** 2
-    to_best, to_worst = (np.sqrt(squares @ ((y - end) ** 2).T) for end in (y.min(axis=0), y.max(axis=0)))
-    total = to_best + to_worst
-    return _chosen(np.divide(to_worst, total, out=np.ones_like(total), where=total > 0))
-
-
-def knee(front: Any, weights: Any = None) -> Any:
-    """The design farthest from the plane through the best of each objective, towards the ideal (Das 1999).
-
-    Beyond it a little more of one wish costs much of another.  Objectives are normalised.  Of two objectives the plane
-    is the line between the front's ends, and the knee is where a weighted sum with equal weights is least.  Where the
-    best designs are no corners of a plane that faces the ideal, the plane meets every axis at 1.  ``weights`` are not
-    used; they are there so that every chooser is called alike.
-
-    >>> knee([[0, 1], [0.1, 0.3], [0.5, 0.2], [1, 0]])
-    1
-    """
-    f = _objectives(front)
-    y = normalised(f)
-    corners = y[np.argmin(y, axis=0)]
-    normal = np.ones(len(corners))
-    if np.linalg.matrix_rank(corners) == len(corners):
-        through = np.linalg.solve(corners, normal)
-        normal = through if (through > 0).all() else normal
-    return _whatever_the_weights(int(np.argmin(y @ normal)), weights, f.shape[1])
-
-
-def crowding_distance(f: Any) -> np.ndarray:
-    """Crowding distance of each member of a front, ``inf`` at the ends (Deb et al. 2002)."""
-    y = normalised(f)
-    distance = np.zeros(len(y))
-    for column in y.T:
-        order = np.argsort(column, kind="stable")
-        sorted_ = column[order]
-        distance[order[[0, -1]]] = np.inf
-        distance[order[1:-1]] += sorted_[2:] - sorted_[:-2]
-    return distance
-
-
-def most_isolated(front: Any, weights: Any = None) -> Any:
-    """The inner design that stands most alone on the front, the way in which the door-handle paper chooses.
-
-    ``weights`` are not used; they are there so that every chooser is called alike.
-
-    >>> most_isolated([[0, 1], [0.1, 0.8], [0.5, 0.2], [1, 0]])
-    2
-    """
-    f = _objectives(front)
-    distance = crowding_distance(f)
-    inner = np.isfinite(distance)
-    alone = int(np.argmax(np.where(inner, distance, -1))) if inner.any() else 0
-    return _whatever_the_weights(alone, weights, f.shape[1])
-
-
-CHOOSERS = {"crowding distance": most_isolated, "weighted sum": weighted_sum, "TOPSIS": topsis, "knee": knee}
-"""The ways to choose, by the name that a menu shows."""
-
-WEIGHING = ("weighted sum", "TOPSIS")
-"""Those of them that ask for weights."""
-
-
-# ---------------------------------------------------------------- how sure a choice is
-
-Chooser = Callable[[Any, Any], Any]
-
-LEAST, MOST = SAATY_SCALE[0], SAATY_SCALE[-1]
-STEPS = 100
-"""Steps from a judgement to either end of Saaty's scale, looked at for another winner."""
-PARTS = (STEPS, *[8] * 10)
-"""Into how many the way is parted, then the step in which the winner changes: to better than 1e-10 of the judgement."""
-
-
-@dataclass(frozen=True)
-class JudgementRange:
-    """How far one judgement may move, all others staying, before another design wins.
-
-    The winner stays while the judgement of criteria ``pair`` is between ``low`` and ``high``; ``below`` and ``above``
-    are the designs that win beyond them, ``None`` where the winner stays to the end of Saaty's scale, 1/9 or 9.
-    ``judged`` is the judgement now; where nobody has judged, what the others imply.
-    """
-
-    pair: tuple[int, int]
-    judged: float
-    low: float
-    high: float
-    below: int | None
-    above: int | None
-
-
-def _refuse_no_rule(choose: Any) -> None:
-    if not callable(choose):
-        raise ValueError(f"the rule is {choose!r}; it must be weighted_sum, topsis, knee, crowding or one like them")
-
-
-def judgement_ranges(
-    front: Any, judgements: Any, choose: Chooser = weighted_sum, method: str = "eigenvector"
-) -> tuple[JudgementRange, ...]:
-    """How far each judgement of the objectives may move before ``choose`` takes another design.
-
-    Each judgement is moved by itself on the continuous scale 1/9 .. 9, in even steps of its logarithm; the step in
-    which the winner changes is then parted again and again.  A design that wins for less than a step (1/100 of the
-    way to the scale's end) may be passed over.
-
-    >>> two = judgement_ranges([[0, 1], [0.2, 0.2], [1, 0]], [1])[0]  # 0.2 w1 + 0.2 w2 < w2 where w1 < 4 w2
-    >>> two.pair, round(two.low, 6), round(two.high, 6), two.below, two.above
-    ((0, 1), 0.25, 4.0, 2, 0)
-
-    Raises ``ValueError`` if there are not as many criteria as objectives.
-    """
-    _refuse_no_rule(choose)
-    front = _objectives(front)
-    judged = ahp(judgements, method)
-    winner = choose(front, judged.weights)
-    pairs = list(combinations(range(len(judged.weights)), 2))
-    if not pairs:
-        return ()
-    now = np.array([judged.completed[pair] for pair in pairs])
-    ends = np.stack([np.minimum(now, LEAST), np.maximum(now, MOST)], axis=-1)
-
-    def winners(values: np.ndarray) -> np.ndarray:
-        """Who wins when each pair is judged ``values``, ``(pairs, 2, m)``."""
-        weights = judged_weights(_rejudged(judged.matrix, pairs, values), method)
-        return np.reshape(choose(front, weights.reshape(-1, weights.shape[-1])), values.shape)
-
-    stays, goes = np.broadcast_to(now[:, None, None], (*ends.shape, 1)), ends[..., None]
-    changes = np.zeros(ends.shape, dtype=bool)
-    for parts in PARTS:
-        share = np.linspace(0, 1, parts + 1)
-        values = stays ** (1 - share) * goes**share
-        others = winners(values) != winner
-        changes = changes | others.any(-1)
-        first = np.maximum(np.argmax(others, axis=-1), 1)[..., None]
-        stays, goes = (np.take_along_axis(values, first - back, axis=-1) for back in (1, 0))
-    next_ = winners(goes)[..., 0]
-    far = np.where(changes, stays[..., 0], ends)
-    return tuple(
-        JudgementRange(
-            pair, float(v), float(low), float(high), *(int(n) if c else None for n, c in zip(n2, c2, strict=True))
-        )
-        for pair, v, (low, high), n2, c2 in zip(pairs, now, far, next_, changes, strict=True)
-    )
-
-
-def _rejudged(matrix: np.ndarray, pairs: list[tuple[int, int]], values: np.ndarray) -> np.ndarray:
-    """The matrix once for each value, ``(pairs, 2, m, n, n)``, in which only that pair is judged anew."""
-    many = np.broadcast_to(matrix, (*values.shape, *matrix.shape)).copy()
-    k, (i, j) = np.arange(len(pairs)), np.transpose(pairs)
-    many[k, :, :, i, j], many[k, :, :, j, i] = values, 1 / values
-    return many
-
-
-MOST_WEIGHTINGS = 10**6
-"""More weightings than these are not listed."""
-
-
-def weight_lattice(k: int, steps: int) -> np.ndarray:
-    """All weights of ``k`` objectives that are multiples of ``1 / steps`` and add to 1, ``(m, k)``.
-
-    >>> weight_lattice(2, 2).tolist()
-    [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
-    """
-    k, steps = counted(k, "objectives", 1), counted(steps, "steps", 1)
-    if max(k, steps) > MOST_WEIGHTINGS or math.comb(steps + k - 1, k - 1) > MOST_WEIGHTINGS:
-        raise ValueError(f"{steps} steps of {k} weights make more than {MOST_WEIGHTINGS:g} weightings; take fewer")
-    # Stars and bars: k - 1 bars among the steps part them into k weights.
-    places = steps + k - 1
-    bars = np.array(list(combinations(range(places), k - 1)), dtype=int).reshape(math.comb(places, k - 1), k - 1)
-    return (np.diff(bars, axis=1, prepend=-1, append=places) - 1) / steps
-
-
-@dataclass(frozen=True)
-class WinnerMap:
-    """Which design wins at which weights: ``weights`` ``(m, k)``, evenly spread, and ``winners`` ``(m,)``."""
-
-    weights: np.ndarray
-    winners: np.ndarray
-
-    @property
-    def shares(self) -> dict[int, float]:
-        """The share of all weights at which each design wins, the largest first."""
-        designs, counts = np.unique(self.winners, return_counts=True)
-        order = np.argsort(-counts, kind="stable")
-        return {int(designs[i]): float(counts[i] / len(self.winners)) for i in order}
-
-
-LATTICE = {1: 1, 2: 1000, 3: 60, 4: 20, 5: 12}
-"""Steps of a `winner_map` for so many objectives; 8 for more."""
-
-
-def winner_map(front: Any, choose: Chooser = weighted_sum) -> WinnerMap:
-    """Who wins at every set of weights, on an even lattice of them.
-
-    >>> {design: round(share, 2) for design, share in winner_map([[0, 1], [0.2, 0.2], [1, 0]]).shares.items()}
-    {1: 0.6, 0: 0.2, 2: 0.2}
-    """
-    _refuse_no_rule(choose)
-    k = _objectives(front).shape[1]
-    weights = weight_lattice(k, LATTICE.get(k, 8))
-    return WinnerMap(weights, np.asarray(choose(front, weights)))
+    if isinstance(judgements, Judgements):
+        return judgements if method is None else replace(judgements, method=method)
+    return Judgements((), judgements, "eigenvector" if method is None else method)

@@ -12,15 +12,13 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import kinds
-from ..decision.ahp import METHODS, judgement_matrix, typed_judgement
-from ..kinds import one_number
+from ..decision import Judgements
 from ..quantities import Design, Measure, quantities_of, words
 from ..search.front import Front, front_of
 from ..study.study import Study, WeightedSum, weighted
@@ -49,16 +47,14 @@ class Work:
 
     study: Study
     design: Any
-    judgements: Mapping[str, Any] = field(default_factory=dict)
-    """Upper triangles of judgement matrices by name; ``None`` for a judgement that was not made."""
+    judgements: Mapping[str, Judgements] = field(default_factory=dict)
+    """By what they judge, such as ``"importance"`` of the objectives."""
     search: Mapping[str, Any] = field(default_factory=dict)
     """Population, generations, seed, mode and rule (entries of menus) of the search that found ``x``."""
     x: Any = ()
     """Free values of the front's designs, ``(p, n_free)``, SI."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """How the front was found: population, generations, seed, seconds, versions; empty if nobody wrote it down."""
-    methods: Mapping[str, str] = field(default_factory=dict)
-    """How weights follow from each of the judgements: ``"eigenvector"`` (unless said otherwise) or ``"geometric"``."""
 
 
 @dataclass(frozen=True)
@@ -212,14 +208,13 @@ DEFAULTS: dict[str, Any] = {
     "front": [],
     "record": {},
     "judgements": {},
-    "methods": {},
     "search": {},
 }
 """What a study is read with where its file says nothing."""
 QUIETLY = {"sums", "made", "record"}
 """Which of them are no matter for a remark: a file has them only where there is something to say."""
 HELD = {
-    "work": {"start", "free", "minimise", "design", *DEFAULTS},
+    "work": {"start", "free", "minimise", "design", "methods", *DEFAULTS},
     "front": {"start", "free", "minimise", "front", "record", "message", *STUDY},
 }
 
@@ -230,8 +225,7 @@ def _work_entry(work: Work) -> dict[str, Any]:
     return {
         **_study_entry(work.study),
         "design": entry_of(work.design),
-        "judgements": {name: _judgements_entry(matrix) for name, matrix in work.judgements.items()},
-        "methods": dict(work.methods),
+        "judgements": {name: _judgements_entry(name, judged) for name, judged in work.judgements.items()},
         "search": {name: entry_of(value) for name, value in work.search.items()},
         "front": _rows(work.study, work.x),
         "record": _record_entry(work.record),
@@ -277,14 +271,10 @@ def _record_entry(record: Mapping[str, Any]) -> dict[str, Any]:
     return {k: dict(v) if isinstance(v, Mapping) else entry_of(v) for k, v in record.items()}
 
 
-def _judgements_entry(matrix: Any) -> Any:
-    """A matrix or its upper triangle, of numbers or text such as ``"1/3"``; ``None`` where there is no judgement."""
-    if isinstance(matrix, (list, tuple, np.ndarray)):
-        return [_judgements_entry(value) for value in matrix]
-    told = typed_judgement(matrix) if isinstance(matrix, str) else matrix
-    told = float(told) if isinstance(told, Fraction) else told
-    known = told is not None and one_number(told, "a judgement", "be a number, a text such as '1/3', or None")
-    return None if told is None or np.isnan(known) else entry_of(told)
+def _judgements_entry(name: str, judgements: Any) -> dict[str, Any]:
+    if not isinstance(judgements, Judgements):
+        raise ValueError(f"the {name} is {kinds.shown(judgements)}; it must be Judgements")
+    return {"names": list(judgements.names), "above": list(judgements.above), "method": judgements.method}
 
 
 def _entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
@@ -295,8 +285,7 @@ def _entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
     for lacking in ("start", "free", "minimise"):
         if lacking not in given:
             raise ValueError(f"the file is damaged: it lacks {lacking!r} of the study")
-    quiet = QUIETLY | (set() if given.get("judgements") else {"methods"})
-    reading.missing.extend(f"{name!r} of the study" for name in DEFAULTS if name in known - given.keys() - quiet)
+    reading.missing.extend(f"{name!r} of the study" for name in DEFAULTS if name in known - given.keys() - QUIETLY)
     if held == "work" and "design" not in given:
         reading.missing.append("'design' of the study")
     return DEFAULTS | given
@@ -308,13 +297,12 @@ def _work(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure
     design = reading.thing(entry["design"], type(study.start)) if "design" in entry else study.start
     if not isinstance(design, type(study.start)):
         raise ValueError("the file is damaged: its design is of another kind than its start")
-    judgements = {_plain(n): _judged(n, m) for n, m in _mapping(entry["judgements"], "judgements").items()}
-    methods = _mapping(entry["methods"], "methods")
-    for name, method in methods.items():
-        if name not in judgements or not isinstance(method, str) or method not in METHODS:
-            raise ValueError(f"the file says {shown(method)} for the method of {shown(name)}; that is no such method")
+    methods = _mapping(entry.get("methods", {}), "methods")  # in files of 0.1.0, beside lists without names
+    judgements = {
+        _plain(n): _judged(n, m, methods.get(n)) for n, m in _mapping(entry["judgements"], "judgements").items()
+    }
     search = {name: _setting(name, value) for name, value in _mapping(entry["search"], "search").items()}
-    return Work(study, design, judgements, search, _x(entry["front"], study), _record(entry["record"]), methods)
+    return Work(study, design, judgements, search, _x(entry["front"], study), _record(entry["record"]))
 
 
 def _study(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure]) -> Study:
@@ -543,17 +531,20 @@ def _setting(name: str, value: Any) -> Any:
     return _plain(value)
 
 
-def _judged(name: str, entry: Any) -> tuple[Any, ...]:
-    """Judgements that make a matrix."""
-    rows = _listed(entry, name)
+def _judged(name: str, entry: Any, method: Any = None) -> Judgements:
+    """Judgements; in a file of 0.1.0 a matrix or what is above its diagonal, and its ``method`` if that is known."""
+    if isinstance(entry, list):
+        entry = {"names": [], "above": entry, "method": "eigenvector" if method is None else method}
+    if not isinstance(entry, dict) or entry.keys() != {"names", "above", "method"}:
+        raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}, where judgements belong")
+    rows = _listed(entry["above"], name)
     flat = [value for row in rows for value in (_listed(row, name) if isinstance(row, list) else [row])]
     if len(flat) > MOST_ROWS or not all(value is None or is_number(value) for value in flat):
-        raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}, where numbers belong")
-    sizes = {len(row) if isinstance(row, list) else 0 for row in rows}
-    if sizes - {0} and (sizes != {len(rows)} or len(rows) < 2):
-        raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}; a matrix is square")
-    judgement_matrix(rows or [[1]])
-    return tuple(tuple(row) if isinstance(row, list) else row for row in rows)
+        raise ValueError(f"the file says {shown(rows)} for the judgements of {shown(name)}, where numbers belong")
+    try:
+        return Judgements(_listed(entry["names"], name), rows or [[1]], entry["method"])
+    except ValueError as refusal:
+        raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
 
 
 def _record(entry: Any) -> dict[str, Any]:

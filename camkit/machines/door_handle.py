@@ -31,6 +31,7 @@ from ..cam.measures import (
     worst,
 )
 from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from ..decision import Judgements
 from ..geometry import Body, angle_opposite, rotated
 from ..kinds import listed, refuse_arguments
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
@@ -338,8 +339,8 @@ def _behind(first: np.ndarray, second: np.ndarray, points: bool = False) -> np.n
     return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in (first, second)], axis=-1)
 
 
-PAPER_JUDGEMENTS = ((1, 5, 5), (1 / 5, 1, 1), (1 / 5, 1, 1))
-"""The paper's AHP judgements among pressure angle, force and torque."""
+PAPER_JUDGEMENTS = Judgements(("pressure angle", "contact force", "cam torque"), (5, 5, 1))
+"""The paper's AHP judgements."""
 
 DOOR_HANDLE_SPACE = {
     "lift_arm": (40 * mm, 60 * mm),

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
 from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
-from ..decision.ahp import SAATY_SCALE, ahp, judgement_matrix, typed_judgement
+from ..decision import SAATY_SCALE, Judgements, ahp, typed_judgement
 from ..kinds import refuse_arguments
 from ..markup import Html, escaped, html, table
 from ..render.front import weight_bars
@@ -28,36 +28,33 @@ HINT = (
 
 
 class AhpPanel(Panel):
-    """Saaty's judgements among ``names``: for each pair a slider from 1/9 to 9 and a box to type in.
+    """Saaty's judgements: for each pair of criteria a slider from 1/9 to 9 and a box to type in.
 
     A pair may be left without a judgement (an empty box; its slider then shows, pale, what the others imply) as long
-    as the rest connect all criteria.  ``weights`` and ``judgement`` follow at once; ``on_change(f)`` calls ``f()``
+    as the rest connect all criteria.  ``judgements`` and ``weights`` follow at once; ``on_change(f)`` calls ``f()``
     after every change.
     """
 
-    def __init__(self, names: Sequence[str], judgements: Any, title: str = "") -> None:
+    def __init__(self, judgements: Judgements, title: str = "") -> None:
         refuse_arguments(AhpPanel.__init__, locals())
-        self.names = tuple(names)
-        self.start = judgement_matrix(judgements)
-        if len(self.start) != len(self.names):
-            raise ValueError(f"there are {len(self.start)} rows of judgements for {len(self.names)} criteria")
+        self.start = self.judgements = judgements
+        self.names = tuple(judgements.names)
         self._followers: list[Callable[[], None]] = []
         self._silent = False
         self.method = w.Dropdown(
             options=[("eigenvector", "eigenvector"), ("geometric mean", "geometric")], description="weights by",
             layout=w.Layout(width="230px"), style={"description_width": "initial"},
         )  # fmt: skip
-        self.method.observe(lambda _: self._judge(self._said), "value")
-        pairs = list(combinations(range(len(self.names)), 2))
-        self.sliders = {pair: self._slider(pair) for pair in pairs}
-        self.boxes = {pair: self._box(pair) for pair in pairs}
+        self.method.observe(lambda _: None if self._silent else self._judge(self.judgements), "value")
+        self.sliders = {pair: self._slider(pair) for pair in judgements.pairs}
+        self.boxes = {pair: self._box(pair) for pair in judgements.pairs}
         self.picture = LivePicture(
-            (weight_bars,), f"Weights of {', '.join(names)}", width=7.2, height=0.9 + 0.5 * len(names)
+            (weight_bars,), f"Weights of {', '.join(self.names)}", width=7.2, height=0.9 + 0.5 * len(self.names)
         )
         self._matrix, self._banner = w.HTML(), banner()
         reset = w.Button(description="Reset", icon="undo", tooltip="back to the judgements that the panel began with")
         reset.on_click(lambda _: self.load(self.start))
-        rows = [self._row(pair) for pair in pairs]
+        rows = [self._row(pair) for pair in judgements.pairs]
         hint = w.HTML(small_html(HINT))
         buttons = w.HBox([reset, self.method])
         left = w.VBox([*rows, hint, buttons, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
@@ -94,23 +91,21 @@ class AhpPanel(Panel):
     @property
     def weights(self) -> np.ndarray:
         """The weights of the criteria."""
-        return self.judgement.weights
+        return self.judgements.weights
 
-    @property
-    def upper(self) -> list[float | None]:
-        """The judgements as the matrix's upper triangle, row by row; ``None`` where there is none."""
-        return [None if math.isnan(value) else value for value in self._said.values()]
-
-    def load(self, judgements: Any) -> None:
-        """Show other judgements (matrix or upper triangle, ``None`` where there is none)."""
-        matrix = judgement_matrix(judgements)
-        if len(matrix) != len(self.names):
+    def load(self, judgements: Judgements | Sequence[Any]) -> None:
+        """Show other judgements of the same criteria: `Judgements`, a matrix or what is above its diagonal."""
+        given = ahp(judgements)
+        if len(given.names) != len(self.names):
             raise ValueError(
-                f"there are judgements for {len(matrix)} criteria; this panel has {len(self.names)} criteria"
+                f"there are judgements for {len(given.names)} criteria; this panel has {len(self.names)} criteria"
             )
-        self._judge({pair: float(matrix[pair]) for pair in self.sliders})
-        if note := ahp(judgements).note:
-            show_message(self._banner, f"{note[0].upper()}{note[1:]}. {self.advice}".strip())
+        if isinstance(judgements, Judgements):
+            self._silent, self.method.value = True, given.method
+            self._silent = False
+        self._judge(replace(given, names=self.names))
+        if given.note:
+            show_message(self._banner, f"{given.note[0].upper()}{given.note[1:]}. {self.advice}".strip())
 
     def on_change(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after every change of a judgement."""
@@ -131,7 +126,7 @@ class AhpPanel(Panel):
         if self._silent:
             return
         try:
-            self._judge(self._said | {pair: value})
+            self._judge(self.judgements.judging(pair, value))
         except ValueError as refusal:
             self._refuse(pair, str(refusal))
 
@@ -141,11 +136,9 @@ class AhpPanel(Panel):
         first, second = (self.names[k] for k in pair)
         show_message(self._banner, f"The judgement of {first} against {second} stays as it was: {sentence}.")
 
-    def _judge(self, said: dict[Pair, float]) -> None:
-        """Take up judgements, if they connect all criteria."""
-        self.judgement = ahp(list(said.values()) or [[1]], self.method.value)
-        self._said = said
-        for pair in said:
+    def _judge(self, judgements: Judgements) -> None:
+        self.judgements = replace(judgements, method=self.method.value)
+        for pair in self.sliders:
             self._place(pair)
         self._show()
         for act in self._followers:
@@ -153,9 +146,9 @@ class AhpPanel(Panel):
 
     def _place(self, pair: Pair) -> None:
         """Slider and box of a pair show its judgement, or what the others imply."""
-        value, slider = self._said[pair], self.sliders[pair]
+        value, slider = self.judgements.array[pair], self.sliders[pair]
         options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value}, reverse=True)
-        at = _nearest(options, float(self.judgement.completed[pair]))
+        at = _nearest(options, float(self.judgements.complete().array[pair]))
         shown = tuple((_fraction(v), v) for v in options)
         (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
         self._silent = True
@@ -168,23 +161,23 @@ class AhpPanel(Panel):
             self._silent = False
 
     def _show(self) -> None:
-        self.picture.show((self.names, self.judgement))
+        self.picture.show(self.judgements)
         self._matrix.value = self._matrix_html()
         show_message(self._banner, self.advice)
 
     @property
     def advice(self) -> str:
         """What to look at again when the judgements contradict each other; empty when they do not."""
-        ratio = self.judgement.consistency_ratio
+        ratio = self.judgements.consistency_ratio
         if ratio <= 0.1:
             return ""
-        worst = self.judgement.worst
+        worst = self.judgements.worst
         named = {f"{self.names[i]} against {self.names[j]}": (i, j) for i, j in worst}
         first, *others = named
-        said, implied = _fraction(self.judgement.matrix[named[first]]), _about(worst[named[first]])
-        told = f"{first}: {said} was said, the {'rest implies' if others else 'others imply'} about {implied}"
+        said, implied = _fraction(self.judgements.array[named[first]]), _about(worst[named[first]])
+        look = f"{first}: {said} was said, the {'rest implies' if others else 'others imply'} about {implied}"
         advice = (
-            f"Each of {', '.join(named)} may be the one that is off; take {told}" if others else f"Look again at {told}"
+            f"Each of {', '.join(named)} may be the one that is off; take {look}" if others else f"Look again at {look}"
         )
         return f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10). {advice}."
 
@@ -197,14 +190,14 @@ class AhpPanel(Panel):
 
     def _matrix_row(self, i: int) -> list[str]:
         """A row of the matrix; what nobody has judged is in brackets, as the others imply it."""
-        cells = zip(self.judgement.matrix[i], self.judgement.completed[i], strict=True)
+        cells = zip(self.judgements.array[i], self.judgements.complete().array[i], strict=True)
         return [f"({c:.2g})" if math.isnan(v) else _fraction(v) for v, c in cells]
 
     def summary(self) -> str:
         """Weights and consistency ratio."""
         lines = [f"{name}: {weight:.4f}" for name, weight in zip(self.names, self.weights, strict=True)]
-        missing = [f"not judged: {self.judgement.missing}"] if self.judgement.missing else []
-        return "\n".join([*lines, f"consistency ratio: {self.judgement.consistency_ratio:.4f}", *missing])
+        missing = [f"not judged: {self.judgements.missing}"] if self.judgements.missing else []
+        return "\n".join([*lines, f"consistency ratio: {self.judgements.consistency_ratio:.4f}", *missing])
 
 
 def _fraction(value: float) -> str:
@@ -224,10 +217,9 @@ def _nearest(options: Sequence[float], value: float) -> float:
     return min(options, key=lambda option: abs(option - value))
 
 
-def ahp_panel(names: Sequence[str], judgements: Any, title: str = "") -> AhpPanel:
-    """Sliders and boxes for pairwise judgements among ``names``: "the left matters 5 times as much as the right".
+def ahp_panel(judgements: Judgements, title: str = "") -> AhpPanel:
+    """Sliders and boxes for pairwise judgements: "the left matters 5 times as much as the right".
 
-    ``judgements`` is a reciprocal matrix or its upper triangle row by row, ``None`` where there is no judgement yet.
-    The result's ``.weights`` feed the next cell.
+    The result's ``.judgements`` and their ``.weights`` feed the next cell.
     """
-    return AhpPanel(names, judgements, title)
+    return AhpPanel(judgements, title)

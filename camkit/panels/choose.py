@@ -12,7 +12,7 @@ import ipywidgets as w
 import numpy as np
 from PIL import Image
 
-from ..decision.ahp import JudgementRange
+from ..decision import JudgementRange, Judgements
 from ..kinds import refuse_arguments
 from ..markup import Html, attribute, html, joined, table
 from ..quantities import Measure, words
@@ -114,19 +114,19 @@ class ChoosePanel(Panel):
                 return
             key, said = _numbers_of(front), self._judgements(front)
             if self.shown is None or key != self._key:
-                self._keep_bands(decision(front, *said, self.measures))
+                self._keep_bands(decision(front, said, self.measures))
             elif said != self._said:
-                self.shown = self.shown.judged(*said)
+                self.shown = self.shown.judged(said)
             else:
                 return
             self._key, self._said = key, said
             self._show()
 
-    def _judgements(self, front: Any) -> tuple[Any, str]:
-        """The judgements of the front's objectives, and the way from them to weights."""
+    def _judgements(self, front: Any) -> Judgements | None:
+        """The judgements of the front's objectives."""
         panel = self.source.importance
         fits = panel is not None and len(panel.names) == len(front.study.minimise)
-        return (panel.upper, panel.method.value) if fits and panel.upper else (None, "eigenvector")
+        return panel.judgements if fits else None
 
     def _keep_bands(self, fresh: ShownDecision) -> None:
         """Take up another decision; bands stay if it has the same columns, pictures if it has the same objectives."""

@@ -11,7 +11,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..decision.ahp import CHOOSERS
+from ..decision import CHOOSERS
 from ..kinds import refuse_arguments, refuse_empty
 from ..markup import html, joined
 from ..quantities import Paths, Quantity, value_of, with_quantities, words

@@ -14,7 +14,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..decision.ahp import CHOOSERS, ahp, judgement_matrix
+from ..decision import CHOOSERS, Judgements
 from ..files import designs
 from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
@@ -338,7 +338,8 @@ class ParetoPanel(Panel):
         return {
             "numbers": numbers,
             "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
-            "judgements": {name: [*told] for name, told in self._judged_now().items()},
+            "judgements": {name: judged.above for name, judged in self._judged_now().items()},
+            "methods": {name: judged.method for name, judged in self._judged_now().items()},
             "search": self._settings(),
         }
 
@@ -348,9 +349,9 @@ class ParetoPanel(Panel):
             if not known or not _offered(value, getattr(self, name)):
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
 
-    def _check_judgements(self, judgements: Mapping[str, Any]) -> None:
+    def _check_judgements(self, judgements: Mapping[str, Judgements]) -> None:
         for name, panel in self._judges().items():
-            if name in judgements and len(judgement_matrix(judgements[name])) != len(panel.names):
+            if name in judgements and len(judgements[name].names) != len(panel.names):
                 raise ValueError(f"the file's judgements are not for {len(panel.names)} criteria")
 
     def _check_objectives(self, study: Study) -> None:
@@ -372,10 +373,7 @@ class ParetoPanel(Panel):
             settings = page["search"]
             self._check_settings(settings)
             design = changed(designs.from_json(page["design"], type(self.explorer.start)), page["numbers"])
-            said = {name: (panel, *page["judgements"][name]) for name, panel in self._judges().items()}
-            self._check_judgements({name: upper for name, (_, upper, _) in said.items()})
-            if not all(method in dict(panel.method.options).values() for panel, _, method in said.values()):
-                raise damaged
+            self._check_judgements(self._judgements_of(page))
             study = self._study_of(page, design)
             taken_up(kept.checkpoint, study, *(settings[name] for name in SIZE))
         except ValueError:
@@ -387,16 +385,20 @@ class ParetoPanel(Panel):
     def _study_of(self, page: Mapping[str, Any], design: Any) -> Study:
         """The study that a page asks for."""
         space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
-        judged = {name: page["judgements"][name] for name in self._judges()}
-        weighed = {name: ahp(upper or [[1]], method).weights for name, (upper, method) in judged.items()}
-        weights = {"weights": weighed["criteria"]} if self.criteria else {}
+        weights = {"weights": self._judgements_of(page)["criteria"].weights} if self.criteria else {}
         make = self.studies[page["search"]["mode"]]
         return made_study(make, design, reference=self.explorer.start, space=space, **weights)
 
+    def _judgements_of(self, page: Mapping[str, Any]) -> dict[str, Judgements]:
+        """The judgements that a page asks for."""
+        return {
+            name: Judgements(panel.names, page["judgements"][name] or [[1]], page["methods"][name])
+            for name, panel in self._judges().items()
+        }
+
     def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
-        for name, panel in self._judges().items():
-            upper, panel.method.value = page["judgements"][name]
-            panel.load(upper)
+        for name, judgements in self._judgements_of(page).items():
+            self._judges()[name].load(judgements)
         for name, bounds in self.bounds.items():
             bounds.set(tuple(page["space"][name]) if name in page["space"] else None)
         for name, value in page["search"].items():
@@ -495,11 +497,8 @@ class ParetoPanel(Panel):
 
     def work(self) -> designs.Work:
         """Everything on the page, to be saved."""
-        judgements = {name: panel.upper for name, panel in self._judges().items()}
-        front = self.front
-        methods = {name: panel.method.value for name, panel in self._judges().items()}
-        settings = self._settings()
-        return designs.Work(self.study, self.explorer.design, judgements, settings, front.x, front.record, methods)
+        front, settings = self.front, self._settings()
+        return designs.Work(self.study, self.explorer.design, self._judged_now(), settings, front.x, front.record)
 
     def _settings(self) -> dict[str, Any]:
         return {
@@ -539,11 +538,10 @@ class ParetoPanel(Panel):
         x = np.asarray(work.x).reshape(-1, len(work.study.free))
         front = _front(work.study, x)
         before, pick = (self.study, self._x, self.front, self.rule.value, self._judged_now()), self.pick.value
-        told = {name: (upper, work.methods.get(name, "eigenvector")) for name, upper in work.judgements.items()}
         rule = work.search.get("rule", self.rule.value)
         try:
-            self._swap(work.study, x, replace(front, record=work.record), rule, told)
-            (self._judged if told.keys() & self._judges().keys() else self._show_front)()
+            self._swap(work.study, x, replace(front, record=work.record), rule, work.judgements)
+            (self._judged if work.judgements.keys() & self._judges().keys() else self._show_front)()
             self.explorer.load(work.design)
             if self.explorer.design is not work.design:
                 raise ValueError("its design cannot be computed and drawn")
@@ -555,19 +553,18 @@ class ParetoPanel(Panel):
             self._silent = False
             raise
 
-    def _judged_now(self) -> dict[str, tuple[Any, str]]:
-        """The judgements on the page, each with the way from them to weights."""
-        return {name: (panel.upper, panel.method.value) for name, panel in self._judges().items()}
+    def _judged_now(self) -> dict[str, Judgements]:
+        """The judgements on the page."""
+        return {name: panel.judgements for name, panel in self._judges().items()}
 
-    def _swap(self, study: Study, x: np.ndarray, front: Front, rule: str, told: Mapping[str, tuple[Any, str]]) -> None:
+    def _swap(self, study: Study, x: np.ndarray, front: Front, rule: str, judged: Mapping[str, Judgements]) -> None:
         """Another study, front and judgements, not shown yet."""
         self._silent = True
         try:
             self.study, self._x, self.front, self.rule.value = study, x, front, rule
             for name, panel in self._judges().items():
-                if name in told:
-                    upper, panel.method.value = told[name]
-                    panel.load(upper)
+                if name in judged:
+                    panel.load(judged[name])
         finally:
             self._silent = False
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import ipywidgets as w
 
-from ..decision.summary import SideBySide, side_by_side
+from ..decision import SideBySide, side_by_side
 from ..kinds import refuse_arguments
 from ..render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
 from ..study.study import Study

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.path import Path
 
-from ..decision.ahp import CHOOSERS, WEIGHING, JudgementRange, WinnerMap, ahp, judgement_ranges, winner_map
+from ..decision import CHOOSERS, WEIGHING, JudgementRange, Judgements, WinnerMap, judgement_ranges, winner_map
 from ..quantities import Measure, words
 from ..units import factor
 from .artists import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, area, line, new, plain, text
@@ -46,13 +46,13 @@ class ShownDecision:
     ranges: Mapping[str, tuple[JudgementRange, ...]]
     """How far each judgement may move, for the same rules."""
 
-    def judged(self, judgements: Any = None, method: str = "eigenvector") -> ShownDecision:
+    def judged(self, judgements: Judgements | None = None) -> ShownDecision:
         """The same front under other judgements of its objectives; ``None``: all alike."""
         k = self.front.f.shape[1]
-        matrix = np.ones((k, k)) if judgements is None else judgements
-        weights = ahp(matrix, method).weights
+        judgements = Judgements(self.names, np.ones((k, k))) if judgements is None else judgements
+        weights = judgements.weights
         winners = {rule: CHOOSERS[rule](self.front, weights) for rule in MARKS}
-        ranges = {rule: judgement_ranges(self.front, matrix, CHOOSERS[rule], method) for rule in WEIGHING}
+        ranges = {rule: judgement_ranges(self.front, judgements, CHOOSERS[rule]) for rule in WEIGHING}
         colours = dict(zip(dict.fromkeys(winners.values()), WINNER_COLOURS, strict=False))
         designs = replace(self.designs, marked=colours)
         return replace(self, designs=designs, winners=winners, weights=weights, ranges=ranges)
@@ -81,7 +81,7 @@ class ShownDecision:
 
 
 def decision(
-    front: Any, judgements: Any = None, method: str = "eigenvector", measures: Sequence[Measure] | None = None
+    front: Any, judgements: Judgements | None = None, measures: Sequence[Measure] | None = None
 ) -> ShownDecision:
     """A front that is not empty, and what follows from judgements of its objectives (``None``: all count alike).
 
@@ -91,7 +91,7 @@ def decision(
     maps = {rule: winner_map(front, CHOOSERS[rule]) for rule in WEIGHING}
     weights = np.zeros(front.f.shape[1])
     shown = ShownDecision(front, Designs(columns, values), {}, weights, maps, {})
-    return shown.judged(judgements, method)
+    return shown.judged(judgements)
 
 
 def _numbers(front: Any, measures: Sequence[Measure] | None) -> tuple[tuple[Column, ...], np.ndarray]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..decision import Judgements
 from ..kinds import numbers, refuse_empty, refuse_kinds, shown
 from ..search.front import Front
 from ..units import factor
@@ -125,14 +126,13 @@ def fronts_overlaid(shown: ShownFronts, ax: Axes) -> Axes:
     return ax
 
 
-def weight_bars(judged: tuple[tuple[str, ...], Any], ax: Axes) -> Axes:
-    """Weights of the criteria as bars, from ``(names, judgement)``; the consistency ratio above them."""
-    names, judgement = judged
+def weight_bars(judgements: Judgements, ax: Axes) -> Axes:
+    """Weights of the criteria as bars; the consistency ratio above them."""
     first = new(ax)
-    for i, (name, weight) in enumerate(zip(names, judgement.weights, strict=True)):
+    for i, (name, weight) in enumerate(zip(judgements.names, judgements.weights, strict=True)):
         line(ax, name, [0, 100 * weight], [-i, -i], color=BLUE, linewidth=16, solid_capstyle="butt")
         text(ax, f"{name} value", 100 * weight + 1.5, -i, f"{100 * weight:.1f} %", va="center", color=INK)
-    ratio = judgement.consistency_ratio
+    ratio = judgements.consistency_ratio
     line(
         ax,
         "inconsistent",
@@ -145,7 +145,7 @@ def weight_bars(judged: tuple[tuple[str, ...], Any], ax: Axes) -> Axes:
     text(ax, "ratio", 98, 0.62, f"consistency ratio {ratio:.3f}", ha="right", va="center", color=INK)
     if first:
         ax.set_title("Weights")
-        ax.set_yticks([-i for i in range(len(names))], [plain(name) for name in names])
-        ax.set(xlim=(0, 104), ylim=(0.5 - len(names), 0.9), xlabel="weight  [%]")
+        ax.set_yticks([-i for i in range(len(judgements.names))], [plain(name) for name in judgements.names])
+        ax.set(xlim=(0, 104), ylim=(0.5 - len(judgements.names), 0.9), xlabel="weight  [%]")
         ax.grid(axis="y", visible=False)
     return ax

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import qmc
 
-from ..decision.ahp import normalised
+from ..decision.choosers import normalised
 from ..kinds import refuse_arguments
 from ..quantities import counted
 from ..study.study import Study

@@ -10,8 +10,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
-from camkit.decision.ahp import CHOOSERS, judgement_ranges
-from camkit.decision.summary import side_by_side
+from camkit.decision import CHOOSERS, judgement_ranges, side_by_side
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 

@@ -16,7 +16,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
 from camkit.cam.measures import groove_gap
-from camkit.decision.ahp import CHOOSERS
+from camkit.decision import CHOOSERS
 from camkit.files.designs import from_json
 from camkit.geometry import rotated
 from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
@@ -81,7 +81,10 @@ def _from_the_start(book: Workbook, request: pytest.FixtureRequest) -> Iterator[
     for panel in (book.explorer, book.criteria, book.importance):
         panel.get_by_role("button", name="Reset").click()
     eventually(
-        lambda: book.value("[app.design == app.start, criteria.upper, importance.upper]") == [True, [5, 5, 1], [1]]
+        lambda: (
+            book.value("[app.design == app.start, criteria.judgements.above, importance.judgements.above]")
+            == [True, [5, 5, 1], [1]]
+        )
     )
     shows(book, START)
     failed = request.session.testsfailed

@@ -27,7 +27,7 @@ from camkit.papers.published import Comparison, Row, Table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from camkit.render.artists import frame, line, new
 from camkit.quantities import Design, Measure, quantity
-from camkit.decision.summary import side_by_side
+from camkit.decision import side_by_side
 
 @dataclass(frozen=True)
 class Evil(Design):

@@ -14,14 +14,14 @@ from scipy.optimize import minimize, minimize_scalar
 
 from camkit import ahp, most_isolated, topsis, weighted_sum
 from camkit.data import load
-from camkit.decision.ahp import (
+from camkit.decision import (
     CHOOSERS,
     RANDOM_INDEX,
     SAATY_SCALE,
     WEIGHING,
+    Judgements,
     crowding_distance,
     judged_weights,
-    judgement_matrix,
     judgement_ranges,
     knee,
     normalised,
@@ -42,6 +42,62 @@ DRINKS = [
     [2, 9, 9, 3, 2, 3, 1],
 ]
 LEADER = [4, 3, 7, 1 / 3, 3, 5]
+
+
+def matrix_of(judgements):
+    return ahp(judgements).array
+
+
+NAMED = Judgements(("taste", "price", "smell"), ["3", None, "1/2"])
+
+
+def test_judgements_are_one_value_however_they_are_given():
+    matrix = [[1, 3, None], ["1/3", 1, 0.5], ["?", 2, 1]]
+    for shape in (NAMED.matrix, NAMED.array, matrix, [3, None, 0.5], (3.0, math.nan, 0.5)):
+        again = Judgements(["taste", "price", "smell"], shape)
+        assert (again, hash(again), again.note) == (NAMED, hash(NAMED), "")
+    assert NAMED.above == (3.0, None, 0.5)
+    assert NAMED.names == ("taste", "price", "smell")
+    assert ahp(NAMED) is NAMED
+    assert ahp(NAMED, "geometric") == Judgements(NAMED.names, NAMED.matrix, "geometric") != NAMED
+    assert ahp([3]).names == ("criterion 1", "criterion 2")
+    with pytest.raises(AttributeError):
+        NAMED.method = "geometric"
+
+
+def test_a_gap_is_filled_by_what_the_others_imply_and_a_pair_judged_anew():
+    """3 times as much as the price, which matters half as much as the smell: 3/2 of the smell."""
+    assert NAMED.complete().above == pytest.approx((3, 1.5, 0.5))
+    assert_allclose(NAMED.weights, np.array([3, 1, 2]) / 6)
+    assert (NAMED.missing, NAMED.complete().missing) == (1, 0)
+    assert NAMED.consistency_ratio == pytest.approx(0, abs=1e-12)
+    assert NAMED.judging((0, 2), "1,5") == Judgements(NAMED.names, [3, 1.5, 0.5])
+    assert NAMED.judging((0, 2), "1,5").judging((0, 2), None) == NAMED
+    with pytest.raises(ValueError, match=r"no judgement connects criterion 1, 3 with criterion 2|criterion 1"):
+        NAMED.judging((0, 1), None)
+
+
+@pytest.mark.parametrize("rule", CHOOSERS)
+def test_a_chooser_takes_judgements_for_weights(rule):
+    front, judgements = [[0, 1], [0.1, 0.3], [0.2, 0.2], [1, 0]], Judgements(("a", "b"), ["1/4"])
+    assert CHOOSERS[rule](front, judgements) == CHOOSERS[rule](front, [0.2, 0.8])
+    if rule in WEIGHING:
+        assert judgement_ranges(front, judgements, CHOOSERS[rule]) == judgement_ranges(front, [0.25], CHOOSERS[rule])
+
+
+@pytest.mark.parametrize(
+    ("names", "matrix", "method", "sentence"),
+    [
+        (["a", "b"], [1, 2, 3], "eigenvector", "there are 3 rows of judgements for 2 criteria"),
+        ("ab", [1], "eigenvector", "the list of names is 'ab'; it must be a tuple, with a place for each criterion"),
+        (["a", 5], [1], "eigenvector", "the name of a criterion is 5; it must be a text"),
+        (["a", "b"], ["x"], "eigenvector", "'x' is no number above 0; 3, 1/5 or 0.4 are"),
+        (["a", "b"], [3], "mean", "the method is 'mean'; there are 'eigenvector' and 'geometric'"),
+    ],
+)
+def test_judgements_that_cannot_be_are_refused_in_a_sentence(names, matrix, method, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        Judgements(names, matrix, method)
 
 
 @pytest.mark.parametrize(
@@ -102,8 +158,8 @@ def test_reciprocals_as_papers_print_them():
     assert judgement.consistency_ratio == pytest.approx(0.0559, abs=5e-5)
     assert judgement.note == "rounded reciprocals are read as exact ones: 0.33 as 1/3, 0.14 as 1/7"
     assert ahp([3, 7, 5]).note == ""
-    assert_array_equal(judgement.matrix, judgement_matrix([3, 7, 5]))
-    assert_array_equal(judgement_matrix([[1, 0.33], [3, 1]]), judgement_matrix([1 / 3]))
+    assert_array_equal(judgement.array, matrix_of([3, 7, 5]))
+    assert_array_equal(matrix_of([[1, 0.33], [3, 1]]), matrix_of([1 / 3]))
 
 
 @given(st.integers(2, 9), st.integers(2, 5), st.booleans())
@@ -111,7 +167,7 @@ def test_reciprocals_as_papers_print_them():
 def test_any_number_of_decimals_rounded_or_cut_off(more, decimals, cut):
     step = 10.0**-decimals
     less = 10**decimals // more / 10**decimals if cut else round(1 / more, decimals)
-    assert judgement_matrix([[1, more], [less, 1]])[0, 1] == more
+    assert matrix_of([[1, more], [less, 1]])[0, 1] == more
     for wrong in (less + 2 * step, less - 2 * step):
         assume(round(wrong, decimals) != round(wrong, decimals - 1))  # 0.140 reads as 0.14, which is 1/7
         with pytest.raises(ValueError, match="one must be 1 over the other"):
@@ -124,7 +180,7 @@ def test_any_number_of_decimals_rounded_or_cut_off(more, decimals, cut):
 )
 def test_roundings_of_both_sides_of_a_pair(more, less):
     """1.06 may be 1.0551, whose reciprocal 0.9478 is printed as 0.95."""
-    assert judgement_matrix([[1, less], [more, 1]]).tolist() == [[1, 1 / more], [more, 1]]
+    assert matrix_of([[1, less], [more, 1]]).tolist() == [[1, 1 / more], [more, 1]]
 
 
 @pytest.mark.parametrize(
@@ -142,18 +198,18 @@ def test_reciprocals_that_no_rounding_explains_are_contradictions(lower):
 
 
 def test_judgements_as_text():
-    assert_array_equal(judgement_matrix([["1", "3"], ["1/3", 1]]), judgement_matrix([3]))
-    assert_array_equal(judgement_matrix(["4", " 1 / 2", None]), judgement_matrix([4, 0.5, None]))
-    assert_array_equal(judgement_matrix(["0,5", "", "2"]), judgement_matrix([0.5, None, 2]))
+    assert_array_equal(matrix_of([["1", "3"], ["1/3", 1]]), matrix_of([3]))
+    assert_array_equal(matrix_of(["4", " 1 / 2", None]), matrix_of([4, 0.5, None]))
+    assert_array_equal(matrix_of(["0,5", "", "2"]), matrix_of([0.5, None, 2]))
 
 
 def test_ratio_and_index_are_saatys_definition():
     judgement = ahp(LEADER)
-    largest = max(np.linalg.eigvals(judgement.matrix).real)
+    largest = max(np.linalg.eigvals(judgement.array).real)
     assert judgement.lambda_max == pytest.approx(largest)
     assert judgement.consistency_index == pytest.approx((largest - 4) / 3)
     assert judgement.consistency_ratio == pytest.approx((largest - 4) / 3 / 0.90)
-    assert_allclose(judgement.matrix @ judgement.weights, largest * judgement.weights)
+    assert_allclose(judgement.array @ judgement.weights, largest * judgement.weights)
     assert ahp([[1]]).consistency_index == 0
 
 
@@ -181,24 +237,24 @@ def test_any_judgements_of_saatys_scale(upper):
     assert judgement.weights.sum() == pytest.approx(1)
     assert (judgement.weights > 0).all()
     assert judgement.lambda_max >= n - 1e-9
-    assert_allclose(ahp(judgement.matrix.tolist()).weights, judgement.weights)
-    largest = max(np.linalg.eigvals(judgement.matrix).real)
+    assert_allclose(ahp(judgement.array.tolist()).weights, judgement.weights)
+    largest = max(np.linalg.eigvals(judgement.array).real)
     for method in ("eigenvector", "geometric"):  # the weights differ, the contradiction does not
         assert ahp(upper, method).lambda_max == pytest.approx(largest, rel=1e-9)
     if n == 3:  # for three criteria both methods agree (Saaty and Vargas 1984)
         assert_allclose(ahp(upper, "geometric").weights, judgement.weights, rtol=1e-6)
-    swapped = ahp(judgement.matrix[::-1, ::-1])
+    swapped = ahp(judgement.array[::-1, ::-1])
     assert_allclose(swapped.weights[::-1], judgement.weights, rtol=1e-6)
 
 
 def test_an_upper_triangle_is_read_row_by_row():
-    assert_array_equal(judgement_matrix(LEADER)[0], [1, 4, 3, 7])
-    assert_array_equal(judgement_matrix(LEADER)[1], [1 / 4, 1, 1 / 3, 3])
-    assert_array_equal(judgement_matrix(LEADER)[:, 3], [7, 3, 5, 1])
-    assert judgement_matrix([7]).tolist() == [[1, 7], [1 / 7, 1]]
+    assert_array_equal(matrix_of(LEADER)[0], [1, 4, 3, 7])
+    assert_array_equal(matrix_of(LEADER)[1], [1 / 4, 1, 1 / 3, 3])
+    assert_array_equal(matrix_of(LEADER)[:, 3], [7, 3, 5, 1])
+    assert matrix_of([7]).tolist() == [[1, 7], [1 / 7, 1]]
     for n in range(2, 16):
         w = np.arange(1.0, n + 1)
-        assert_allclose(judgement_matrix((w[:, None] / w)[np.triu_indices(n, 1)]), w[:, None] / w)
+        assert_allclose(matrix_of((w[:, None] / w)[np.triu_indices(n, 1)]), w[:, None] / w)
 
 
 def test_the_worst_judgement_is_the_one_that_was_spoiled():
@@ -214,7 +270,7 @@ def test_the_worst_judgement_is_the_one_that_was_spoiled():
 def by_hand(upper):
     """For each pair without which all hang together: least ``lambda_max`` over that judgement, and where it is."""
     told = {}
-    for k, pair in enumerate(combinations(range(len(judgement_matrix(upper))), 2)):
+    for k, pair in enumerate(combinations(range(len(matrix_of(upper))), 2)):
         if upper[k] is not None:
             try:
                 ahp(with_gap(upper, k))
@@ -410,7 +466,7 @@ def test_consistent_judgements_with_gaps_give_the_exact_weights(case, method):
     w, matrix = case
     judgement = ahp(matrix, method)
     assert_allclose(judgement.weights, w / w.sum(), rtol=1e-9)
-    assert_allclose(judgement.completed, w[:, None] / w, rtol=1e-9)
+    assert_allclose(judgement.complete().array, w[:, None] / w, rtol=1e-9)
     assert judgement.consistency_ratio == pytest.approx(0, abs=1e-8)
     assert judgement.missing == np.isnan(matrix).sum() / 2
 
@@ -436,15 +492,15 @@ def test_gaps_are_filled_so_that_lambda_max_is_least(gaps):
     )
     judgement = ahp(with_gap(LEADER, *gaps))
     assert judgement.lambda_max == pytest.approx(found.fun, rel=1e-12)
-    assert_allclose(judgement.completed, judgement_matrix(filled(found.x)), rtol=1e-5)
-    assert_allclose(judgement.weights, ahp(judgement.completed).weights, rtol=1e-12)
+    assert_allclose(judgement.complete().array, matrix_of(filled(found.x)), rtol=1e-5)
+    assert_allclose(judgement.weights, ahp(judgement.complete().array).weights, rtol=1e-12)
 
 
 def test_geometric_weights_with_gaps_are_those_of_the_completed_matrix():
     judgement = ahp(with_gap(LEADER, 1, 4), "geometric")
-    means = judgement.completed.prod(axis=1) ** (1 / 4)
+    means = judgement.complete().array.prod(axis=1) ** (1 / 4)
     assert_allclose(judgement.weights, means / means.sum(), rtol=1e-12)
-    assert_allclose(judgement.completed, ahp(with_gap(LEADER, 1, 4)).completed)
+    assert_allclose(judgement.complete().array, ahp(with_gap(LEADER, 1, 4)).complete().array)
 
 
 def test_geometric_weights_of_a_full_matrix_are_row_means():
@@ -488,17 +544,17 @@ def test_criteria_that_no_judgement_connects_are_refused(judgements, sentence):
 
 
 def test_one_side_of_a_pair_is_enough():
-    assert_allclose(judgement_matrix([[1, 2, 4], [None, None, 2], [None, None, None]]), ahp([2, 4, 2]).completed)
+    assert_allclose(matrix_of([[1, 2, 4], [None, None, 2], [None, None, None]]), ahp([2, 4, 2]).complete().array)
 
 
 @given(st.lists(said | st.none(), min_size=6, max_size=6))
 @settings(deadline=None)
 def test_many_matrices_at_once_have_the_weights_of_each(upper):
     try:
-        matrix = judgement_matrix(upper)
+        matrix = matrix_of(upper)
     except ValueError:
         return
-    many = np.stack([matrix, judgement_matrix(LEADER), matrix])
+    many = np.stack([matrix, matrix_of(LEADER), matrix])
     for method in ("eigenvector", "geometric"):
         together = judged_weights(many, method)
         assert_allclose(together[0], ahp(upper, method).weights, rtol=1e-9)
@@ -571,12 +627,12 @@ FRONT3 = np.array([[0, 0.7, 0.9], [0.2, 0.3, 0.5], [0.6, 0.1, 0.3], [0.9, 0.8, 0
 def test_how_far_a_judgement_may_move_against_a_fine_sweep(choose, method, judgements):
     judged = ahp(judgements, method)
     winner = choose(FRONT3, judged.weights)
-    for told in judgement_ranges(FRONT3, judgements, choose, method):
+    for told in judgement_ranges(FRONT3, judged, choose):
         i, j = told.pair
-        assert told.judged == pytest.approx(judged.completed[i, j])
+        assert told.judged == pytest.approx(judged.complete().array[i, j])
         for end, beyond, last in ((told.low, told.below, 1 / 9), (told.high, told.above, 9)):
             sweep = np.geomspace(told.judged, last, 3000)
-            matrices = np.tile(judged.matrix, (3000, 1, 1))
+            matrices = np.tile(judged.array, (3000, 1, 1))
             matrices[:, i, j], matrices[:, j, i] = sweep, 1 / sweep
             wins = np.array([choose(FRONT3, w) for w in judged_weights(matrices[::10], method)])
             assert beyond is None or beyond != winner
@@ -586,7 +642,7 @@ def test_how_far_a_judgement_may_move_against_a_fine_sweep(choose, method, judge
             else:
                 first = 10 * int(np.argmax(wins != winner))
                 assert sorted(sweep[[first - 10, first]])[0] <= end <= sorted(sweep[[first - 10, first]])[1]
-                just = [ahp(at(judged.matrix, i, j, end * f), method).weights for f in (1 - 1e-7, 1 + 1e-7)]
+                just = [ahp(at(judged.array, i, j, end * f), method).weights for f in (1 - 1e-7, 1 + 1e-7)]
                 inside, outside = just if last > 1 else just[::-1]
                 assert choose(FRONT3, inside) == winner
                 assert choose(FRONT3, outside) == beyond
@@ -623,7 +679,7 @@ def test_ranges_with_many_criteria_and_gaps_are_bounded():
         for end, beyond, out in ((told.low, told.below, 1 - 1e-7), (told.high, told.above, 1 + 1e-7)):
             if beyond is not None:
                 bounded += 1
-                inside, outside = (ahp(at(judged.matrix, *told.pair, end * s)).weights for s in (1 / out, out))
+                inside, outside = (ahp(at(judged.array, *told.pair, end * s)).weights for s in (1 / out, out))
                 assert (weighted_sum(f, inside), weighted_sum(f, outside)) == (winner, beyond)
     assert bounded > 15
 

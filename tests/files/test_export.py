@@ -16,6 +16,7 @@ from camkit import (
     DoorHandleCam,
     Friction,
     OscillatingRollerCam,
+    ahp,
     door_handle_study,
     lift_curve_study,
     load,
@@ -146,7 +147,7 @@ def work(request):
     whole = request.param == "whole"
     study = door_handle_study(space=EXPANDED_SPACE) if whole else lift_curve_study()
     front = nsga2(study, 40, 30, 5)
-    judgements = {"criteria": [5.0, 5.0, 1.0], "importance": [1 / 3]}
+    judgements = {"criteria": ahp([5.0, 5.0, 1.0]), "importance": ahp([1 / 3])}
     return Work(study, front[0], judgements, {"population": 40, "generations": 30, "seed": 5}, front.x)
 
 
@@ -165,7 +166,7 @@ def test_a_whole_study_comes_back(work, tmp_path):
     assert (effort.name, effort.parts, effort.weights) == ("effort", *_of(work.study.minimise[0]))
     assert_allclose(effort.reference, work.study.minimise[0].reference, rtol=1e-14)
     assert radius == work.study.minimise[1]
-    assert dict(again.judgements) == {"criteria": (5.0, 5.0, 1.0), "importance": (1 / 3,)}
+    assert dict(again.judgements) == dict(work.judgements)
     assert dict(again.search) == dict(work.search)
     assert_allclose(again.x, work.x, rtol=1e-14)
     before, after = work.study.evaluate(work.x), again.study.evaluate(again.x)
@@ -271,7 +272,7 @@ PYTHON = "object|NoneType|zip|int\\(|float:|inhomogeneous|unpack|multiply|subscr
 
 @pytest.mark.parametrize("damage", WORK_DAMAGE.values(), ids=WORK_DAMAGE.keys())
 def test_a_damaged_study_is_refused_in_words(damage):
-    good = to_json(Work(door_handle_study(), DoorHandleCam(), {"criteria": [5, 5, 1]}, {"population": 9}))
+    good = to_json(Work(door_handle_study(), DoorHandleCam(), {"criteria": ahp([5, 5, 1])}, {"population": 9}))
     from_json(good)
     with pytest.raises(ValueError, match=f"^(?!.*({PYTHON}))the |^a study needs") as refused:
         from_json(changed(good, damage))
@@ -316,9 +317,9 @@ def test_a_bad_file_of_another_kind_is_named():
 
 def test_a_judgement_that_was_not_made_and_the_record_come_back(work):
     record = {"population": 40, "generations": 30, "seed": 5, "seconds": 1.5, "versions": {"numpy": "2.4.6"}}
-    kept = replace(work, judgements={"criteria": [5.0, None, 1.0]}, record=record)
+    kept = replace(work, judgements={"criteria": ahp([5.0, None, 1.0])}, record=record)
     again = from_json(to_json(kept))
-    assert again.judgements == {"criteria": (5.0, None, 1.0)}
+    assert again.judgements == {"criteria": ahp([5.0, None, 1.0])}
     assert again.record == record
     quick = {"designs": 6977, "seconds": 0.2, "versions": {"numpy": "2.4.6"}}
     assert from_json(to_json(replace(work, record=quick))).record == quick

@@ -24,11 +24,13 @@ from camkit import (
     ArmLoad,
     DoorHandleCam,
     HighSpeedCam,
+    Judgements,
     Measure,
     OscillatingRollerCam,
     Study,
     TranslatingRollerCam,
     ValveCam,
+    ahp,
     ahp_panel,
     door_handle_study,
     explore,
@@ -379,20 +381,23 @@ def test_designs_of_an_edited_front_that_miss_a_limit_are_left_out_with_a_remark
     assert found.remarks[-1].startswith(f"1 of its {len(front)} designs miss a limit or are dominated")
 
 
-def test_the_way_from_judgements_to_weights_comes_back():
-    work = Work(plain, plain.start, {"criteria": [5.0, np.nan, 1.0]}, methods={"criteria": "geometric"})
-    again = from_json(to_json(work))
-    assert again.methods == {"criteria": "geometric"}
-    assert again.judgements == {"criteria": (5.0, None, 1.0)}
+def test_judgements_come_back_with_names_gaps_and_method():
+    judgements = {
+        "criteria": Judgements(("angle", "<force>", "torque"), ["1/3", None, 7], "geometric"),
+        "importance": ahp([[1, "4"], ["1/4", 1]]),
+    }
+    assert from_json(to_json(Work(plain, plain.start, judgements))).judgements == judgements
+    for wrong in ("much", True, object(), [1, 2, 3]):
+        with pytest.raises(ValueError, match=r"^the criteria is .*; it must be Judgements$"):
+            to_json(Work(plain, plain.start, {"criteria": wrong}))
 
 
-def test_judgements_may_be_text_as_they_may_be_elsewhere():
-    told = Work(plain, plain.start, {"criteria": ["1/3", 2, "?"], "importance": [[1, "4"], ["1/4", 1]]})
-    again = from_json(to_json(told)).judgements
-    assert again == {"criteria": (1 / 3, 2, None), "importance": ((1, 4.0), (0.25, 1))}
-    for wrong in ("much", True, object()):
-        with pytest.raises(ValueError, match=r"is no number above 0|^a judgement is .*; it must be a number, a text"):
-            to_json(replace(told, judgements={"criteria": [wrong, 2, 3]}))
+@pytest.mark.parametrize(("entry", "method"), [([5, None, 1], "geometric"), ([[1, 3], [1 / 3, 1]], None)])
+def test_judgements_of_0_1_0_are_read(entry, method):
+    """A list above the diagonal, or a matrix, without names; the method stood beside it, if at all."""
+    content = json.loads(GOOD["work"])
+    content["work"] |= {"judgements": {"criteria": entry}, "methods": {"criteria": method} if method else {}}
+    assert from_json(json.dumps(content)).judgements == {"criteria": ahp(entry, method)}
 
 
 # ---------------------------------------------------------------- files of yesterday, edited, damaged
@@ -426,7 +431,7 @@ def test_the_old_files_hold_what_was_saved():
     assert program.motion.segments[1] == Rise(1.1, 0.4, Skewed(Poly345(), 0.4))
     work = load(FILES / OLD[2], Work, tell=list)
     assert work.x.shape == (20, 3)
-    assert work.judgements == {"criteria": (5.0, 5.0, 1.0), "importance": (1 / 3,)}
+    assert work.judgements == {"criteria": ahp([5.0, 5.0, 1.0]), "importance": ahp([1 / 3])}
     assert work.search["rule"] == "weighted sum"
 
 
@@ -439,11 +444,10 @@ GOOD = {
     ),
     "work": to_json(
         Work(
-            plain, plain.start, {"criteria": [5.0, 5.0, 1.0], "importance": [2.0]},
+            plain, plain.start, {"criteria": ahp([5.0, 5.0, 1.0], "geometric"), "importance": ahp([2.0])},
             {"population": 24, "generations": 12, "seed": 1, "mode": "lift curve alone", "rule": "weighted sum"},
             plain.x0[None] * [[1.0], [1.01]],
             {"population": 24, "generations": 12, "seed": 1, "seconds": 1.5, "versions": {"numpy": "2.4.6"}},
-            {"criteria": "geometric", "importance": "eigenvector"},
         )
     ),
 }  # fmt: skip
@@ -487,7 +491,7 @@ def test_a_field_that_is_lacking_takes_its_default_with_a_remark():
 @pytest.mark.parametrize("name", ["design", "at_most", "at_least", "angles", "judgements", "search", "front"])
 def test_a_study_that_lacks_an_entry_takes_its_default_with_a_remark(name):
     content = json.loads(GOOD["work"])
-    del content["work"][name], content["work"]["methods"]
+    del content["work"][name]
     found = read(json.dumps(content))
     assert f"{name!r} of the study" in found.remarks[1]
     assert found.thing.study.angles == 361
@@ -560,7 +564,7 @@ ABSURD = {
     "a negative seed": (work_with("search", "seed", to=-1), "'seed'"),
     "no judgement at all": (work_with("judgements", to={"criteria": [None, None, None]}), "no judgement connects"),
     "text among judgements": (work_with("judgements", to={"criteria": [5, "1/3", 1]}), "where numbers belong"),
-    "an unknown method": (work_with("methods", to={"criteria": "dice"}), "no such method"),
+    "an unknown method": (work_with("judgements", "criteria", "method", to="dice"), "the method is 'dice'"),
     "a script as a name": (work_with("judgements", to={"<script>": [5, 5, 1]}), "the file has the name '<script>'"),
     "a formula as a name": (work_with("minimise", 0, "name", to="=1+2"), "the file has the name '=1"),
     "a name of two lines": (work_with("search", "rule", to="weighted\nsum"), "the file has the name"),
@@ -632,7 +636,7 @@ def test_a_wrong_kind_in_any_field_is_refused_or_changes_nothing_that_breaks(nam
             assert len(sentence) < 500
             refused += bool(sentence)
             if found:
-                not_judged = rubbish is None and "judgements" in way
+                not_judged = "judgements" in way and (rubbish is None or rubbish == [])  # a gap; a list of 0.1.0
                 chosen = {"law": {"kind": "Cycloidal"}, "base": {"kind": "Cycloidal"}, "rotation": 1, "groove": True}
                 an_option = next((rubbish == option for name, option in chosen.items() if name in str(last)), False)
                 assert json_kind(rubbish) is json_kind(good) or not_judged or an_option, (*way, last, rubbish)
@@ -781,8 +785,8 @@ def page():
     """Notebook 01's panel."""
     limits = {"at_most": plain.at_most, "at_least": plain.at_least}
     app = explore(DoorHandleCam(), pressure_angle, measures=CURVE_TABLE[:5], width=4, height=3, **limits)
-    criteria = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
-    importance = ahp_panel(["effort", "least radius"], [1])
+    criteria = ahp_panel(PAPER_JUDGEMENTS)
+    importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     problems = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
     return pareto_panel(
         app, problems, space=EXPANDED_SPACE, free=list(DOOR_HANDLE_SPACE), criteria=criteria, importance=importance
@@ -810,7 +814,7 @@ def test_a_bad_file_leaves_the_last_good_picture_and_one_sentence(page, name, mo
 
     def state():
         shown = app.design, app.analysis, app.picture.widget.data, app._table.value, app.picture.widget.layout.display
-        return *shown, page.study, page.front, page.population.value, page.criteria.upper, page.status.value
+        return *shown, page.study, page.front, page.population.value, page.criteria.judgements, page.status.value
 
     before = state()
     for panel in (app, page):
@@ -852,12 +856,12 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
     page.picture.settle()
     study = plain.replace(minimise=minimise)
     x = front_of(study.evaluate(GRID), study).x
-    other = {"judgements": {"criteria": [9, 5, 1]}, "search": {"population": 44, "rule": "knee"}}
+    other = {"judgements": {"criteria": ahp([9, 5, 1])}, "search": {"population": 44, "rule": "knee"}}
     text = to_json(Work(study, DoorHandleCam(lift_arm=45 * mm), x=x, **other))
 
     def state():
         shown = page.study, page._x, page.front, page.explorer.design, page.picture._last[0].front
-        boxes = page.rule.value, page.pick.value, page.pick.max, page.population.value, page.criteria.upper
+        boxes = page.rule.value, page.pick.value, page.pick.max, page.population.value, page.criteria.judgements
         told = page.winner, page.status.value, page.verdict.value, page.found.value, page.picture.widget.data
         return shown, boxes, told, {name: bounds.value for name, bounds in page.bounds.items()}
 
@@ -899,7 +903,7 @@ def test_a_remark_shows_in_the_panel(page, monkeypatch, tmp_path):
     page.load_json((FILES / OLD[2]).read_bytes())
     assert len(page.front) == 20
     assert said(page).startswith(f"The file is loaded, but {UNMARKED}; and friction is now friction.coefficient, ")
-    assert " and 9 names more are others; and it lacks 'methods' of the study" in said(page)
+    assert " and 9 names more are others." in said(page)
     app.load(DoorHandleCam())
 
 
@@ -941,7 +945,7 @@ def test_the_page_comes_back_with_its_methods_and_a_measure_of_ones_own(page, mo
     def problem(start, reference=None, space=None, weights=None):
         return owned.replace(start=start, free=space)
 
-    criteria = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
+    criteria = ahp_panel(PAPER_JUDGEMENTS)
     finder = pareto_panel(app, {"own": problem}, space=PAPER_SPACE, free=list(PAPER_SPACE), criteria=criteria)
     criteria.method.value = "geometric"
     text = to_json(finder.work())

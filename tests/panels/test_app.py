@@ -14,6 +14,7 @@ import threading
 import time
 import tracemalloc
 import weakref
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from pathlib import Path
@@ -30,6 +31,7 @@ from camkit import (
     ArmLoad,
     DoorHandleCam,
     Friction,
+    Judgements,
     OscillatingRollerCam,
     ahp,
     ahp_panel,
@@ -41,7 +43,7 @@ from camkit import (
     pareto_panel,
     try_everything,
 )
-from camkit.decision.ahp import CHOOSERS
+from camkit.decision import CHOOSERS
 from camkit.files.designs import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.machines.door_handle import (
@@ -107,8 +109,8 @@ def an_explorer():
 
 
 def a_search(app, population=24, generations=12):
-    criteria = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
-    importance = ahp_panel(["effort", "least radius"], [1])
+    criteria = ahp_panel(PAPER_JUDGEMENTS)
+    importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     return pareto_panel(app, STUDIES, space=EXPANDED_SPACE, free=list(DOOR_HANDLE_SPACE), criteria=criteria,
                   importance=importance, population=population, generations=generations)  # fmt: skip
 
@@ -477,14 +479,14 @@ def test_a_file_that_cannot_be_used_is_refused_and_changes_nothing(app, text, se
 
 
 def test_a_moved_judgement_changes_weights_ratio_and_picture():
-    panel = ahp_panel(["angle", "force", "torque"], PAPER_JUDGEMENTS, "effort")
+    panel = ahp_panel(replace(PAPER_JUDGEMENTS, names=["angle", "force", "torque"]), "effort")
     pixels, seen = panel.picture.widget.data, []
     panel.on_change(lambda: seen.append(panel.weights))
     panel.sliders[(0, 2)].value = 1 / 3
     expected = ahp([5, 1 / 3, 1])
     assert_array_equal(panel.weights, expected.weights)
     assert_array_equal(seen[0], expected.weights)
-    assert panel.upper == [5, 1 / 3, 1]
+    assert panel.judgements.above == (5, 1 / 3, 1)
     assert panel.picture.widget.data != pixels
     for text in (f"{expected.weights[0]:.4f}", f"consistency ratio: {expected.consistency_ratio:.4f}"):
         assert text in panel.summary()
@@ -492,7 +494,7 @@ def test_a_moved_judgement_changes_weights_ratio_and_picture():
 
 
 def test_judgements_that_contradict_each_other_are_pointed_at():
-    panel = ahp_panel(["angle", "force", "torque"], [1, 1, 1])
+    panel = ahp_panel(Judgements(["angle", "force", "torque"], [1, 1, 1]))
     assert alert(panel) == ""
     panel.load([5, 1 / 5, 5])
     ratio = ahp([5, 1 / 5, 5]).consistency_ratio
@@ -503,14 +505,14 @@ def test_judgements_that_contradict_each_other_are_pointed_at():
     ) in alert(panel)
     press(panel, "Reset")
     assert alert(panel) == ""
-    assert panel.upper == [1, 1, 1]
+    assert panel.judgements.above == (1, 1, 1)
 
 
 def test_the_judgement_that_hurts_most_is_told_with_what_the_others_imply():
     a = np.array([8.0, 4, 2, 1])  # consistent, so that what is spoiled is known
     upper = [a[i] / a[j] for i, j in combinations(range(4), 2)]
     names = ["angle", "force", "torque", "radius"]
-    panel = ahp_panel(names, upper)
+    panel = ahp_panel(Judgements(names, upper))
     assert alert(panel) == ""
     for k, (i, j) in enumerate(combinations(range(4), 2)):
         panel.load([1 / 9 if m == k else v for m, v in enumerate(upper)])
@@ -519,26 +521,26 @@ def test_the_judgement_that_hurts_most_is_told_with_what_the_others_imply():
 
 
 def test_a_judgement_off_saatys_scale_has_a_place_on_its_slider():
-    panel = ahp_panel(["a", "b"], [2.5])
-    assert panel.upper == [2.5]
+    panel = ahp_panel(Judgements(["a", "b"], [2.5]))
+    assert panel.judgements.above == (2.5,)
     panel.load([1 / 7.5])
-    assert panel.upper == pytest.approx([1 / 7.5])
+    assert panel.judgements.above == pytest.approx((1 / 7.5,))
     assert_allclose(panel.weights, [1 / 8.5, 7.5 / 8.5])
 
 
 def test_rounded_reciprocals_are_told():
-    panel = ahp_panel(["a", "b", "c"], [[1, 3, 7], [0.33, 1, 5], [0.14, 0.2, 1]])
+    panel = ahp_panel(Judgements(["a", "b", "c"], [[1, 3, 7], [0.33, 1, 5], [0.14, 0.2, 1]]))
     assert alert(panel) == "Rounded reciprocals are read as exact ones: 0.33 as 1/3, 0.14 as 1/7."
     panel.boxes[0, 1].value = "1/4"
-    assert panel.upper == [1 / 4, 7, 5]
+    assert panel.judgements.above == (1 / 4, 7, 5)
     assert "Rounded" not in alert(panel)
 
 
 def test_judgements_for_another_number_of_criteria_are_refused():
-    panel = ahp_panel(["a", "b", "c"], [1, 2, 3])
+    panel = ahp_panel(Judgements(["a", "b", "c"], [1, 2, 3]))
     with pytest.raises(ValueError, match="3 criteria"):
         panel.load([1, 2, 3, 4, 5, 6])
-    assert panel.upper == [1, 2, 3]
+    assert panel.judgements.above == (1, 2, 3)
 
 
 # ---------------------------------------------------------------- search
@@ -740,7 +742,7 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     assert_array_equal(other.front.x, uninterrupted.x)
     assert_array_equal(other.front.f, uninterrupted.f)
     assert other.explorer.design == typed
-    assert other.criteria.upper == finder.criteria.upper
+    assert other.criteria.judgements == finder.criteria.judgements
     assert other.criteria.method.value == "geometric"
     finder.criteria.method.value = "eigenvector"
     assert {n: b.value for n, b in other.bounds.items() if b.free.value} == dict(study.free)
@@ -769,8 +771,8 @@ def test_a_search_that_cannot_be_resumed_says_so_and_changes_nothing(finder, sto
 def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped):
     """Notebooks of one folder share the files: other problems, judgements, bounds or another start are another page."""
     stopped()
-    weighed = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
-    importance = ahp_panel(["effort", "least radius"], [1])
+    weighed = ahp_panel(PAPER_JUDGEMENTS)
+    importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     same = {"space": EXPANDED_SPACE, "free": list(DOOR_HANDLE_SPACE), "criteria": weighed, "importance": importance}
     other_start = explore(DoorHandleCam(friction=Friction(0.2)), pressure_angle, free=SLIDERS, **SMALL)
     pages = {
@@ -860,7 +862,7 @@ def test_a_cell_that_is_run_again_takes_over_the_search_that_runs(finder, monkey
     assert other.progress.value >= reached
     assert len(other.front) > 0
     assert other.explorer.design == design
-    assert other.criteria.upper == finder.criteria.upper
+    assert other.criteria.judgements == finder.criteria.judgements
     assert (other.population.value, other.seed.value) == (40, 4)
     finder.stop()  # does nothing any more
     shown, until = other.progress.value, time.monotonic() + 30
@@ -898,8 +900,8 @@ OTHERS = {
                                    free=list(PAPER_SPACE)),
     "another study of the same name": lambda: pareto_panel(
         an_explorer(), STUDIES | {"lift curve alone": door_handle_study}, space=EXPANDED_SPACE,
-        free=list(PAPER_SPACE), criteria=ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS),
-        importance=ahp_panel(["effort", "least radius"], [1])),
+        free=list(PAPER_SPACE), criteria=ahp_panel(PAPER_JUDGEMENTS),
+        importance=ahp_panel(Judgements(["effort", "least radius"], [1]))),
 }  # fmt: skip
 
 
@@ -1094,8 +1096,8 @@ PAGES = {
     "bounds that are a number": lambda page: edited(page, space={"lift_arm": 1}),
     "no judgements": lambda page: edited(page, judgements={}),
     "judgements that are a number": lambda page: edited(page, judgements=1),
-    "a method that is not there": lambda page: edited(page, judgements=judged_by("x")),
-    "a method that is nested": lambda page: edited(page, judgements=judged_by([[]])),
+    "a method that is not there": lambda page: edited(page, methods=judged_by("x")),
+    "a method that is nested": lambda page: edited(page, methods=judged_by([[]])),
     "a design that is a number": lambda page: edited(page, design=1),
     "numbers that are text": lambda page: edited(page, numbers={"lift_arm": "<b>"}),
     "numbers that are too large": lambda page: edited(page, numbers={"lift_arm": 1e300}),
@@ -1111,7 +1113,7 @@ def edited(page, **changes):
 
 
 def judged_by(method):
-    return {"criteria": [[1, 1, 1], method], "importance": [[1], method]}
+    return {"criteria": method, "importance": method}
 
 
 @pytest.fixture(scope="module")
@@ -1316,8 +1318,8 @@ def test_a_smaller_front_does_not_move_the_sliders(finder):
 
 def fresh():
     app = explore(DoorHandleCam(), pressure_angle, free=SLIDERS, **SMALL)
-    criteria = ahp_panel(["pressure angle", "contact force", "cam torque"], [1, 1, 1])
-    importance = ahp_panel(["effort", "least radius"], [1])
+    criteria = ahp_panel(Judgements(["pressure angle", "contact force", "cam torque"], [1, 1, 1]))
+    importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     return pareto_panel(app, STUDIES, space=EXPANDED_SPACE, free=["lift_arm"], criteria=criteria, importance=importance)
 
 
@@ -1341,8 +1343,8 @@ def test_a_study_goes_to_a_file_and_back(finder, mode):
     assert_allclose(other.front.x, finder.front.x, rtol=1e-14)
     assert_allclose(other.front.f, finder.front.f, rtol=1e-9)
     assert other.winner == finder.winner
-    assert other.criteria.upper == finder.criteria.upper
-    assert other.importance.upper == finder.importance.upper
+    assert other.criteria.judgements == finder.criteria.judgements
+    assert other.importance.judgements == finder.importance.judgements
     assert [b.free.value for b in other.bounds.values()] == [b.free.value for b in finder.bounds.values()]
     assert other.bounds["relief_cam_angle"].value == pytest.approx(finder.bounds["relief_cam_angle"].value)
     assert [getattr(other, k).value for k in ("population", "generations", "seed")] == [40, 30, 9]
@@ -1390,8 +1392,8 @@ def test_a_study_that_cannot_be_used_is_refused_and_changes_nothing(found, chang
     text = json.dumps(content)[: 500 if change == "cut short" else None]
 
     def state():
-        return (found.explorer.design, found.front, found.study, found.criteria.upper, found.bounds["lift_arm"].value,
-                found.population.value, found.winner, found.status.value)  # fmt: skip
+        return (found.explorer.design, found.front, found.study, found.criteria.judgements,
+                found.bounds["lift_arm"].value, found.population.value, found.winner, found.status.value)  # fmt: skip
 
     before = state()
     upload(found, "Load study", FILE if change is None else text)

@@ -11,8 +11,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
 
-from camkit import DoorHandleCam, Measure, Study, ahp, ahp_panel, door_handle_study, explore, try_everything
-from camkit.decision.ahp import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
+from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore, try_everything
+from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
 from camkit.files.designs import Work, from_json, to_json
 from camkit.panels.choose import choose_panel
 from camkit.panels.kit.picture import ImageWidget
@@ -74,7 +74,7 @@ def xy(ax, key):
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
 def test_a_decision_is_what_the_package_says(k):
     front = a_front(k)
-    shown = decision(front, UPPERS[k])
+    shown = decision(front, UPPERS[k] and ahp(UPPERS[k]))
     weights = np.ones(1) if k == 1 else ahp(UPPERS[k]).weights
     assert_allclose(shown.weights, weights)
     assert shown.winners == {rule: CHOOSERS[rule](front, weights) for rule in MARKS}
@@ -97,10 +97,10 @@ def test_a_decision_is_what_the_package_says(k):
 @pytest.mark.parametrize("view", [front_winners, winners_by_weight, judgement_bars])
 @pytest.mark.filterwarnings("error")
 def test_every_view_of_one_to_four_objectives_is_moved_and_not_drawn_again(k, view):
-    shown = decision(a_front(k), UPPERS[k])
+    shown = decision(a_front(k), UPPERS[k] and ahp(UPPERS[k]))
     ax = drawn(shown, view)
     artists = moving(ax)
-    other = shown.judged(None if k == 1 else np.ones((k, k)))
+    other = shown.judged(None if k == 1 else ahp(np.ones((k, k))))
     draw(other, [ax], (view,))
     ax.figure.canvas.draw()
     assert moving(ax) == artists
@@ -108,7 +108,7 @@ def test_every_view_of_one_to_four_objectives_is_moved_and_not_drawn_again(k, vi
 
 def test_marks_are_at_the_winners_in_their_designs_colours():
     front = a_front(2)
-    shown = decision(front, [5])
+    shown = decision(front, ahp([5]))
     ax = drawn(shown, front_winners)
     for rule in MARKS:
         i = CHOOSERS[rule](front, ahp([5]).weights)
@@ -130,7 +130,7 @@ def _covers(patch, x, y):
 
 def test_the_triangle_has_the_winners_colour_at_every_weighting():
     front = a_front(3)
-    shown = decision(front, [2, 3, None])
+    shown = decision(front, ahp([2, 3, None]))
     ax = drawn(shown, winners_by_weight)
     for weights in 0.05 + 0.85 * np.random.default_rng(5).dirichlet(np.ones(3), 12):
         for k, (rule, choose) in enumerate((("weighted sum", weighted_sum), ("TOPSIS", topsis))):
@@ -149,7 +149,7 @@ def test_the_triangle_has_the_winners_colour_at_every_weighting():
 
 def test_the_line_of_weights_changes_colour_where_the_winner_changes():
     front = a_front(2)
-    shown = decision(front, [1])
+    shown = decision(front, ahp([1]))
     ax = drawn(shown, winners_by_weight)
     told = judgement_ranges(front, [1])[0]
     for ratio in np.geomspace(told.low * 1.02, told.high * 0.98, 5):
@@ -162,7 +162,7 @@ def test_the_line_of_weights_changes_colour_where_the_winner_changes():
 
 
 def test_bars_end_where_the_winner_changes():
-    shown = decision(a_front(3), [2, 3, None])
+    shown = decision(a_front(3), ahp([2, 3, None]))
     ax = drawn(shown, judgement_bars)
     for rule in WEIGHING:
         for p, told in enumerate(shown.ranges[rule]):
@@ -219,7 +219,7 @@ class Source:
 
 @pytest.fixture
 def source():
-    return Source(a_front(3), ahp_panel([m.name for m in GOALS[2]], [2, 3, None]))
+    return Source(a_front(3), ahp_panel(Judgements([m.name for m in GOALS[2]], [2, 3, None])))
 
 
 def rows(panel):
@@ -402,10 +402,10 @@ def test_the_band_is_called_after_its_axis(source):
 
 
 def test_a_typed_judgement_counts_exactly_and_moves_the_slider():
-    panel = ahp_panel(["a", "b", "c"], [1, 1, 1])
+    panel = ahp_panel(Judgements(["a", "b", "c"], [1, 1, 1]))
     for words, value in (("3.7", 3.7), ("1/3", 1 / 3), (" 2 / 5 ", 0.4), ("0,25", 0.25)):
         panel.boxes[(0, 1)].value = words
-        assert panel.upper == [value, 1, 1]
+        assert panel.judgements.above == (value, 1, 1)
         assert panel.sliders[(0, 1)].value == value
     assert panel.boxes[(0, 1)].value == "1/4"
     panel.sliders[(0, 1)].value = 5.0
@@ -414,20 +414,20 @@ def test_a_typed_judgement_counts_exactly_and_moves_the_slider():
 
 
 def test_an_empty_box_leaves_a_pair_open():
-    panel = ahp_panel(["a", "b", "c"], [2, 8, 4])
+    panel = ahp_panel(Judgements(["a", "b", "c"], [2, 8, 4]))
     panel.boxes[(0, 2)].value = ""
-    assert panel.upper == [2, None, 4]
+    assert panel.judgements.above == (2, None, 4)
     assert_allclose(panel.weights, ahp([2, None, 4]).weights)
     assert panel.sliders[(0, 2)].value == 8
     assert "camkit-unjudged" in panel.sliders[(0, 2)]._dom_classes
     assert "<td>(8)</td>" in panel._matrix.value
     assert "not judged: 1" in panel.summary()
     panel.boxes[(0, 1)].value = "?"
-    assert panel.upper == [2, None, 4]
+    assert panel.judgements.above == (2, None, 4)
     assert "The judgement of a against b stays as it was: no judgement connects criterion 1" in panel._banner.value
     assert panel.boxes[(0, 1)].value == "2"
     panel.sliders[(0, 2)].value = 7.0
-    assert panel.upper == [2, 7, 4]
+    assert panel.judgements.above == (2, 7, 4)
     assert "camkit-unjudged" not in panel.sliders[(0, 2)]._dom_classes
 
 
@@ -435,21 +435,21 @@ def test_an_empty_box_leaves_a_pair_open():
     "words", ["many", "-3", "0", "1/0", "inf", "3;4", "1 2", "1_0", "1/2/3", "1,234", "nan", "--5", "2 in", "∞"]
 )
 def test_what_is_no_judgement_is_refused_in_a_sentence(words):
-    panel = ahp_panel(["a", "b"], [3])
+    panel = ahp_panel(Judgements(["a", "b"], [3]))
     panel.boxes[(0, 1)].value = words
     assert (
         f"The judgement of a against b stays as it was: {words!r} is no number above 0"
         in panel._banner.value.replace("&#x27;", "'")
     )
-    assert panel.upper == [3]
+    assert panel.judgements.above == (3,)
     assert panel.boxes[(0, 1)].value == "3"
 
 
 def test_an_open_judgement_goes_to_a_file_and_back():
-    panel = ahp_panel(["a", "b", "c"], [2, None, 4])
-    work = Work(door_handle_study(), DoorHandleCam(), {"importance": panel.upper})
+    panel = ahp_panel(Judgements(["a", "b", "c"], [2, None, 4]))
+    work = Work(door_handle_study(), DoorHandleCam(), {"importance": panel.judgements})
     again = from_json(to_json(work)).judgements["importance"]
-    assert list(again) == [2, None, 4]
+    assert again == panel.judgements
     panel.load([1, 1, 1])
     panel.load(again)
-    assert panel.upper == [2, None, 4]
+    assert panel.judgements.above == (2, None, 4)

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import (
     DoorHandleCam,
+    Judgements,
     Measure,
     Study,
     ahp_panel,
@@ -381,8 +382,8 @@ SLIDERS = ["lift_arm", "lift_start_angle", "relief_cam_angle", "lift_centre_dist
 @pytest.fixture(scope="module")
 def workshop():
     app = explore(DoorHandleCam(), curvature, free=SLIDERS, width=4, height=3)
-    criteria = ahp_panel(["pressure angle", "contact force", "cam torque"], PAPER_JUDGEMENTS)
-    importance = ahp_panel(["effort", "least radius"], [1])
+    criteria = ahp_panel(PAPER_JUDGEMENTS)
+    importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     panel = live_pareto_panel(app, STUDIES, LIFT_SPACE, criteria=criteria, importance=importance)
     yield panel
     panel.settle()

@@ -26,7 +26,7 @@ from camkit import (
 )
 from camkit.cam.measures import max_pressure_angle
 from camkit.cam.undercut import undercut_in_words
-from camkit.decision.summary import side_by_side
+from camkit.decision import side_by_side
 from camkit.linkage.universal_joint import DoubleUniversalJoint
 from camkit.machines.cabin_door import CabinDoorLinkage
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever

@@ -15,6 +15,7 @@ from camkit import (
     DoorHandleCam,
     Dwell,
     Friction,
+    Judgements,
     Measure,
     MotionProgram,
     OscillatingRollerCam,
@@ -34,7 +35,7 @@ from camkit import (
     weighted_sum,
 )
 from camkit.data import load as reference
-from camkit.decision.ahp import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
+from camkit.decision import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
 from camkit.files.designs import Work, from_json, to_json
 from camkit.panels import ahp_panel, choose_panel, explore
 from camkit.quantities import quantities_of
@@ -173,10 +174,10 @@ REFUSALS = [
     (lambda: ahp([5, 0, 1]), "judgement (1, 3) is 0; it must be a positive number"),
     (lambda: ahp([5, INF, 1]), "judgement (1, 3) is inf; it must be a positive number"),
     (lambda: ahp([[1, 2, 3], [1, 2, 3]]), "the judgements have the shape (2, 3); they must be a square matrix"),
-    (lambda: ahp([5, 1]), "2 judgements are no upper triangle; 1, 3, 6, 10, ... are"),
-    (lambda: ahp([[1, 2], [1]]), "the judgements must be a square matrix of numbers or its upper triangle"),
+    (lambda: ahp([5, 1]), "2 judgements are not what is above the diagonal of a matrix; 1, 3, 6, 10, ... are"),
+    (lambda: ahp([[1, 2], [1]]), "the judgements must be a square matrix of numbers, or what is above its diagonal"),
     (lambda: ahp([5], "mean"), "the method is 'mean'; there are 'eigenvector' and 'geometric'"),
-    (lambda: ahp_panel(["a", "b"], [1, 2, 3]), "there are 3 rows of judgements for 2 criteria"),
+    (lambda: ahp_panel(Judgements(["a", "b"], [1, 2, 3])), "there are 3 rows of judgements for 2 criteria"),
 
     # choosing
     (lambda: most_isolated(np.zeros((0, 2))), "the front is empty; there is no design to choose"),
