@@ -22,7 +22,7 @@ from ..cam.force_closure import jump_speed, preload_needed
 from ..cam.peaks import Extreme
 from ..cam.sizing import min_from_which_on
 from ..contact import LineContact, contact_modulus, line_contact
-from ..geometry import rotated
+from ..geometry import Body, Disc, Outline, rotated
 from ..kinds import numbers, one_number
 from ..motion import Kinematics, Poly345
 from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity
@@ -461,6 +461,16 @@ class ValveAnalysis:
         """Path of the roller's centre on the cam, m; ``nan`` under a flat face, which has none."""
         height = self.cam.base_radius + self.cam.roller_radius + self.lift
         return self.on_cam(np.stack([0 * height, height if self.cam.follower == ROLLER else np.nan * height]))
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """The follower of one design: face or roller, with its stem."""
+        cam, r = self.cam, self.cam.roller_radius
+        flat, length, wide = cam.follower == FLAT, 1.6 * cam.max_lift, 1.15 * abs(self.velocity).max()
+        at: Any = {"x": 0.0, "y": cam.base_radius + self.lift + (0.0 if flat else r)}
+        face = Outline("follower", "face", np.array([[-wide, wide], [0, 0]]), **at)
+        stem = Outline("follower", "arm", np.array([[0, 0], [0, length + (0.0 if flat else r)]]), **at)
+        return face if flat else Disc("follower", "roller", r, **at), stem
 
     @property
     def face_normal(self) -> np.ndarray | None:

@@ -14,7 +14,7 @@ import numpy as np
 from ..decision import SAATY_SCALE, Judgements, ahp, typed_judgement
 from ..kinds import refuse_arguments
 from ..markup import Html, escaped, html, table
-from ..render.front import weight_bars
+from ..views.front import weight_bars
 from .kit.controls import banner, show_message, small_html, tables_html
 from .kit.panel import Panel
 from .kit.picture import LivePicture

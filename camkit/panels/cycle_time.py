@@ -10,11 +10,11 @@ import ipywidgets as w
 
 from ..kinds import a_number, refuse_arguments
 from ..quantities import Measure, Quantity
-from ..render.progress import ShownIntervals, intervals_tried
 from ..search.cycle_time import IntervalStep, shortest_interval
 from ..search.protocol import Monitor, SearchStopped, monitored
 from ..study.study import Study, made_study
 from ..units import deg, in_unit
+from ..views.progress import ShownIntervals, intervals_tried
 from .explore import Explorer
 from .kit.controls import NumberRow, show_message
 from .kit.picture import LivePicture

@@ -12,12 +12,12 @@ import numpy as np
 
 from ..kinds import refuse_arguments
 from ..markup import Html, escaped, table
-from ..render.front import ShownFronts, fronts_overlaid, shown_objectives
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
 from ..search.nsga2 import Generation
 from ..search.protocol import Monitor, SearchStopped, monitored
 from ..study.study import Study, made_study
+from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .explore import Explorer
 from .kit.controls import tables_html
 from .kit.picture import LivePicture

@@ -15,11 +15,10 @@ from ..decision import CHOOSERS
 from ..kinds import refuse_arguments, refuse_empty
 from ..markup import html, joined
 from ..quantities import Paths, Quantity, value_of, with_quantities, words
-from ..render.front import shown_objectives
-from ..render.live_front import LiveFront, live_pareto
 from ..search.fast_front import quick_front, quick_front_rounds
 from ..search.front import Front
 from ..study.study import Study, made_study, refuse_bounds
+from ..views.front import LiveFront, live_pareto, shown_objectives
 from .ahp import AhpPanel
 from .explore import Explorer
 from .kit.controls import banner, show_message

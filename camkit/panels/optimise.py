@@ -11,10 +11,10 @@ import numpy as np
 from ..kinds import refuse_arguments, shown
 from ..markup import escaped
 from ..quantities import Measure
-from ..render.progress import ShownLooks, best_so_far
 from ..search.minimise import METHODS, Minimum, minimise
 from ..search.protocol import Monitor, SearchStopped, monitored
 from ..study.study import Study, made_study
+from ..views.progress import ShownLooks, best_so_far
 from .explore import Explorer
 from .kit.controls import show_message
 from .kit.number import WholeBox, staying

@@ -19,12 +19,12 @@ from ..files import designs
 from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
 from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
-from ..render.front import ShownFront, pareto, shown_objectives
 from ..search.checkpoint import fingerprint, taken_up, why
 from ..search.front import Front, front_of, reference_point
 from ..search.nsga2 import Generation, nsga2_generations
 from ..study.study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
+from ..views.front import ShownFront, pareto, shown_objectives
 from .ahp import AhpPanel
 from .explore import Explorer, changed, remarked
 from .kit.controls import Download, Upload, banner, label_html, show_message, small_html

@@ -9,8 +9,9 @@ import ipywidgets as w
 
 from ..decision import SideBySide, side_by_side
 from ..kinds import refuse_arguments
-from ..render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
+from ..render.draw import colour
 from ..study.study import Study
+from ..views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
 from .explore import Explorer
 from .kit.controls import Download, banner, bar_html, show_message, tables_html
 from .kit.panel import Panel
@@ -103,9 +104,8 @@ class Shortlist(Panel):
         """The letter of a kept design in its colour, and what can be done with it."""
         load = self._button("Load", "upload", f"put design {place} into the sliders", lambda: self.load(place))
         drop = self._button("Remove", "times", f"keep design {place} no longer", lambda: self.drop(place))
-        return w.HBox(
-            [w.HTML(bar_html(colour_of(place), 18, f"design {place}"), layout=w.Layout(width="110px")), load, drop]
-        )
+        letter = bar_html(colour("series", PLACES.index(place)), 18, f"design {place}")
+        return w.HBox([w.HTML(letter, layout=w.Layout(width="110px")), load, drop])
 
     @staticmethod
     def _button(description: str, icon: str, tooltip: str, act: Callable[[], None]) -> w.Button:

@@ -8,15 +8,15 @@ from typing import Any, Protocol, runtime_checkable
 
 import ipywidgets as w
 import numpy as np
-from matplotlib.axes import Axes
 
 from ..kinds import refuse_arguments
 from ..markup import Html, table
 from ..quantities import Quantity, value_of, words
-from ..render.tolerances import cloud, deviation, sobol_bars
 from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
+from ..views.picture import Picture, View
+from ..views.tolerances import cloud, deviation, sobol_bars
 from .explore import Explorer
 from .kit.controls import NumberRow, banner, show_message, tables_html
 from .kit.latest_only import Debounced
@@ -66,7 +66,7 @@ class TolerancePanel(Panel):
         self.spread.observe(lambda _: self._moved(), "value")
         self._later, self._settling = Debounced(self.settle, SETTLE), threading.RLock()
         self._banner, self._table = banner(), w.HTML()
-        views = (self._cloud, sobol_bars, *map(deviation, curves))
+        views: tuple[View, ...] = (self._cloud, sobol_bars, *map(deviation, curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
         super().__init__([self._body()])
         self._show(self.tolerances)
@@ -90,8 +90,8 @@ class TolerancePanel(Panel):
         heading = w.HTML("<b>Tolerances</b>&ensp;plus and minus; a normal spread has them at three standard deviations")
         return w.VBox([heading, grid, w.HBox([self.spread, back]), self._banner, self.picture.widget, self._table])
 
-    def _cloud(self, tolerances: Tolerances, ax: Axes) -> Axes:
-        return cloud(getattr(self._front, "front", self._front))(tolerances, ax)
+    def _cloud(self, tolerances: Tolerances) -> Picture:
+        return cloud(getattr(self._front, "front", self._front))(tolerances)
 
     @property
     def half_widths(self) -> dict[str, float]:

@@ -56,6 +56,7 @@ SHADES = ((0.0, 0.0), (0.0, 0.45), (1.0, 0.5), (0.0, 0.7))
 """The colours of a series return darker and paler: towards black (0) or white (1), and how far."""
 
 STROKES: dict[str, dict[str, Any]] = {
+    "solid": {"linestyle": "-"},
     "thin": {"linewidth": 1.0},
     "bold": {"linewidth": 3.0},
     "dashed": {"linestyle": "--"},

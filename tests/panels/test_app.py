@@ -62,12 +62,12 @@ from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import unfinished
 from camkit.quantities import Measure, Quantity
 from camkit.render.artists import _find
-from camkit.render.front import shown_objectives
 from camkit.search.checkpoint import read
 from camkit.search.front import Front
 from camkit.search.nsga2 import Generation, nsga2_generations
 from camkit.units import deg, mm
 from camkit.views import curvature, mechanism, pressure_angle
+from camkit.views.front import shown_objectives
 
 SMALL = {"width": 4.0, "height": 2.6}
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction.coefficient")

@@ -18,10 +18,10 @@ from camkit.quantities import Design, quantity
 from camkit.render.artists import _find, moving
 from camkit.render.contours import BANDS, ShownPlane, objective_plane
 from camkit.render.picture import draw, layout
-from camkit.render.valve import lift
 from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
 from camkit.units import mm, rpm
+from camkit.views.valve import lift
 
 WIDE = ValveCam(base_radius=24.5 * mm)
 

@@ -27,14 +27,13 @@ from camkit.panels.kit.latest_only import Debounced, LatestOnly
 from camkit.panels.live_pareto import live_pareto_panel
 from camkit.quantities import Design, quantity
 from camkit.render.artists import _find
-from camkit.render.front import shown_objectives
-from camkit.render.live_front import LiveFront, live_pareto, searches_compared
 from camkit.render.picture import draw, layout
 from camkit.search.checkpoint import versions
 from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
 from camkit.search.front import Front, reference_point
 from camkit.units import mm
 from camkit.views import curvature
+from camkit.views.front import LiveFront, live_pareto, searches_compared, shown_objectives
 
 FOUR = {n: EXPANDED_SPACE[n] for n in ("lift_arm", "lift_start_angle", "lift_centre_distance", "relief_cam_angle")}
 

@@ -20,7 +20,7 @@ from camkit.machines.high_speed_study import (
 from camkit.panels.cycle_time import cycle_time_panel
 from camkit.panels.optimise import optimise_panel
 from camkit.render.artists import _find
-from camkit.render.progress import unit_text
+from camkit.render.draw import unit_text
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.minimise import minimise
 from camkit.search.protocol import Monitor, SearchStopped, monitored
@@ -384,5 +384,5 @@ def test_reversed_intervals_are_refused_in_a_sentence():
 
 
 def test_powers_of_units_are_raised():
-    assert unit_text("MPa") == "MPa"
-    assert unit_text("m/s^2") == "m/s$^{2}$"
+    assert unit_text("x^2  [MPa]") == "x^2  [MPa]"
+    assert unit_text("a  [m/s^2]") == "a  [m/s$^{2}$]"

@@ -10,7 +10,6 @@ from operator import attrgetter
 import ipywidgets as w
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from camkit import (
     DoorHandleCam,
@@ -53,16 +52,16 @@ from camkit.quantities import Measure, PeakMeasure
 from camkit.render.linkage import CURVES, linkage_in_space
 from camkit.render.picture import picture
 from camkit.render.shaft import SHAFT_VIEWS
-from camkit.render.sweep import limit_sweep
-from camkit.render.tolerances import sobol_bars
 from camkit.render.universal_joint import JOINT_VIEWS
-from camkit.render.valve import VALVE_VIEWS
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.typed import typed_number, typed_whole
 from camkit.views import CAM_VIEWS, contact_force, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
+from camkit.views.sweep import limit_sweep
+from camkit.views.tolerances import sobol_bars
+from camkit.views.valve import VALVE_VIEWS
 
 # ---------------------------------------------------------------- numbers as people type them
 
@@ -366,11 +365,9 @@ def test_five_limits_are_swept_and_five_cams_stand_beside_each_other():
         Measure(f"limit {i}", "", lambda a, i=i: np.ravel(a.cam.base_radius / mm - 10 * i)): 0.5 for i in range(1, 6)
     }
     study = Study(TranslatingFlatCam(), {"base_radius": (10 * mm, 60 * mm)}, (max_pressure_angle,), at_most=limits)
-    ax = Figure().subplots()
-    limit_sweep(Sweep(study, n=9), ax)
-    drawn = [line for line in ax.lines if str(line.get_gid()).startswith("limit ")]
-    assert [line.get_gid() for line in drawn] == [m.name for m in limits]
-    assert len({line.get_color() for line in drawn}) == 5
+    drawn = [mark for mark in limit_sweep(Sweep(study, n=9)).marks if mark.role == "series"]
+    assert [mark.key for mark in drawn] == [m.name for m in limits]
+    assert [mark.index for mark in drawn] == [0, 1, 2, 3, 4]
 
     cams = {f"cam {i}": OscillatingRollerCam(roller_radius=(4 + i) * mm).analyse() for i in range(5)}
     peak = PeakMeasure("force", "N", lambda a: abs(a.contact_force), angle=lambda a: a.cam_angle)

@@ -17,11 +17,10 @@ from camkit.machines.door_handle import CURVE_TABLE, stroke_radius
 from camkit.motion import Poly345
 from camkit.panels.kit.controls import Download
 from camkit.panels.shortlist import shortlist
-from camkit.render.artists import _find
-from camkit.render.overlay import PLACES, Kept, colour_of, measures_overlaid, profiles_overlaid
 from camkit.render.picture import draw, layout
 from camkit.units import mm
 from camkit.views import pressure_angle
+from camkit.views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
 
 ARMS = (50 * mm, 46 * mm, 54 * mm)
 DESIGNS = {f"arm {arm / mm:.0f}": DoorHandleCam(lift_arm=arm) for arm in ARMS}
@@ -158,28 +157,25 @@ def drawn(view, kept):
 
 def test_profiles_are_those_of_the_designs_in_the_colours_of_their_places():
     kept = Kept({place: design.analyse() for place, design in zip("ACE", DESIGNS.values(), strict=True)})
-    ax = drawn(profiles_overlaid, kept)
+    shown = profiles_overlaid(kept)
     for place in PLACES:
-        curve = np.array(_find(ax, place).get_data(), dtype=float)
+        assert (place in shown) == (place in kept.analyses)
         if place in kept.analyses:
-            profile = kept.analyses[place].profile / mm
-            assert_allclose(curve[:, : profile.shape[1]], profile)
-            assert _find(ax, place).get_color() == colour_of(place)
-            assert _find(ax, f"letter {place}").get_text() == place
-        else:
-            assert np.isnan(curve).all()
-            assert _find(ax, f"letter {place}").get_text() == ""
+            curve, profile = shown[place], kept.analyses[place].profile / mm
+            assert_allclose(np.array([curve.x, curve.y])[:, : profile.shape[1]], profile)
+            assert (curve.role, curve.index, curve.label) == ("series", PLACES.index(place), place)
 
 
 def test_measures_are_shown_against_the_first():
     analyses = {place: design.analyse() for place, design in zip("BC", DESIGNS.values(), strict=False)}
-    ax = drawn(measures_overlaid, Kept(analyses, CURVE_TABLE[:4]))
+    shown = measures_overlaid(Kept(analyses, CURVE_TABLE[:4]))
     ratios = [100 * (m(analyses["C"]) / m(analyses["B"]) - 1) for m in CURVE_TABLE[:4]]
-    assert_allclose(_find(ax, "B").get_xdata(), 0, atol=1e-12)
-    assert_allclose(_find(ax, "C").get_xdata(), ratios)
-    assert [tick.get_text().replace("\n", " ") for tick in ax.get_yticklabels()] == [m.name for m in CURVE_TABLE[:4]]
-    draw(Kept({}, CURVE_TABLE[:4]), [ax], (measures_overlaid,))
-    assert np.isnan(_find(ax, "B").get_xdata()).all()
+    assert_allclose(shown["B"].x, 0, atol=1e-12)
+    assert_allclose(shown["C"].x, ratios)
+    ticks = [words.replace("\n", " ") for words in shown.axes.yticks.values()]
+    assert ticks == [m.name for m in CURVE_TABLE[:4]]
+    assert list(shown.axes.yticks) == list(shown["B"].y)
+    assert "B" not in measures_overlaid(Kept({}, CURVE_TABLE[:4]))
 
 
 # --- the panel --------------------------------------------------------------------------------------------------------

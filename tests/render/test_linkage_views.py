@@ -12,13 +12,13 @@ from camkit.linkage.measures import room_in
 from camkit.linkage.space import Box
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study, rssr_study
 from camkit.render.artists import GREY, WARNING, moving
-from camkit.render.convergence import convergence
 from camkit.render.linkage import CURVES, LINKAGE_VIEWS, linkage_in_space, output_angle, pressure_angles
 from camkit.render.linkage_sketch import rssr_sketch
 from camkit.render.picture import draw, positions_of
 from camkit.render.turntable import Turntable
 from camkit.search.nsga2 import nsga2_generations
 from camkit.units import deg, mm
+from camkit.views.progress import convergence
 
 EXAMPLE = CabinDoorLinkage()
 SKEW = CabinDoorLinkage(90 * mm, 200 * mm, 110 * mm, 120 * mm, 80 * mm, 40 * mm, 70 * deg, -40 * deg, 20 * deg)
@@ -241,9 +241,8 @@ def test_the_sketch_has_every_letter():
 
 def test_convergence_shows_best_and_mean():
     generations = list(nsga2_generations(rssr_study(), 10, 6, seed=1))
-    (ax,) = axes()
-    convergence(generations, ax)
+    shown = convergence(generations)
     f = [g.evaluation.f[np.isfinite(g.evaluation.f)] / deg for g in generations]
-    np.testing.assert_allclose(data(ax, "best"), [range(1, 7), [v.min() for v in f]])
-    np.testing.assert_allclose(data(ax, "mean")[1], [v.mean() for v in f])
-    assert ax.get_ylabel() == "pressure angles off 30 deg  [deg]"
+    np.testing.assert_allclose([shown["best"].x, shown["best"].y], [range(1, 7), [v.min() for v in f]])
+    np.testing.assert_allclose(shown["mean"].y, [v.mean() for v in f])
+    assert shown.axes.ylabel == "pressure angles off 30 deg  [deg]"

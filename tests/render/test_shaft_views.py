@@ -12,13 +12,13 @@ from camkit.papers.problems import tension_spring
 from camkit.papers.shaft import printed_designs
 from camkit.render.artists import WARNING, _find, moving
 from camkit.render.design_map import design_plane, level_curve, region_below
-from camkit.render.optimiser_trials import evaluations_needed, solved_within
 from camkit.render.picture import draw, layout
 from camkit.render.shaft import SHAFT_VIEWS, candidates, diameters, on_the_plane, section, utilisation
 from camkit.render.universal_joint import JOINT_VIEWS, drive, pins
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.nsga2 import StudyProblem
 from camkit.study.design_map import DesignMap
+from camkit.views.optimiser_trials import evaluations_needed, solved_within
 
 OTHERS = (
     UniversalJointShaft(power=400 * kW),

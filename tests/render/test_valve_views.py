@@ -15,9 +15,11 @@ from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_study import VALVE_MEASURES, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER
 from camkit.render.artists import BLUE, WARNING, _find, moving
-from camkit.render.front import ShownFront
 from camkit.render.picture import draw, layout
-from camkit.render.valve import (
+from camkit.render.valve_sketch import valve_cam_sketch
+from camkit.units import deg, mm, rpm
+from camkit.views.front import ShownFront
+from camkit.views.valve import (
     VALVE_VIEWS,
     acceleration,
     cam_and_follower,
@@ -30,8 +32,6 @@ from camkit.render.valve import (
     spring_and_inertia,
     velocity,
 )
-from camkit.render.valve_sketch import valve_cam_sketch
-from camkit.units import deg, mm, rpm
 
 OTHERS = (
     ValveCam(n=20, m=20, follower=ROLLER, half_angle=70 * deg),
@@ -56,14 +56,19 @@ def data_of(ax):
     return {a.get_gid(): np.array(getattr(a, place[type(a).__name__])(), dtype=float) for a in moving(ax)}
 
 
+def lasting(ax):
+    """Everything but the follower, which may have a face or a roller."""
+    return {artist for artist in moving(ax) if not artist.get_gid().startswith("follower")}
+
+
 @pytest.mark.filterwarnings("error")
 def test_drawing_again_moves_what_was_drawn():
     first = ValveCam()
     axes = drawn(first, *VALVE_VIEWS, turn=0.4)
-    artists = [set(moving(ax)) for ax in axes]
+    artists = [lasting(ax) for ax in axes]
     for cam in (*OTHERS, first):
         draw(cam.analyse(), axes, VALVE_VIEWS, turn=0.4)
-        assert [set(moving(ax)) for ax in axes] == artists
+        assert [lasting(ax) for ax in axes] == artists
     axes[0].figure.canvas.draw()
     for again, new in zip(axes, drawn(first, *VALVE_VIEWS, turn=0.4), strict=True):
         before, after = data_of(new), data_of(again)
@@ -77,7 +82,9 @@ def test_drawing_again_moves_what_was_drawn():
 def test_the_follower_touches_the_turned_cam(follower, turn):
     cam = ValveCam(follower=follower)
     ax = drawn(cam, cam_and_follower, turn=turn * deg)
-    profile, face, contact = (xy(ax, key) for key in ("base circle", "follower", "contact"))
+    profile, face, contact = (
+        xy(ax, key) for key in ("base circle", "follower face" if follower == FLAT else "follower roller", "contact")
+    )
     height = (cam.base_radius + cam.motion(np.array([turn * deg])).s[0]) / mm
     assert np.hypot(*(profile - contact)).min() < 0.2
     if follower == FLAT:
@@ -131,7 +138,7 @@ def test_the_dot_on_the_lift_follows_the_cam():
         ((x,), (y,)) = xy(drawn(ValveCam(), lift, turn=turn * deg), "here")
         assert_allclose(x, turn, atol=0.1)
         assert_allclose(y, ValveCam().motion(np.array([x * deg])).s[0] / mm, atol=1e-9)
-    assert xy(drawn(ValveCam(), lift, turn=200 * deg), "here").size == 0  # on the base circle
+    assert_array_equal(xy(drawn(ValveCam(), lift, turn=200 * deg), "here")[0], np.nan)  # on the base circle
 
 
 def test_the_least_radius_is_marked_and_warned_of():

@@ -26,10 +26,10 @@ from camkit.panels.kit import picture as live
 from camkit.panels.tolerances import MOVING, SETTLED, general_tolerances, tolerance_panel
 from camkit.quantities import Design, Quantity, quantity
 from camkit.render.artists import _find
-from camkit.render.front import shown_objectives
-from camkit.render.tolerances import band, cloud, deviation, sobol_bars
 from camkit.study.tolerances import AnalysisCurve, Indices, Tolerances, general_tolerance
 from camkit.views import pressure_angle
+from camkit.views.front import shown_objectives
+from camkit.views.tolerances import band, cloud, deviation, sobol_bars
 
 
 @dataclass(frozen=True)
@@ -309,7 +309,7 @@ def test_the_views_show_the_numbers(study):
     assert_allclose(np.sort(y), np.sort(-made.evaluation.f[:, 1] / mm))
     assert len(_find(ax, "missed").get_xydata()) == (~kept).sum() > 0
     assert_array_equal(_find(ax, "front").get_xydata().T, shown_objectives(front))
-    assert _find(ax, "yield").get_text().startswith(f"{100 * made.share:.1f} % of parts keep all limits")
+    assert ax.get_title(loc="left").startswith(f"{100 * made.share:.1f} % of parts keep all limits")
 
     shares = made.indices.first[0]
     ends = [_find(bars, f"{name} 0").get_xdata()[-1] for name in LIFT]

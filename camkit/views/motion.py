@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ..kinds import refuse_kinds
 from ..motion import Kinematics, Law, MotionProgram, residual_vibration
 from ..units import deg, factor
-from .artists import BLUE, COLOURS, GREEN, GREY, INK, ORANGE, PURPLE, WARNING, frame, line, new
+from .cam import MOTION
+from .picture import Axes, Line, Picture, Points, View, picture
 
 HAIR = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
@@ -49,72 +49,56 @@ class ShownProgram:
         return np.array([joint.angle for joint in self.program.transitions() if not joint.lawful])
 
 
-def _derivative(shown: ShownProgram, ax: Axes, k: int, name: str, colour: str) -> Axes:
+def _derivative(shown: ShownProgram, k: int, name: str) -> Picture:
+    """The ``k``-th derivative, with a cross wherever the fundamental law is broken."""
     unit = shown.unit + ("" if k == 0 else "/rad" if k == 1 else f"/rad^{k}")
-    if new(ax):
-        frame(ax, name, "cam angle  [deg]", f"{'svaj'[k]}  [{unit}]")
-        ax.axhline(0, color=GREY, linewidth=0.8)
     scale = factor(shown.unit)
-    line(ax, name, shown.cam_angle / deg, shown.motion[k] / scale, color=colour)
     at = np.interp(shown.breaks, shown.cam_angle, shown.motion[k]) / scale
-    line(
-        ax,
-        "breaks",
-        shown.breaks / deg,
-        at,
-        linestyle="none",
-        marker="x",
-        markersize=9,
-        color=WARNING,
-        markeredgewidth=2.5,
+    return picture(
+        Axes(title=name, xlabel="cam angle  [deg]", ylabel=f"{'svaj'[k]}  [{unit}]"),
+        Line("zero", shown.joints[[0, -1]] / deg, [0.0, 0.0], role="guide", stroke="thin"),
+        Line(name, shown.cam_angle / deg, shown.motion[k] / scale, role=MOTION[k], stroke="solid"),
+        Points("breaks", shown.breaks / deg, at, role="trouble", mark="cross", size=9),
     )
-    return ax
 
 
-def displacement(shown: ShownProgram, ax: Axes) -> Axes:
+def displacement(shown: ShownProgram) -> Picture:
     """Position, with a handle at every joint."""
-    _derivative(shown, ax, 0, "Displacement", BLUE)
+    drawn = _derivative(shown, 0, "Displacement")
     y = np.asarray(shown.program.levels, dtype=float) / factor(shown.unit)
-    style = {"linestyle": "none", "marker": "o", "markersize": 10, "markerfacecolor": "white", "markeredgewidth": 2}
-    line(ax, "handles", shown.joints / deg, y, color=INK, **style)
-    return ax
+    return picture(drawn.axes, drawn.marks, Points("handles", shown.joints / deg, y, size=10, fill="paper"))
 
 
-def velocity(shown: ShownProgram, ax: Axes) -> Axes:
+def velocity(shown: ShownProgram) -> Picture:
     """First derivative with respect to the cam angle."""
-    return _derivative(shown, ax, 1, "Velocity", GREEN)
+    return _derivative(shown, 1, "Velocity")
 
 
-def acceleration(shown: ShownProgram, ax: Axes) -> Axes:
+def acceleration(shown: ShownProgram) -> Picture:
     """Second derivative with respect to the cam angle."""
-    return _derivative(shown, ax, 2, "Acceleration", ORANGE)
+    return _derivative(shown, 2, "Acceleration")
 
 
-def jerk(shown: ShownProgram, ax: Axes) -> Axes:
+def jerk(shown: ShownProgram) -> Picture:
     """Third derivative with respect to the cam angle."""
-    return _derivative(shown, ax, 3, "Jerk", PURPLE)
+    return _derivative(shown, 3, "Jerk")
 
 
 PROGRAM_VIEWS = (displacement, velocity, acceleration, jerk)
 """A motion program at a glance."""
 
-DASHES = ("-", "--", "-.", ":")
+SHARES = np.linspace(0, 1, 1001)
 
 
-def law_overlay(k: int, name: str) -> Any:
+def law_overlay(k: int, name: str) -> View:
     """A view that lays the ``k``-th derivative of several laws over each other."""
 
-    def view(laws: Sequence[Law], ax: Axes) -> Axes:
-        u = np.linspace(0, 1, 1001)
-        first = new(ax)
-        for i, law in enumerate(laws):
-            style = {"color": (*COLOURS, INK, GREY)[i % 7], "linestyle": DASHES[i // 7], "label": law.name}
-            line(ax, law.name, u, law(u)[k], **style)
-        if first:
-            frame(ax, name, "share of the angle", f"{'svaj'[k]}")
-            if k == 0:
-                ax.legend(loc="upper left")
-        return ax
+    def view(laws: Sequence[Law]) -> Picture:
+        marks = [
+            Line(law.name, SHARES, law(SHARES)[k], role="series", index=i, label=law.name if k == 0 else "")
+            for i, law in enumerate(laws)
+        ]
+        return picture(Axes(title=name, xlabel="share of the angle", ylabel=f"{'svaj'[k]}"), marks)
 
     view.__doc__ = f"{name} of several laws, each with lift 1 over an angle of 1."
     return view
@@ -149,22 +133,20 @@ class ShownVibration:
         return [residual_vibration(law, self.tau).residual for law in self.laws]
 
 
-def vibration_left(shown: ShownVibration, ax: Axes) -> Axes:
+def vibration_left(shown: ShownVibration) -> Picture:
     """What still rings after the rise, against the speed of the machine (fast on the left)."""
-    if new(ax):
-        frame(ax, "Residual vibration", "rise time / natural period", "amplitude after the rise  [% of lift]")
-        ax.set(xscale="log", yscale="log", ylim=(0.003, 200))
-        ax.set_xticks([0.5, 1, 2, 3, 5, 10], ["0.5", "1", "2", "3", "5", "10"])
-        ax.minorticks_off()
-    for i, (law, residual) in enumerate(zip(shown.laws, shown.residual, strict=True)):
-        line(
-            ax,
-            law.name,
-            shown.tau,
-            np.maximum(100 * residual, 1e-4),
-            color=(*COLOURS, INK, GREY)[i % 7],
-            label=law.name,
-        )
-    if ax.get_legend() is None:
-        ax.legend(loc="lower left")
-    return ax
+    axes = Axes(
+        title="Residual vibration",
+        xlabel="rise time / natural period",
+        ylabel="amplitude after the rise  [% of lift]",
+        log="xy",
+        xticks={ratio: f"{ratio:g}" for ratio in (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)},
+        ylim=(0.003, 200),
+    )
+    laws = enumerate(zip(shown.laws, shown.residual, strict=True))
+    return picture(axes, [_ringing(shown.tau, law, residual, i) for i, (law, residual) in laws])
+
+
+def _ringing(tau: Any, law: Law, residual: Any, index: int) -> Line:
+    style: Any = {"role": "series", "index": index, "label": law.name}
+    return Line(law.name, tau, np.maximum(100 * residual, 1e-4), **style)

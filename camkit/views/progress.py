@@ -1,0 +1,89 @@
+"""How far a search has come: generation by generation, the best so far, the intervals that a bisection tried."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..kinds import refuse_arguments, refuse_empty
+from ..quantities import Measure
+from ..units import deg, factor, in_unit
+from .high_speed import two_lines
+from .picture import Axes, Band, Line, Picture, Points, picture
+
+ROOM = 0.5
+"""How far above the first design, as a share of it, designs that a search looked at are shown."""
+
+
+def convergence(generations: Sequence[Any]) -> Picture:
+    """Best and mean of the first objective in every generation of a search, designs that cannot be built left out."""
+    refuse_arguments(convergence, locals())
+    refuse_empty(generations, "generations")
+    measure = generations[0].study.minimise[0]
+    built = [g.evaluation.f[np.isfinite(g.evaluation.f[:, 0]), 0] for g in generations]
+    numbers = [g.number for g in generations]
+    mean, best = (in_unit(measure.sign * np.array([of(f) for f in built]), measure.unit) for of in (np.mean, np.min))
+    return picture(
+        Axes(title="Convergence", xlabel="generation", ylabel=measure.label, log="x"),
+        Line("mean", numbers, mean, role="guide", label="mean"),
+        Line("best", numbers, best, role="profile", label="best"),
+    )
+
+
+class ShownLooks(NamedTuple):
+    """What a search looked at, and its objective."""
+
+    measure: Measure
+    looks: Sequence[Any]
+
+
+def best_so_far(shown: ShownLooks) -> Picture:
+    """The objective of what a search looked at, those that miss a limit pale; the line is the best so far."""
+    looked, f, kept = np.array(shown.looks, dtype=float).reshape(-1, 3).T
+    sense = shown.measure.sign / factor(shown.measure.unit)
+    best = np.fmin.accumulate(np.where(kept > 0, f, np.nan)) if len(f) else f
+    top = (1 + ROOM) * (best[np.isfinite(best)][0] if np.isfinite(best).any() else np.inf)
+    dots = [
+        Points(key, looked[seen], sense * f[seen], role=role, size=4, label=key)
+        for key, seen, role in (
+            ("misses a limit", (kept == 0) & (f <= top), "flank"),
+            ("keeps all limits", (kept > 0) & (f <= top), "guide"),
+        )
+    ]
+    line = Line("best", looked, sense * best, role="profile", steps=True, label="best so far")
+    axes = Axes(title="The search", xlabel="designs looked at", ylabel=two_lines(shown.measure), log="x")
+    return picture(axes, dots, line)
+
+
+class ShownIntervals(NamedTuple):
+    """The steps of a bisection of intervals so far, and the objective that is limited."""
+
+    measure: Measure
+    limit: float
+    steps: Sequence[Any]
+
+
+def intervals_tried(shown: ShownIntervals) -> Picture:
+    """The least objective at every interval that was tried; the answer lies in the band that is left."""
+    unit = factor(shown.measure.unit)
+    tried = np.array([(s.tried, s.optimum.f) for s in shown.steps if s.optimum.feasible]).reshape(-1, 2).T
+    kept = tried[1] <= shown.limit
+    dots = [
+        Points(key, tried[0][where] / deg, tried[1][where] / unit, role=role, size=9, label=key)
+        for key, where, role in (("keeps the limit", kept, "allowed"), ("does not", ~kept, "trouble"))
+    ]
+    ends = tried[0][[tried[0].argmin(), tried[0].argmax()]] / deg if tried.size else np.zeros(0)
+    return picture(
+        Axes(title="Best designs", xlabel="interval  [deg]", ylabel=two_lines(shown.measure)),
+        Band("left", *_left(shown), role="allowed", along="y", opacity=0.18),
+        Line("limit", ends, 0 * ends + shown.limit / unit, stroke="dashed", label="limit"),
+        dots,
+    )
+
+
+def _left(shown: ShownIntervals) -> tuple[Any, Any]:
+    """Between what is too short and what is long enough, deg."""
+    last = shown.steps[-1] if shown.steps else None
+    return (last.low / deg, last.high / deg) if last and last.low and last.best else (np.nan, np.nan)

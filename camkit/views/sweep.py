@@ -1,0 +1,61 @@
+"""A sweep: how each limit is used along one quantity, with the range in which all are kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..kinds import refuse_arguments
+from ..quantities import words
+from ..study.study import Study, made_study
+from ..study.sweep import Sweep
+from .picture import Axes, Band, Line, Picture, Polygon, Text, View, picture
+
+LOWEST, HIGHEST = -100.0, 100.0
+"""The window of spare and excess, percent of the limit."""
+
+
+def limit_sweep(sweep: Sweep) -> Picture:
+    """Excess over each limit (below 0: kept) along the free quantity; filled: every limit kept."""
+    x, now = sweep.x / sweep.declared.factor, sweep.now / sweep.declared.factor
+    told = words(sweep.name)
+    limits = [
+        Line(measure.name, x, np.clip(100 * excess, LOWEST, HIGHEST), role="series", index=i, label=measure.name)
+        for i, (measure, excess) in enumerate(zip(sweep.measures, sweep.limits, strict=True))
+    ]
+    axes = Axes(
+        title=f"How large must the {told} be?",
+        xlabel=f"{told}  [{sweep.declared.unit}]",
+        ylabel="excess over the limit  [%]",
+        xlim=(x[0], x[-1]),
+        ylim=(LOWEST, HIGHEST),
+    )
+    return picture(
+        axes,
+        Polygon("feasible", *_bands(x, sweep.feasible), role="allowed", opacity=0.2),
+        Band("zero", 0.0, 0.0),
+        limits,
+        Line("now", [now, now], [LOWEST, HIGHEST], stroke="dashed"),
+        Text("now name", now, 0.97 * HIGHEST, " now", anchor="left top"),
+    )
+
+
+def _bands(x: np.ndarray, kept: np.ndarray) -> np.ndarray:
+    """Outline of the bands in which ``kept`` holds, over the window's whole height, ``(2, m)``."""
+    high = np.where(kept, HIGHEST, LOWEST)
+    across = np.repeat(x, 2)[1:-1]
+    top = np.repeat(np.minimum(high[1:], high[:-1]), 2)
+    return np.array([[x[0], *across, x[-1]], [LOWEST, *top, LOWEST]])
+
+
+def sweep_view(make: Callable[[Any], Study]) -> View:
+    """A view for a live panel: the sweep of ``make(cam)``, a study with one free quantity around the design shown."""
+
+    refuse_arguments(sweep_view, locals())
+
+    def view(analysis: Any) -> Picture:
+        return limit_sweep(Sweep(made_study(make, analysis.cam)))
+
+    return view

@@ -1,0 +1,165 @@
+"""Views of a cam that opens a valve: the whole cam with its follower, radii of curvature, forces, stress, torque."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..data import load
+from ..geometry import rotated
+from ..machines.valve_study import PAPER_MIN_RADIUS
+from ..units import MPa, deg, mm
+from .cam import ANGLE, bodies
+from .front import ShownFront, pareto
+from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps, picture
+
+SHOWN_RADIUS = (-10, 45)
+"""Radii of curvature (mm) that the view shows: where the flank begins they are far larger, and of no concern."""
+
+
+def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
+    """The whole cam at the cam angle ``turn`` with its follower; trouble: stretches that the follower undercuts."""
+    whole, cam = analysis.whole, analysis.cam
+    i = np.argmin(abs(_around(whole.cam_angle - turn)))
+    x, y = profile = rotated(whole.profile, whole.turn[i]) / mm
+    from_nose = abs(whole.cam_angle - cam.half_angle)
+    ramps, flanks = from_nose <= cam.half_angle + cam.ramp_angle, from_nose <= cam.half_angle
+    contact = whole.contact_point[:, i] / mm
+    return picture(
+        Axes(title=f"Cam and {cam.follower.name}", xlabel="x  [mm]", ylabel="y  [mm]", equal=True),
+        Circle("tip circle", 0.0, 0.0, np.max(np.hypot(*profile)), role="guide"),
+        Polygon("cam", x, y, role="body"),
+        Line("base circle", x, y, role="guide", stroke="bold", label="base circle"),
+        Line("ramps", gaps(x, ramps), gaps(y, ramps), role="allowed", stroke="bold", label="ramps"),
+        Line("flanks", gaps(x, flanks), gaps(y, flanks), role="profile", stroke="bold", label="flanks"),
+        Line("undercut", gaps(x, whole.undercut), gaps(y, whole.undercut), role="trouble", label="undercut"),
+        Points("axis", 0.0, 0.0, mark="plus", size=14),
+        bodies(whole.bodies, i, index=1),
+        Points("contact", contact[:1], contact[1:], size=9, fill="paper"),
+    )
+
+
+def _around(angle: Any) -> Any:
+    """The same angle within half a turn of 0."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def _over_event(analysis: Any, title: str, ylabel: str, *marks: Mark, ylim: Any = None) -> Picture:
+    """``marks`` over the cam angle, with thin lines at the nose and at both ends of the flanks."""
+    ends = np.array([0, 1, 2]) * analysis.cam.half_angle / deg
+    lines = [
+        Band(name, x, x, role="guide", along="y", opacity=0.0)
+        for name, x in zip(("start", "nose", "end"), ends, strict=True)
+    ]
+    return picture(Axes(title=title, xlabel=ANGLE, ylabel=ylabel, ylim=ylim), lines, marks)
+
+
+def lift(analysis: Any, turn: float = 0.0) -> Picture:
+    """Lift from the start of the flank, negative on the ramps; the dot is at the cam angle ``turn``."""
+    event = analysis.event
+    x, y = event.cam_angle / deg, event.lift / mm
+    off = abs(_around(event.cam_angle - turn))
+    i = np.argmin(off)
+    near = np.where(off[i] < 1 * deg, 0.0, np.nan)  # else on the base circle, which is not drawn
+    curve, dot = Line("lift", x, y, role="position"), Points("here", x[i] + near, y[i] + near, role="follower")
+    return _over_event(analysis, "Lift", "h  [mm]", curve, dot)
+
+
+def velocity(analysis: Any) -> Picture:
+    """Velocity of the follower at the camshaft's speed."""
+    event = analysis.event
+    curve = Line("velocity", event.cam_angle / deg, event.in_time.v, role="velocity")
+    return _over_event(analysis, "Velocity", "v  [m/s]", curve)
+
+
+def acceleration(analysis: Any) -> Picture:
+    """Acceleration of the follower at the camshaft's speed."""
+    event = analysis.event
+    curve = Line("acceleration", event.cam_angle / deg, event.in_time.a, role="acceleration")
+    return _over_event(analysis, "Acceleration", "a  [m/s^2]", curve)
+
+
+def jerk(analysis: Any) -> Picture:
+    """Jerk of the follower at the camshaft's speed."""
+    event = analysis.event
+    j = event.in_time.j / 1e6
+    curve = Line("jerk", event.cam_angle / deg, gaps(j, np.isfinite(j)), role="jerk", stroke="solid")
+    return _over_event(analysis, "Jerk", "j  [10^6 m/s^3]", curve)
+
+
+def radius_of_curvature(analysis: Any) -> Picture:
+    """Radius of the cam under a flat face and under the roller, the paper's limit, and the least under a face.
+
+    Below 0 a flat face undercuts the cam; where the roller's curve has a gap the cam under it is concave.
+    """
+    event, limit = analysis.event, PAPER_MIN_RADIUS / mm
+    x = event.cam_angle / deg
+    at, least = analysis.min_radius_angle / deg, analysis.min_radius / mm
+    roller = gaps(event.roller_profile_radius / mm, event.curvature > 0)
+    return _over_event(
+        analysis,
+        "Radius",
+        "ρ  [mm]",
+        Line("flat", x, event.flat_radius / mm, role="position", label="flat face"),
+        Line("roller", x, roller, role="velocity", stroke="thin dashed", label="roller"),
+        Line("limit", x[[0, -1]], [limit] * 2, role="limit"),
+        Points("least", at, least, role="position" if least >= limit else "trouble"),
+        ylim=SHOWN_RADIUS,
+    )
+
+
+def spring_and_inertia(analysis: Any) -> Picture:
+    """The spring against what inertia asks of it, at the speed and (dashed) with the margin; trouble: a jump."""
+    event = analysis.event
+    x, spring = event.cam_angle / deg, event.spring_force
+    marks: list[Mark] = [Line("spring", x, gaps(spring, event.valve_open), role="velocity", label="spring")]
+    for key, speed, stroke in (("inertia", analysis.cam.speed, "solid"), ("overspeed", analysis.top_speed, "dashed")):
+        needed = event.needed_at(speed)
+        pulled = gaps(needed, event.valve_open & (needed > 0))
+        label = "inertia" if key == "inertia" else ""
+        marks.append(Line(key, x, pulled, role="acceleration", stroke=stroke, label=label))
+        marks.append(Line(f"{key} jump", x, gaps(pulled, needed > spring), role="trouble", stroke=stroke))
+    return _over_event(analysis, "Force", "F  [N]", *marks)
+
+
+def contact_stress(analysis: Any) -> Picture:
+    """Largest pressure between cam and follower while the valve is open; trouble: undercut, where they do not fit."""
+    event = analysis.event
+    x = event.cam_angle / deg
+    return _over_event(
+        analysis,
+        "Contact stress",
+        "p_0  [MPa]",
+        Line("stress", x, gaps(event.contact_stress / MPa, event.valve_open), role="position"),
+        Line("undercut", x, gaps(0 * x, event.undercut), role="trouble"),
+    )
+
+
+def camshaft_torque(analysis: Any) -> Picture:
+    """Torque on the camshaft over a whole turn, without friction: what the spring takes it gives back."""
+    whole = analysis.whole
+    curve = Line("torque", whole.cam_angle / deg, whole.cam_torque, role="position")
+    return _over_event(analysis, "Camshaft torque", "M  [N m]", curve)
+
+
+def fullness_front(shown: ShownFront) -> Picture:
+    """A front of fullness against peak positive acceleration, and the points that are known of it."""
+    front, points = pareto(shown), load("valve")["formulas"]["front"]
+    style: Any = {"mark": "diamond", "size": 9, "fill": "none", "role": "allowed"}
+    known = Points("known", points["fullness"], points["acceleration"], label="known points", **style)
+    return picture(front.axes, [front["front"], front["start"]], known)
+
+
+VALVE_VIEWS = (
+    cam_and_follower,
+    lift,
+    velocity,
+    acceleration,
+    jerk,
+    radius_of_curvature,
+    spring_and_inertia,
+    contact_stress,
+    camshaft_torque,
+)
+"""What a designer of a valve cam wants to see at once."""
