@@ -60,7 +60,7 @@ from camkit.panels.kit.controls import Download, Upload, label_html
 from camkit.panels.kit.number import NumberBox
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import unfinished
-from camkit.quantities import Measure, Quantity
+from camkit.quantities import Measure, Quantity, value_of
 from camkit.render.artists import _find
 from camkit.search.checkpoint import read
 from camkit.search.front import Front
@@ -1353,7 +1353,7 @@ def test_a_study_goes_to_a_file_and_back(finder, mode):
     assert other.mode.value == mode  # or Optimise would go on with another problem
     assert other.rule.value == "TOPSIS"
     for name, control in other.explorer.controls.items():
-        assert control.value == getattr(other.explorer.design, name)
+        assert control.value == value_of(other.explorer.design, name)
     assert_allclose(other.front.study.bounds, finder.study.bounds, rtol=1e-14)
 
 
