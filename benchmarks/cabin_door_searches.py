@@ -23,7 +23,8 @@ import scipy
 from camkit import __version__
 from camkit.data import load
 from camkit.machines.cabin_door import rssr_study
-from camkit.search.nsga2 import StudyProblem, nsga2_generations
+from camkit.search.evolution import StudyProblem
+from camkit.search.nsga2 import nsga2_steps
 from camkit.search.toolbox_genetic import ToolboxGenetic
 from camkit.units import deg
 
@@ -44,7 +45,7 @@ def printed_call(population: int, seed: int) -> tuple[float, int]:
 
 def by_nsga2(generations: int, seed: int) -> tuple[float, int]:
     """The same of NSGA-II with 50 designs."""
-    least = [float(g.evaluation.f.min()) for g in nsga2_generations(STUDY, 50, generations, seed)]
+    least = [float(g.evaluation.f.min()) for g in nsga2_steps(STUDY, 50, generations, seed)]
     return min(least), 50 * generations
 
 

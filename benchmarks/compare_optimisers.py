@@ -35,7 +35,7 @@ from camkit import __version__
 from camkit.machines.shaft import lightest_shaft, shaft_study
 from camkit.papers.problems import KNOWN_PROBLEMS
 from camkit.search.competitive import CompetitiveAlgorithm
-from camkit.search.nsga2 import StudyProblem
+from camkit.search.evolution import StudyProblem
 from camkit.study.study import Evaluation, Study
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "optimiser_comparison.json"

@@ -25,8 +25,9 @@ from test_minimax import METHODS, PROBLEMS, ten_trials
 
 from camkit import __version__
 from camkit.papers.high_speed_cam import trade_off_studies
-from camkit.search.epsilon_constraint import trade_off_steps
-from camkit.search.nsga2 import Generation, nsga2_generations
+from camkit.search.epsilon_constraint import epsilon_constraint_steps
+from camkit.search.nsga2 import nsga2_steps
+from camkit.search.protocol import Step
 from camkit.units import mm
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "high_speed_searches.json"
@@ -51,7 +52,7 @@ def min_stress() -> dict[str, Any]:
     return found
 
 
-def front(steps: Iterator[Generation]) -> dict[str, Any]:
+def front(steps: Iterator[Step]) -> dict[str, Any]:
     """Free values of the front that a search comes to, how many steps and seconds it took."""
     begun = time.process_time()
     *_, last = steps
@@ -66,8 +67,8 @@ def fronts() -> dict[str, Any]:
     for name, generations in GENERATIONS.items():
         smooth, plain = trade_off_studies(free_laws=name == "laws free")
         found[name] = {
-            "epsilon-constraint": front(trade_off_steps(smooth, POINTS, recheck=RECHECK)),
-            "NSGA-II": front(nsga2_generations(plain, POPULATION, generations, 1)),
+            "epsilon-constraint": front(epsilon_constraint_steps(smooth, POINTS, recheck=RECHECK)),
+            "NSGA-II": front(nsga2_steps(plain, POPULATION, generations, 1)),
         }
     return found
 

@@ -28,9 +28,9 @@ import scipy
 
 from camkit import __version__, door_handle_study
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE
-from camkit.search.fast_front import quick_front, quick_front_rounds
+from camkit.search.fast_front import fast_front_steps, quick_front
 from camkit.search.front import front_of, reference_point
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 from camkit.study.study import Evaluation, Study
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "live_front_searches.json"
@@ -49,16 +49,16 @@ Fronts = Iterator[Any]
 
 def pymoo_nsga2(study: Study) -> Fronts:
     """NSGA-II of pymoo, a batched evaluation for each generation."""
-    for generation in nsga2_generations(study, POPULATION, GENERATIONS, SEED):
+    for generation in nsga2_steps(study, POPULATION, GENERATIONS, SEED):
         yield generation.evaluation
 
 
 def archive(study: Study) -> Fronts:
     """`quick_front` round by round."""
-    for step in quick_front_rounds(study, POPULATION):
+    for step in fast_front_steps(study, POPULATION):
         if step.number == step.of:
-            _ = step.front  # the last judgement is part of the search
-        yield step
+            _ = step.front  # what is shown in the end is part of the search
+        yield step.evaluation
 
 
 class Penalised:

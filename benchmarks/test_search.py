@@ -15,7 +15,7 @@ import pytest
 from scipy.stats import qmc
 
 from camkit import door_handle_study, lift_curve_study, nsga2
-from camkit.search.nsga2 import StudyProblem
+from camkit.search.evolution import StudyProblem
 from camkit.study.study import Study
 
 Report = Callable[[str, str], None]

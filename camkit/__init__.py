@@ -87,7 +87,6 @@ _LATER = {
     "shortlist": "panels",
     "tolerance_panel": "panels",
     "trade_off": "search.epsilon_constraint",
-    "trade_off_steps": "search.epsilon_constraint",
     "try_everything": "panels",
 }
 """Names whose modules need more than numpy and scipy, and where they live."""

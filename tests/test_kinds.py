@@ -45,6 +45,7 @@ from camkit.decision import random_index
 from camkit.machines.high_speed_study import peak_stress
 from camkit.machines.shaft import shaft_study
 from camkit.quantities import Choice, Quantity
+from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.front import dominated, front_of
 
 BAD = {
@@ -276,7 +277,7 @@ FUNCTIONS |= {
         "intervals": ("rise_angle",), "tolerance": 0.05
     },
     first_of(camkit.trade_off): {"study": TWO, "points": 2},
-    first_of(camkit.trade_off_steps): {"study": TWO, "points": 2},
+    first_of(epsilon_constraint_steps): {"study": TWO, "points": 2},
     front_of: {"evaluation": CROSS, "study": TWO},
     dominated: {"f": FRONT},
     FOUND.__getitem__: {"i": 0},

@@ -21,7 +21,7 @@ from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.render.picture import draw, layout
 from camkit.search.front import front_of
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 from camkit.views import pressure_angle
 from camkit.views.beside import Beside
 
@@ -44,8 +44,9 @@ WINGS = [
     "papers.optimiser_trials",
 ]
 RESULTS = NOT_MADE_BY_HAND | {
-    *("Evaluation", "Generation", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
+    *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
     *("Polished", "Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
+    *("Evaluated", "Found"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
@@ -162,7 +163,7 @@ def search():
 @cache
 def generation():
     """The first step of a search."""
-    return next(nsga2_generations(TWO, 4, 1, 1))
+    return next(nsga2_steps(TWO, 4, 1, 1))
 
 
 GOOD = {
@@ -241,7 +242,7 @@ GOOD = {
     "shown": lambda: CAM,
     "start": lambda: None,
     "thing": lambda: CAM,
-    "ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
@@ -253,15 +254,16 @@ GOOD = {
     "Front.x": lambda: FRONT.x,
     "ContourPanel.studies": lambda: {"one": over_two},
     "ContourPanel.weights": lambda: {"height": 1.0},
-    "FrontsPanel.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "FrontsPanel.ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "data.load.name": lambda: "door_handle",
     "optimise_panel.explorer": app,
     "cycle_time_panel.explorer": lambda: app("lever"),
     "cycle_time_panel.make": lambda: plain_lever,
     "shortest_interval.study": lambda: LEVER(),
+    "cycle_time_steps.study": lambda: LEVER(),
     "contour_panel.studies": lambda: {"one": over_two},
     "contour_panel.weights": lambda: {"height": 1.0},
-    "compare_fronts.ways": lambda: {"nsga2": (two, partial(nsga2_generations, population=4, generations=1, seed=1))},
+    "compare_fronts.ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "TolerancePanel.study": lambda: STUDY,
     "Work.search": dict,
     "Work.judgements": dict,

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import ceil, log2
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import ipywidgets as w
 
 from ..kinds import a_number, refuse_arguments
 from ..quantities import Measure, Quantity
-from ..search.cycle_time import IntervalStep, shortest_interval
-from ..search.protocol import Monitor, SearchStopped, monitored
+from ..search.cycle_time import IntervalStep, cycle_time_steps
+from ..search.protocol import Step
 from ..study.study import Study, made_study
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
@@ -46,12 +45,12 @@ class CycleTimePanel(JobPanel):
         self.explorer, self.make = explorer, make
         self.choices = Choices(choices)
         self.measure: Measure = self._study().minimise[0]
-        shortest_interval(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
+        cycle_time_steps(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
         self.limit = self._limit_knob(limit)
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
         self.steps: list[IntervalStep] = []
-        self.runner = Runner("Shorten the cycle", self._prepare, self._job, self._report, explorer.start, make)
+        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, explorer.start, make)
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
         self.take = w.Button(description="Load the design", icon="star", disabled=True, layout=w.Layout(width="auto"))
         self.take.on_click(lambda _: self.load())
@@ -92,34 +91,28 @@ class CycleTimePanel(JobPanel):
         if self.step and self.step.best:
             self.explorer.load(self.step.best.design)
 
-    def _prepare(self) -> tuple[Study, float, float, float]:
-        low, high = self.shortest.value, self.longest.value
-        task = self._study(), self.limit.value, low, high
-        shortest_interval(*task)  # refuses at once what cannot be searched
-        self.progress.max, self.progress.value = 2 + ceil(log2(max((high - low) / TOLERANCE, 1))), 0
-        return task
+    def _prepare(self) -> Iterator[Step]:
+        study, limit, ends = self._study(), self.limit.value, (self.shortest.value, self.longest.value)
+        return self._steps(study, limit, cycle_time_steps(study, limit, *ends, tolerance=TOLERANCE))
 
-    def _job(self, task: tuple[Study, float, float, float], watch: Monitor) -> None:
-        study, self._tried_limit, low, high = task
-        self.measure, self.steps, stopped = study.minimise[0], [], ""
+    def _steps(self, study: Study, limit: float, steps: Iterator[Step]) -> Iterator[Step]:
+        self.measure, self._tried_limit, self.steps = study.minimise[0], limit, []
         self.take.disabled, self.verdict.value = True, ""
-        try:
-            for step in shortest_interval(monitored(study, watch), self._tried_limit, low, high, tolerance=TOLERANCE):
+        for step in steps:
+            if isinstance(step, IntervalStep):
                 self._show(step)
-        except SearchStopped:
-            stopped = " (stopped)"
-        self._report(watch)
-        self.runner.status.value += stopped
+            yield step
 
     def _show(self, step: IntervalStep) -> None:
         self.steps.append(step)
-        self.progress.value = len(self.steps)
         self.take.disabled = step.best is None
         self.verdict.value = told(step.message, step.best.message if step.best else step.optimum.message)
         self.picture.show(ShownIntervals(self.measure, self._tried_limit, tuple(self.steps)))
 
-    def _report(self, watch: Monitor) -> None:
-        self.runner.status.value = f"{len(self.steps)} intervals tried, {watch.looked} designs looked at"
+    def _show_step(self, step: Step, last: bool) -> None:
+        self.progress.max, self.progress.value = step.of, step.number
+        stopped = " (stopped)" if last and not (self.runner.job and self.runner.job.ended) else ""
+        self.runner.status.value = f"{step.number} intervals tried, {step.evaluated} designs looked at{stopped}"
 
     def summary(self) -> str:
         """What was asked, and what was found."""

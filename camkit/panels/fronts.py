@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 import ipywidgets as w
@@ -14,8 +13,7 @@ from ..kinds import refuse_arguments
 from ..markup import Html, escaped, table
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
-from ..search.nsga2 import Generation
-from ..search.protocol import Monitor, SearchStopped, monitored
+from ..search.protocol import Step
 from ..study.study import Study, made_study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .explore import Explorer
@@ -23,8 +21,8 @@ from .kit.controls import tables_html
 from .kit.picture import LivePicture
 from .kit.runner import JobPanel, Runner
 
-Search = Callable[[Study], Iterator[Generation]]
-"""Looks for the front of a study step by step: `trade_off_steps`, or `nsga2_generations`."""
+Search = Callable[[Study], Iterator[Step]]
+"""Looks for the front of a study step by step, as `search` does with one of its methods."""
 Way = tuple[Callable[[Any], Study], Search]
 """How a study is made around a design, and how it is searched."""
 
@@ -76,9 +74,7 @@ class FrontsPanel(JobPanel):
     def _make_widgets(self) -> None:
         style = {"description_width": "62px"}
         page = self.explorer.start, list(self.ways)
-        self.runner = Runner(
-            "Compute the fronts", lambda: self.explorer.design, self._search, lambda _: self._show(), *page
-        )
+        self.runner = Runner("Compute the fronts", lambda: self._steps(self.explorer.design), self._show_step, *page)
         self.runner.run_button.disabled = not self.ways
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
         self.menu = w.Dropdown(
@@ -96,23 +92,26 @@ class FrontsPanel(JobPanel):
 
     # ------------------------------------------------------------ the searches
 
-    def _search(self, design: Any, watch: Monitor) -> None:
-        began = time.monotonic()
+    def _steps(self, design: Any) -> Iterator[Step]:
         try:
             for name, (make, search) in self.ways.items():
-                self._follow(name, made_study(make, design), search, watch)
-            self.runner.status.value = f"all fronts are there: {time.monotonic() - began:.1f} s elapsed"
-        except SearchStopped:
-            self.runner.status.value = "stopped"
+                self._name, began = name, time.monotonic()
+                for step in search(made_study(make, design)):
+                    self.seconds[name] = time.monotonic() - began
+                    yield step
+                self.fronts[name] = step.front
         finally:
             self._show()
 
-    def _follow(self, name: str, study: Study, search: Search, watch: Monitor) -> None:
-        began = time.monotonic()
-        for step in search(monitored(study, watch)):
-            self.fronts[name], self.seconds[name] = replace(step.front, study=study), time.monotonic() - began
-            self.progress.max, self.progress.value = step.of, step.number
-            self.runner.status.value = escaped(f"{name}: {step.number} of {step.of}")
+    def _show_step(self, step: Step, last: bool) -> None:
+        self.fronts[self._name] = step.front
+        self.progress.max, self.progress.value = step.of, step.number
+        told = f"{self._name}: {step.number} of {step.of}"
+        if last:
+            ended = self.runner.job and self.runner.job.ended
+            told = f"all fronts are there: {sum(self.seconds.values()):.1f} s elapsed" if ended else "stopped"
+        self.runner.status.value = escaped(told)
+        self._show()
 
     # ------------------------------------------------------------ what is shown
 

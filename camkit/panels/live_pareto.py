@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from itertools import takewhile
 from typing import Any
 
 import ipywidgets as w
@@ -15,8 +14,9 @@ from ..decision import CHOOSERS
 from ..kinds import refuse_arguments, refuse_empty
 from ..markup import html, joined
 from ..quantities import Paths, Quantity, value_of, with_quantities, words
-from ..search.fast_front import quick_front, quick_front_rounds
+from ..search.fast_front import quick_front
 from ..search.front import Front
+from ..search.protocol import search
 from ..study.study import Study, made_study, refuse_bounds
 from ..views.front import LiveFront, live_pareto, shown_objectives
 from .ahp import AhpPanel
@@ -145,10 +145,12 @@ class LiveParetoPanel(Panel):
     def _compute_from_nothing(self, mode: str, study: Study) -> None:
         """Broken off for something newer, as long as there is a front to look at."""
         began = time.monotonic()
-        rounds = list(takewhile(lambda _: not (self._worker.stale and len(self.front)), quick_front_rounds(study)))
-        if rounds and rounds[-1].number == rounds[-1].of:
-            self._first.setdefault(mode, rounds[-1].front)
-            self._take(mode, rounds[-1].front, time.monotonic() - began)
+        for step in search(study, "fast_front"):
+            if self._worker.stale and len(self.front):
+                return
+            if step.number == step.of:
+                self._first.setdefault(mode, step.front)
+                self._take(mode, step.front, time.monotonic() - began)
 
     def _take(self, mode: str, front: Front, seconds: float | None = None) -> None:
         with self._lock:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import ipywidgets as w
@@ -11,8 +11,9 @@ import numpy as np
 from ..kinds import refuse_arguments, shown
 from ..markup import escaped
 from ..quantities import Measure
-from ..search.minimise import METHODS, Minimum, minimise
-from ..search.protocol import Monitor, SearchStopped, monitored
+from ..search.minimise import METHODS
+from ..search.minimum import Minimum
+from ..search.protocol import Evaluated, Step, search
 from ..study.study import Study, made_study
 from ..views.progress import ShownLooks, best_so_far
 from .explore import Explorer
@@ -49,11 +50,12 @@ class OptimisePanel(JobPanel):
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.runner = Runner("Optimise from here", self._prepare, self._job, self._report, explorer.start, make)
+        self.runner = Runner("Optimise from here", self._prepare, self._show, explorer.start, make)
         self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
         self.back.on_click(lambda _: self.explorer.load(self.before))
         self.verdict = w.HTML()
         self._lines: tuple[str, ...] = ()
+        self._seen: list[Evaluated] = []
         self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
         self.picture.show(ShownLooks(self._measure, ()))
         super().__init__([self._beside_picture(self._asked())])
@@ -74,20 +76,25 @@ class OptimisePanel(JobPanel):
     def _study(self) -> Study:
         return made_study(self.make, self.explorer.design, **self.choices.values)
 
-    def _prepare(self) -> tuple[Study, Any, str, int]:
-        study = self._study()
-        return study, self.explorer.design, self.choices.values["method"], self.starts.value
+    def _prepare(self) -> Iterator[Step]:
+        return self._steps(self._study(), self.explorer.design, self.choices.values["method"], self.starts.value)
 
-    def _job(self, task: tuple[Study, Any, str, int], watch: Monitor) -> None:
-        self.study, self.before, method, starts = task
-        self.minimum, self.back.disabled = None, False
-        try:
-            self.minimum = minimise(monitored(self.study, watch), method, starts=starts)
-        except SearchStopped:
-            self._finish(watch.best, f"The search was stopped after {watch.looked} designs.")
-        else:
-            self._finish(self.minimum.x, self.minimum.message)
-        self._report(watch)
+    def _steps(self, study: Study, before: Any, method: str, starts: int) -> Iterator[Step]:
+        self.study, self.before, self.back.disabled = study, before, False
+        self.minimum, self._seen = None, []
+        for step in search(study, method, starts=starts):
+            if not step.message:
+                self._seen.append(step.summary)
+            yield step
+        self.minimum = step.best
+
+    def _show(self, step: Step, last: bool) -> None:
+        best = f", best so far {self._text(step.best.f)}" if step.best else ""
+        self.runner.status.value = escaped(f"{step.evaluated} designs looked at{best}")
+        self.picture.show(ShownLooks(self._measure, tuple(self._seen)))
+        if last:
+            stopped = f"The search was stopped after {step.evaluated} designs."
+            self._finish(step.best.x if step.best else None, self.minimum.message if self.minimum else stopped)
 
     def _finish(self, x: Any, why: str) -> None:
         """Say what was found, and show it."""
@@ -105,11 +112,6 @@ class OptimisePanel(JobPanel):
 
     def _text(self, f: float) -> str:
         return self._measure.text(self._measure.sign * f) if np.isfinite(f) else "none"
-
-    def _report(self, watch: Monitor) -> None:
-        best = f", best so far {self._text(watch.f)}" if watch.best is not None else ""
-        self.runner.status.value = escaped(f"{watch.looked} designs looked at{best}")
-        self.picture.show(ShownLooks(self._measure, tuple(watch.looks)))
 
     def summary(self) -> str:
         """What was asked, and what was found."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -19,9 +18,9 @@ from ..files import designs
 from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
 from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
-from ..search.checkpoint import fingerprint, taken_up, why
+from ..search.checkpoint import fingerprint, resume, why
 from ..search.front import Front, front_of, reference_point
-from ..search.nsga2 import Generation, nsga2_generations
+from ..search.protocol import Step, search
 from ..study.study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
 from ..views.front import ShownFront, pareto, shown_objectives
@@ -34,8 +33,6 @@ from .kit.picture import LivePicture
 from .kit.running import Job, here, left_behind
 from .kit.search_files import Kept, keep, unfinished
 
-REPORT = 0.25
-"""Seconds between two reports of a running search."""
 SIZE = ("population", "generations", "seed")
 
 MakeStudy = Callable[..., Study]
@@ -304,8 +301,8 @@ class ParetoPanel(Panel):
             self._put_back(run.page, run.design)
             self.study, self._unkept = run.study, old._unkept
             self._show_run(run)
-            if run.reported:
-                self._report(*run.reported, last=False)
+            if run.step:
+                self._report(run.step, run.reference, last=False)
             old._show_run(None)
             old.status.value = "the search goes on in a newer panel"
         return True
@@ -375,7 +372,7 @@ class ParetoPanel(Panel):
             design = changed(designs.from_json(page["design"], type(self.explorer.start)), page["numbers"])
             self._check_judgements(self._judgements_of(page))
             study = self._study_of(page, design)
-            taken_up(kept.checkpoint, study, *(settings[name] for name in SIZE))
+            resume(kept.checkpoint, study, *(settings[name] for name in SIZE))
         except ValueError:
             raise
         except Exception:  # whatever else a file that somebody made can lead to
@@ -420,18 +417,18 @@ class ParetoPanel(Panel):
         if self._run:
             self._run.thread.join(seconds)
 
-    def _report(self, generation: Generation, reference: Any, last: bool) -> None:
-        self._x = generation.front.x
-        self.front = generation.front if self.study is generation.study else generation.front.judged_by(self.study)
-        self.progress.value = generation.number
-        if last or not (self._run and self._run.asked.is_set()):  # else it says "stopping"
-            stopped = last and generation.number < generation.of
+    def _report(self, step: Step, reference: Any, last: bool) -> None:
+        self._x = step.front.x
+        self.front = step.front if self.study is step.study else step.front.judged_by(self.study)
+        self.progress.value = step.number
+        if last or not (self._run and self._run.stopping):  # else it says "stopping"
+            stopped = last and step.number < step.of
             self.status.value = escaped(
-                f"generation {generation.number} of {generation.of}{' (stopped)' if stopped else ''}: "
-                f"{generation.feasible} of {len(generation.evaluation.x)} feasible, {len(self.front)} on the front, "
-                f"hypervolume {self.front.hypervolume(reference):.6g}{'' if last else _left(generation)}"
+                f"generation {step.number} of {step.of}{' (stopped)' if stopped else ''}: "
+                f"{step.feasible} of {len(step.evaluation.x)} feasible, {len(self.front)} on the front, "
+                f"hypervolume {self.front.hypervolume(reference):.6g}{'' if last else _left(step)}"
             )
-        self._unkept = generation.unkept or self._unkept
+        self._unkept = step.message or self._unkept
         self._tell(self.front.message if last else "")
         self._show_front()
 
@@ -619,52 +616,39 @@ def _offered(value: Any, control: Any) -> bool:
 
 
 class _Run(Job):
-    """A search in its thread, the page that asked for it, and the ``panel`` that shows it, which may change."""
+    """A search, the page that asked for it, and the ``panel`` that shows it, which may change."""
 
     def __init__(self, panel: ParetoPanel, kept: Kept | None) -> None:
-        self.asked, self.lock, self.over = threading.Event(), threading.RLock(), False
-        super().__init__(panel._kind(), panel._place, self._search, self.asked.set)
+        super().__init__(panel._kind(), panel._place, self._search, self._report, self._finish)
+        self.lock, self.over = threading.RLock(), False
         self.panel, self._kept, self.study = panel, kept, panel.study
         self.page, self.design = panel._asked(), panel.explorer.design
-        self.reported: tuple[Generation, Any] | None = None
-        self._last = 0.0
+        self.reference: Any = None
 
-    def _search(self) -> None:
-        ended = False
-        try:
-            for generation, reference in self._generations():
-                ended = generation.number == generation.of
-                last = ended or self.asked.is_set() or not threading.main_thread().is_alive()  # the kernel is going
-                self._report(generation, reference, last)
-                if last:
-                    break
-        except Exception as error:  # shown to the user: a thread has no other way to speak
+    def _search(self) -> Iterator[Step]:
+        self.reference = reference_point(self.study)
+        checkpoint = self._kept.checkpoint if self._kept else None
+        return search(self.study, "nsga2", checkpoint=checkpoint, **{name: self.page["search"][name] for name in SIZE})
+
+    def _report(self, step: Step, last: bool) -> None:
+        """To whichever panel shows the search."""
+        with self.lock:
+            self.panel._report(step, self.reference, last)
+
+    def _finish(self, error: Exception | None) -> None:
+        if error:
             show_message(self.panel._banner, f"The search ended early: {error}.")
-        finally:
-            with self.lock:
-                self.over = True
-                if self._kept:
-                    self._kept.remove() if ended else self._kept.let_go()
-                self.panel._show_run(self)
-
-    def _generations(self) -> Iterator[tuple[Generation, Any]]:
-        reference, checkpoint = reference_point(self.study), self._kept.checkpoint if self._kept else None
-        population, generations, seed = (self.page["search"][name] for name in SIZE)
-        for generation in nsga2_generations(self.study, population, generations, seed, checkpoint):
-            yield generation, reference
-
-    def _report(self, generation: Generation, reference: Any, last: bool) -> None:
-        """To whichever panel shows the search, now and then."""
-        if last or time.monotonic() - self._last > REPORT:
-            with self.lock:
-                self.reported = generation, reference
-                self.panel._report(generation, reference, last)
-            self._last = time.monotonic()
+        with self.lock:
+            self.over = True
+            if self._kept:
+                ended = self.step and self.step.number == self.step.of
+                self._kept.remove() if ended and not error else self._kept.let_go()
+            self.panel._show_run(self)
 
 
-def _left(generation: Generation) -> str:
-    """How long a search still takes, if its generations go on as they did."""
-    left = generation.record["seconds"] / generation.number * (generation.of - generation.number)
+def _left(step: Step) -> str:
+    """How long a search still takes, in words."""
+    left = step.seconds_left
     return f", {left:.0f} s left" if left < 90 else f", {left / 60:.0f} min left"
 
 

@@ -243,7 +243,7 @@ def _belongs(found: Checkpoint, study: Study) -> bool:
     return all(np.allclose(kept, np.minimum(said, WORST), rtol=SAME, atol=SAME**2) for kept, said in pairs)
 
 
-def taken_up(path: str | Path, study: Study, population: int, generations: int, seed: int) -> Checkpoint:
+def resume(path: str | Path, study: Study, population: int, generations: int, seed: int) -> Checkpoint:
     """The checkpoint from which this search can go on faithfully.
 
     Raises ``ValueError`` in a sentence if the file is damaged or of another search, study or version.

@@ -5,16 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from pymoo.core.algorithm import Algorithm
 from pymoo.core.population import Population
-from pymoo.util.display.single import SingleObjectiveOutput
-from pymoo.util.optimum import filter_optimum
 
 from ..kinds import one_number
 from ..quantities import counted
+from .evolution import OneObjective
 
 
-class CompetitiveAlgorithm(Algorithm):
+class CompetitiveAlgorithm(OneObjective):
     """Candidates move to where their supporters are; the best of everybody stand in the next cycle.
 
     Source: Lyu, Du, Li, Yuan, Luo, Guangdong University of Technology, 2007.  The paper tells the idea and prints
@@ -49,6 +47,8 @@ class CompetitiveAlgorithm(Algorithm):
     objectives or without bounds.
     """
 
+    title = "the competitive algorithm"
+
     def __init__(
         self,
         candidates: int = 4,
@@ -60,7 +60,7 @@ class CompetitiveAlgorithm(Algorithm):
         narrowing: float = 1.0,
         **kwargs: Any,
     ) -> None:
-        super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
+        super().__init__(candidates, **kwargs)
         counted(candidates, "candidates", 1)
         counted(local_voters, "local voters", 1)
         counted(global_voters, "global voters", 0)
@@ -70,7 +70,6 @@ class CompetitiveAlgorithm(Algorithm):
         self.candidates, self.local_voters, self.global_voters = candidates, local_voters, global_voters
         self.variance, self.reach, self.penalty, self.narrowing = variance, reach, penalty, narrowing
         self._path: list[tuple[np.ndarray, np.ndarray]] = []
-        self.opt: Any = None
 
     @property
     def paths(self) -> tuple[np.ndarray, np.ndarray]:
@@ -79,22 +78,12 @@ class CompetitiveAlgorithm(Algorithm):
         return np.array(x), np.array(f)
 
     def _setup(self, problem: Any, **kwargs: Any) -> None:
-        if problem.n_obj != 1:
-            raise ValueError(f"there are {problem.n_obj} objectives; the competitive algorithm takes one")
-        if not problem.has_bounds():
-            raise ValueError("a variable has no bounds; the competitive algorithm needs them")
+        super()._setup(problem, **kwargs)
         self._path = []
-
-    def _people(self, place: np.ndarray) -> Population:
-        low, high = self.problem.bounds()
-        return Population.new(X=low + place * (high - low))
 
     def _place(self, people: Population) -> np.ndarray:
         low, high = self.problem.bounds()
         return (people.get("X") - low) / (high - low)
-
-    def _initialize_infill(self) -> Population:
-        return self._people(self.random_state.random((self.candidates, self.problem.n_var)))
 
     def _initialize_advance(self, infills: Population, **kwargs: Any) -> None:
         self._elect(infills, np.full(self.candidates, np.sqrt(self.variance)))
@@ -134,9 +123,4 @@ class CompetitiveAlgorithm(Algorithm):
         best = np.argsort(self._cost(people), kind="stable")[: self.candidates]
         self.pop, self._deviation = people[best], deviation[best]
         self._path.append((self.pop.get("X"), self.pop.get("F")[:, 0]))
-        # a design that keeps every limit is not forgotten when the penalty prefers one that does not
-        known = people if self.opt is None else Population.merge(self.opt, people)
-        self._best = filter_optimum(known, least_infeasible=True)
-
-    def _set_optimum(self) -> None:
-        self.opt = self._best
+        self._remember(people)  # the penalty may prefer a design that does not keep every limit

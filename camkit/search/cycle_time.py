@@ -7,24 +7,27 @@ search starting where the last one ended.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import ceil, log2
 from typing import Any
 
 import numpy as np
 
 from ..kinds import refuse_arguments
-from ..quantities import Paths, Quantity, with_quantities
+from ..quantities import Paths, Quantity
 from ..study.study import Study
 from ..units import deg
-from .minimise import Minimum, minimise
+from .minimise import minimise_steps
+from .minimum import Minimum
+from .protocol import Step
 
 INTERVALS = ("rise_angle", "return_angle")
 """The fields of a design that hold the cam angles of its moves."""
 
 
-@dataclass(frozen=True)
-class IntervalStep:
-    """Where the search stands: ``tried`` is the last interval [rad] with its ``optimum``, ``best`` the shortest so far.
+@dataclass(frozen=True, kw_only=True)
+class IntervalStep(Step):
+    """A step that ends an interval: ``tried`` [rad] with its ``optimum``; ``best`` is of the shortest so far.
 
     ``low`` is too short (0 while none is known to be), ``high`` is long enough; ``best`` is ``None`` if not even the
     longest keeps the limit.
@@ -35,7 +38,6 @@ class IntervalStep:
     low: float
     high: float
     first: float
-    best: Minimum | None
     limit: float
 
     @property
@@ -49,8 +51,8 @@ class IntervalStep:
         return self.first / self.high - 1
 
     @property
-    def message(self) -> str:
-        """Where the search stands, in words."""
+    def words(self) -> str:
+        """What is known of the interval."""
         measure = self.optimum.study.minimise[0]
         limit = f"{measure.name} of at most {measure.text(self.limit)}"
         if self.best is None:
@@ -93,7 +95,22 @@ def shortest_interval(
 
     Raises ``ValueError`` for angles that are not ``0 < shortest < longest``, or a tolerance that is not above 0.
     """
-    refuse_arguments(shortest_interval, locals())
+    steps = cycle_time_steps(study, limit, shortest, longest, intervals=intervals, tolerance=tolerance, **search)
+    return (step for step in steps if isinstance(step, IntervalStep))
+
+
+def cycle_time_steps(
+    study: Study,
+    limit: float,
+    shortest: float,
+    longest: float,
+    *,
+    intervals: tuple[str, ...] = INTERVALS,
+    tolerance: float = 0.1 * deg,
+    **search: Any,
+) -> Iterator[Step]:
+    """`shortest_interval` with the steps of each of its searches; an `IntervalStep` ends the search of an interval."""
+    refuse_arguments(cycle_time_steps, locals())
     if not len(intervals):
         raise ValueError("there is no interval to shorten; name one or more of the design's")
     Paths(study.start, intervals, Quantity)  # refuses what is none
@@ -109,16 +126,36 @@ def shortest_interval(
 
 def _bisection(
     study: Study, limit: float, low: float, high: float, intervals: tuple[str, ...], tolerance: float, search: Any
-) -> Iterator[IntervalStep]:
-    first, too_short, best, tried = high, 0.0, None, high
+) -> Iterator[Step]:
+    first, too_short, tried, number, evaluated = high, 0.0, high, 0, 0
+    best: Minimum | None = None
+    of = 2 + ceil(log2(max((high - low) / tolerance, 1)))
     while high - max(too_short, low) > tolerance or best is None:
-        start = with_quantities(best.design if best else study.start, dict.fromkeys(intervals, tried))
-        optimum = minimise(study.replace(start=start), **search)
+        start = (best.design if best else study.start).replace(**dict.fromkeys(intervals, tried))
+        for step in minimise_steps(study.replace(start=start), **search):
+            if not step.message:
+                yield replace(step, number=number, of=of, evaluated=evaluated + step.evaluated, best=best)
+        optimum, number, evaluated = step.best, number + 1, evaluated + step.evaluated
+        assert optimum is not None
         if optimum.feasible and optimum.f <= limit:
             best, high = optimum, tried
         else:
             too_short = tried
-        yield IntervalStep(tried, optimum, too_short, high, first, best, limit)
+        last = IntervalStep(
+            number,
+            of,
+            step.study,
+            step.found,
+            evaluated,
+            best,
+            tried=tried,
+            optimum=optimum,
+            low=too_short,
+            high=high,
+            first=first,
+            limit=limit,
+        )
+        yield replace(last, message=last.words)
         if best is None:
             return
         tried = (too_short + high) / 2 if too_short else low

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..kinds import numbers, refuse_arguments
 from ..quantities import counted
-from ..study.study import Evaluation, Study
+from ..study.study import Study
 from .front import Front
-from .minimise import Minimum, minimise
-from .nsga2 import Generation
+from .minimise import minimise_steps
+from .minimum import Minimum
+from .protocol import Step
 
 ROOM = 1e-6
 """How far above its least value, as a share, the second objective may lie at the end of the front."""
@@ -34,44 +36,61 @@ def trade_off(study: Study, points: int = 9, **search: Any) -> Iterator[Minimum]
 
     Raises ``ValueError`` for another number of objectives or fewer than two points.
     """
-    refuse_arguments(trade_off, locals())
-    if len(study.minimise) != 2:
-        raise ValueError(f"the study has {len(study.minimise)} objectives; a trade-off is between two")
-    return _front(study, counted(points, "points"), search)
+    steps = epsilon_constraint_steps(study, points, **search)
+    return (step.best for step in steps if step.message and step.best)
 
 
-def trade_off_steps(study: Study, points: int = 9, **search: Any) -> Iterator[Generation]:
-    """The front of `trade_off` as it grows: after each search all designs so far, as NSGA-II gives its generations.
+def epsilon_constraint_steps(study: Study, points: int = 9, **search: Any) -> Iterator[Step]:
+    """The front of `trade_off` as it grows; a step with a ``message`` ends the search for one of its designs.
 
     >>> from camkit.machines.high_speed_study import high_speed_study, peak_stress, peak_wear
     >>> study = high_speed_study().replace(minimise=(peak_stress, peak_wear))
-    >>> [(step.number, step.of, len(step.front)) for step in trade_off_steps(study, 3)]
+    >>> steps = epsilon_constraint_steps(study, 3)
+    >>> [(step.number, step.of, len(step.front)) for step in steps if step.message]
     [(1, 3, 1), (2, 3, 2), (3, 3, 3)]
     """
-    minima = trade_off(study, points, **search)
-    return _steps(study, points, minima)
+    refuse_arguments(epsilon_constraint_steps, locals())
+    if len(study.minimise) != 2:
+        raise ValueError(f"the study has {len(study.minimise)} objectives; a trade-off is between two")
+    return _Tradeoff(study, counted(points, "points"), search).steps()
 
 
-def _steps(study: Study, points: int, minima: Iterator[Minimum]) -> Iterator[Generation]:
-    found: list[Evaluation] = []
-    for number, best in enumerate(minima, start=1):
-        found.append(study.evaluate(best.x))
-        x, f, g = (np.concatenate([getattr(one, name) for one in found]) for name in ("x", "f", "g"))
-        yield Generation(number, points, Evaluation(x, f, g), study)
+class _Tradeoff:
+    """The searches, one after the other, and what they have found."""
 
+    def __init__(self, study: Study, points: int, search: Mapping[str, Any]) -> None:
+        self.study, self.points, self.search = study, points, search
+        self.found = np.zeros((0, len(study.free)))
+        self.evaluated = 0
 
-def _front(study: Study, points: int, search: Any) -> Iterator[Minimum]:
-    first, second = study.minimise
-    one = study.replace(minimise=(first,))
-    best = minimise(one, **search)
-    yield best
-    other = minimise(one.replace(minimise=(second,), start=best.design), **search)
-    least = other.f + ROOM * abs(other.f)
-    for limit in np.linspace(float(study.evaluate(best.x).f[0, 1]), least, points)[1:]:
-        start = best.design if limit > least else other.design
-        limits = {**(study.at_most or {}), second: min(float(limit), (study.at_most or {}).get(second, np.inf))}
-        best = minimise(one.replace(start=start, at_most=limits), **search)
-        yield best
+    def steps(self) -> Iterator[Step]:
+        first, second = self.study.minimise
+        one, known = self.study.replace(minimise=(first,)), self.study.at_most or {}
+        best = yield from self._best(one)
+        other = yield from self._best(one.replace(minimise=(second,), start=best.design), kept=False)
+        least = other.f + ROOM * abs(other.f)
+        worst = float(self.study.evaluate(best.x).f[0, 1])
+        for limit in np.linspace(worst, least, self.points)[1:]:
+            start = best.design if limit > least else other.design
+            limits = {**known, second: min(float(limit), known.get(second, np.inf))}
+            best = yield from self._best(one.replace(start=start, at_most=limits))
+
+    def _best(self, study: Study, kept: bool = True) -> Generator[Step, None, Minimum]:
+        """One search; what it finds is a design of the front if it is ``kept``."""
+        before = self.evaluated
+        for step in minimise_steps(study, **self.search):
+            self.evaluated = before + step.evaluated
+            if step.message and kept:
+                assert step.best is not None
+                self.found = np.vstack([self.found, step.best.x])
+            yield self._step(step, kept)
+        assert step.best is not None
+        return step.best
+
+    def _step(self, step: Step, kept: bool) -> Step:
+        x, message = self.found, step.message if kept else ""
+        found = partial(self.study.evaluate, x)
+        return Step(len(x), self.points, self.study, found, self.evaluated, step.best, message)
 
 
 def dominated_shares(fronts: Mapping[str, Front], worst: Any) -> dict[str, float]:
@@ -82,7 +101,7 @@ def dominated_shares(fronts: Mapping[str, Front], worst: Any) -> dict[str, float
 
     >>> from camkit.machines.high_speed_study import high_speed_study, peak_stress, peak_wear
     >>> study = high_speed_study().replace(minimise=(peak_stress, peak_wear))
-    >>> *_, step = trade_off_steps(study, 5)
+    >>> *_, step = epsilon_constraint_steps(study, 5)
     >>> few = {"two": Front(study, step.front.x[::4], step.front.f[::4]), "five": step.front}
     >>> [round(share, 3) for share in dominated_shares(few, study.evaluate(study.x0).f[0]).values()]
     [0.757, 0.924]

@@ -11,10 +11,9 @@ It knows studies, not mechanisms.  `nsga2` serves any number of free quantities.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from scipy.stats import qmc
@@ -22,10 +21,10 @@ from scipy.stats import qmc
 from ..decision.choosers import normalised
 from ..kinds import refuse_arguments
 from ..quantities import counted
-from ..study.study import Study
+from ..study.study import Evaluation, Study
 from .checkpoint import versions
-from .front import Front, dominated, front_of
-from .protocol import on_grid
+from .front import Front, dominated
+from .protocol import Step, on_grid
 
 MOST_FREE = 4
 """A box of more free quantities has too many corners for this search."""
@@ -67,29 +66,6 @@ class Archive(NamedTuple):
     missed: np.ndarray
 
 
-@dataclass(frozen=True)
-class Round:
-    """Where a search stands after ``number`` of ``of`` rounds."""
-
-    number: int
-    of: int
-    archive: Archive
-    study: Study
-    size: int
-    record: Mapping[str, Any]
-    """Designs looked at, seconds, versions."""
-
-    @cached_property
-    def x(self) -> np.ndarray:
-        """The free values kept so far, ``(p, n)`` SI."""
-        return _x(self.study, _thinned(self.archive, self.size).u)
-
-    @cached_property
-    def front(self) -> Front:
-        """What of them is feasible on all angles of the study."""
-        return replace(front_of(self.study.evaluate(self.x), self.study), record=self.record)
-
-
 def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Front:
     """The Pareto front of ``study``, up to ``size`` designs, in tenths of a second; the same at every call.
 
@@ -104,11 +80,11 @@ def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Fr
     Raises ``ValueError`` for a study with one objective or more than four free quantities, and for a start with
     other free quantities.
     """
-    *_, last = quick_front_rounds(study, size, start)
+    *_, last = fast_front_steps(study, size, start)
     return last.front
 
 
-def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Round]:
+def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Step]:
     """`quick_front` one round at a time; leave the loop to stop."""
     _refuse(study, start)
     began, told = time.monotonic(), versions()
@@ -125,7 +101,13 @@ def quick_front_rounds(study: Study, size: int = 100, start: Front | None = None
         tried = _judged(judge, _tried(archive, pace.step * SHRINKING**number, draw))
         archive, designs = _best(_joined(archive, tried), size), designs + len(tried.u)
         record = {"designs": designs, "seconds": time.monotonic() - began, "versions": told}
-        yield Round(number + 1, pace.rounds + LAST_ROUNDS, archive, study, size, record)
+        found = partial(_exactly, study, archive, size)
+        yield Step(number + 1, pace.rounds + LAST_ROUNDS, study, found, designs, record=record)
+
+
+def _exactly(study: Study, archive: Archive, size: int) -> Evaluation:
+    """An even spread of the archive's designs, judged on all angles."""
+    return study.evaluate(_x(study, _thinned(archive, size).u))
 
 
 def _refuse(study: Study, start: Front | None) -> None:

@@ -7,25 +7,21 @@ method ``"slsqp"`` (see `Epigraph`), and as one number by the others.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from functools import partial
 from itertools import count, islice
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.optimize import differential_evolution
 from scipy.stats import qmc
 
 from ..kinds import refuse_arguments, whole
-from ..quantities import Measure, PeakMeasure, counted, words
+from ..quantities import counted
 from ..study.study import KEPT, Evaluation, Study
-from ..units import deg
-from .minimax import Epigraph, parts_of
-from .protocol import unmonitored
+from .minimax import Epigraph
+from .minimum import Found, Minimum, described
+from .protocol import Step, plain, stepwise
 
-CLOSE = 1e-4
-"""A peak or a limit is active if it is reached to within this share of it."""
-SAME = 1e-3
-"""Starts whose ends differ by less than this share found the same."""
 ROUGH, EXACT = 1e-6, 1e-10
 """Precision of SLSQP from each start, and from the best of their ends."""
 SPARE = 3
@@ -34,45 +30,6 @@ CROWD = 32
 """How many random designs compete to be a further start."""
 TRIES = 4
 """How often limits are tightened until the result keeps them; it is aimed at half of ``KEPT`` inside them."""
-
-
-class Active(NamedTuple):
-    """What holds a design where it is: a peak of the objective, a limit or a bound; angles in rad."""
-
-    kind: str
-    name: str
-    value: str
-    angles: tuple[float, ...] = ()
-
-    def __str__(self) -> str:
-        where = " at " + _listed([f"{angle / deg:.1f}" for angle in self.angles]) + " deg" if self.angles else ""
-        symbol = len(self.name) == 1  # a quantity that is known by its letter alone
-        return f"{self.name} = {self.value}" if symbol else f"the {self.name} {self.value}{where}"
-
-
-@dataclass(frozen=True)
-class Minimum:
-    """The best design that a search found; ``message`` says in words why it stopped and what holds the design there.
-
-    ``x`` are its free values in SI, ``f`` the objective, ``ends`` the objectives at which each start ended (``inf``
-    where a limit is broken), ``evaluations`` how many designs were looked at.
-    """
-
-    study: Study
-    x: np.ndarray
-    f: float
-    feasible: bool
-    evaluations: int
-    ends: tuple[float, ...]
-    active: tuple[Active, ...]
-    message: str
-    descended: np.ndarray | None = None
-    """Free values where a descent from ``x`` ends; ``None`` after a search that is a descent itself."""
-
-    @property
-    def design(self) -> Any:
-        """The design itself."""
-        return self.study.design(self.x)
 
 
 def minimise(
@@ -116,18 +73,22 @@ def minimise(
     judge = study if recheck is None else study.replace(angles=recheck)
     found = METHODS[method](study, judge, seed, starts, designs)
     if method != "slsqp":
-        found = _checked(unmonitored(study), unmonitored(judge), found)
-    return _told(judge, found)
+        found = _checked(plain(study), plain(judge), found)
+    return described(plain(judge), found)
 
 
-class _Found(NamedTuple):
-    """What a method found, before it is told in words."""
-
-    x: np.ndarray
-    evaluations: int
-    ends: tuple[float, ...]
-    why: str
-    descended: np.ndarray | None = None
+def minimise_steps(
+    study: Study,
+    method: str = "slsqp",
+    seed: int = 1,
+    *,
+    starts: int = 1,
+    designs: int = 20_000,
+    recheck: int | None = None,
+) -> Iterator[Step]:
+    """`minimise` one evaluation at a time."""
+    work = partial(minimise, method=method, seed=seed, starts=starts, designs=designs, recheck=recheck)
+    return stepwise(study, work, 0 if method == "slsqp" else designs)
 
 
 def _broken(evaluation: Evaluation) -> np.ndarray:
@@ -153,7 +114,7 @@ def _start(study: Study) -> np.ndarray:
 # ---------------------------------------------------------------- SLSQP
 
 
-def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
+def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
     ends, merits, evaluations = [], [], 0
     for x in islice(_starts(study, seed), starts + SPARE):
         end, used, _ = _descent(study, x, ROUGH, 2 * ROUGH)
@@ -165,7 +126,7 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
     best, used, finished = _tightened(study, judge, _better(judge, *ends))
     stopped = "the slopes show no way down" if finished else "no step made the design better"
     f = tuple(f if broken == 0 else np.inf for broken, f in merits)
-    return _Found(best, evaluations + used, f, stopped)
+    return Found(best, evaluations + used, f, stopped)
 
 
 def _descent(study: Study, x: np.ndarray, precision: float, margins: Any = 0.0) -> tuple[np.ndarray, int, bool]:
@@ -222,7 +183,7 @@ WORST = 1e12
 """What a method is told of a design that does not keep every limit, and more the less it keeps them."""
 
 
-def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
+def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
     looked = 0
 
     def told(x: np.ndarray) -> np.ndarray:
@@ -249,131 +210,42 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Fo
     except RuntimeError as wrapped:  # scipy takes what the study refuses for a fault of its own
         raise (wrapped.__cause__ if isinstance(wrapped.__cause__, ValueError) else wrapped) from None
     why = "its designs had drawn together" if found.success else "it had looked at as many designs as it may"
-    return _Found(_better(judge, found.x), looked, (), why)
+    return Found(_better(judge, found.x), looked, (), why)
 
 
-def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int, designs: int) -> _Found:
+def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int, designs: int) -> Found:
     """A search by an algorithm of pymoo that looks at ``each`` designs in a generation."""
-    from .nsga2 import StudyProblem
+    from .evolution import StudyProblem
 
     generations = max(designs // each, 2)
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
     algorithm.run()
     best = _better(judge, *algorithm.opt.get("X"))
-    return _Found(best, int(algorithm.evaluator.n_eval), (), f"its {generations} generations were over")
+    return Found(best, int(algorithm.evaluator.n_eval), (), f"its {generations} generations were over")
 
 
-def _ga(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
+def _ga(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
     from pymoo.algorithms.soo.nonconvex.ga import GA
 
     return _evolution(GA(pop_size=100, eliminate_duplicates=False), 100, study, judge, seed, designs)
 
 
-def _competitive(study: Study, judge: Study, seed: int, starts: int, designs: int) -> _Found:
+def _competitive(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
     from .competitive import CompetitiveAlgorithm
 
     return _evolution(CompetitiveAlgorithm(narrowing=0.9), 22, study, judge, seed, designs)
 
 
-def _checked(study: Study, judge: Study, found: _Found) -> _Found:
+def _checked(study: Study, judge: Study, found: Found) -> Found:
     """With where a descent from what was found ends; its designs are not counted."""
     if not np.isfinite(study.evaluate(found.x).f).all():
         return found
     return found._replace(descended=_tightened(study, judge, found.x)[0])
 
 
-METHODS: dict[str, Callable[[Study, Study, int, int, int], _Found]] = {
+METHODS: dict[str, Callable[[Study, Study, int, int, int], Found]] = {
     "slsqp": _slsqp,
     "de": _de,
     "ga": _ga,
     "competitive": _competitive,
 }
-
-# ---------------------------------------------------------------- words
-
-
-def _told(study: Study, found: _Found) -> Minimum:
-    evaluation = study.evaluate(found.x)
-    built, feasible = bool(np.isfinite(evaluation.f).all()), bool(evaluation.feasible[0])
-    active = _active(study, evaluation) if built else ()
-    words = [f"The search stopped because {found.why}.", _held(active) if feasible else _missed(study, evaluation)]
-    if feasible and len(found.ends) > 1:
-        same = sum(abs(end - min(found.ends)) <= SAME * abs(min(found.ends)) for end in found.ends)
-        words.append(f"{same} of {len(found.ends)} starts ended with this objective, to {SAME:.1%} of it.")
-    if found.descended is not None:
-        words.append(_sureness(unmonitored(study), evaluation, found.descended))
-    f, message = float(evaluation.f[0, 0]), " ".join(words)
-    x = evaluation.x[0]
-    return Minimum(study, x, f, feasible, found.evaluations, found.ends, active, message, found.descended)
-
-
-def _sureness(study: Study, found: Evaluation, descended: np.ndarray) -> str:
-    """How a design compares with the end of a descent from it."""
-    end = study.evaluate(descended)
-    before, after = float(found.f[0, 0]), float(end.f[0, 0])
-    gain = (before - after) / abs(before) if before else before - after
-    text = study.minimise[0].text(study.minimise[0].sign * after)
-    if end.feasible[0] and not found.feasible[0]:
-        return f"A descent from there ends at one that keeps every limit, with {text}."
-    if not end.feasible[0] or not gain > SAME:
-        return "A descent from there ends no better: it is the best of its neighbours, if perhaps not of all designs."
-    return f"A descent from there ends at {text}, {100 * gain:.2g} % better: this search had not come to the end."
-
-
-def _held(active: tuple[Active, ...]) -> str:
-    """What holds a design that keeps all limits where it is."""
-    peaks = [str(a) for a in active if a.kind == "peak"]
-    held = [str(a) for a in active if a.kind != "peak"]
-    smallest = [f"Smallest found: {_listed(peaks)}."] if peaks else []
-    return " ".join([*smallest, f"At their limits: {_listed(held)}." if held else "No limit is reached."])
-
-
-def _missed(study: Study, evaluation: Evaluation) -> str:
-    """Which limit a design misses by most."""
-    known, missed = np.isfinite(evaluation.g).all(), evaluation.missed.any()
-    nearest = f"this one misses {study.worst_miss(evaluation.g[0])}." if known and missed else ""
-    if np.isfinite(evaluation.f).all():
-        return f"No design was found that keeps every limit; {nearest}"
-    none = f"No design was found for which there is a {study.minimise[0].name}"
-    return f"{none}; {nearest}" if nearest else f"{none}: none can be built or used."
-
-
-def _listed(items: list[str]) -> str:
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
-
-
-def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
-    """Every peak of the objective, every limit and bound that is reached."""
-    analysis = study.analyse(evaluation.x)
-    objective = [part for _, part in parts_of(study.minimise[0])]
-    peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, PeakMeasure)]
-    limits = [
-        _reached("limit", m, analysis, sense)
-        for (m, _, sense), g in zip(study.limits, evaluation.g[0], strict=True)
-        if abs(g) <= CLOSE
-    ]
-    return (*peaks, *limits, *_bounds_reached(study, evaluation.x[0]))
-
-
-def _reached(kind: str, measure: Measure, analysis: Any, sense: int) -> Active:
-    value = measure.text(float(np.ravel(measure(analysis))[0]))
-    return Active(kind, measure.name, value, _peak_angles(measure, analysis, sense))
-
-
-def _peak_angles(measure: Measure, analysis: Any, sense: int) -> tuple[float, ...]:
-    """The angles at which a curve comes to its peak, one for each hill."""
-    if not isinstance(measure, PeakMeasure) or measure.angle is None or sense * measure.sign < 0:
-        return ()
-    curve, angle = np.ravel(measure.curve(analysis)), np.ravel(measure.angle(analysis))
-    padded = np.concatenate([[-np.inf], curve, [-np.inf]])
-    hills = (curve >= padded[:-2]) & (curve > padded[2:]) & (curve >= curve.max() - CLOSE * abs(curve.max()))
-    return tuple(float(a) for a in angle[hills])
-
-
-def _bounds_reached(study: Study, x: np.ndarray) -> list[Active]:
-    found = []
-    for name, value, low, high in zip(study.free, x, *study.bounds, strict=True):
-        for end, word in ((low, "lower"), (high, "upper")):
-            if abs(value - end) <= CLOSE * (high - low):
-                found.append(Active("bound", words(name), f"{study.declared[name].text(value)} ({word} bound)"))
-    return found

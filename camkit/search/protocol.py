@@ -1,96 +1,224 @@
-"""A study that is watched while a search runs on it: how many designs were looked at, the best so far, and a stop.
+"""One protocol for every search: ``for step in search(study, method, seed=1)``.
 
-Searches need not know: they look at the designs of a `MonitoredStudy` as of any other.
+A `Step` says how far the search has come and what it has found by then; leave the loop to stop it.  Panels, pictures,
+progress and time left know steps, and nothing else of a search.  What is found is a `Front` where there are several
+objectives, and a `Minimum` where there is one.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator, Mapping
+from contextvars import copy_context
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, partial
+from importlib import import_module
+from inspect import signature
+from queue import SimpleQueue
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..study.study import Study
+from ..kinds import refuse_arguments
+from ..study.study import Evaluation, Study
+from .front import Front, front_of
+from .minimum import Minimum
 
-
-class SearchStopped(Exception):
-    """Somebody asked a watched search to end."""
+ONE = "minimise", "minimise_steps"
+METHODS = {
+    "nsga2": ("nsga2", "nsga2_steps"),
+    "fast_front": ("fast_front", "fast_front_steps"),
+    "epsilon_constraint": ("epsilon_constraint", "epsilon_constraint_steps"),
+    "slsqp": ONE,
+    "de": ONE,
+    "ga": ONE,
+    "competitive": ONE,
+    "cycle_time": ("cycle_time", "cycle_time_steps"),
+}
+"""Where each method lives: its module, loaded when it is first asked for, and the function that gives its steps."""
 
 
 class Evaluated(NamedTuple):
-    """The best of the designs that a search looked at together: how many it had seen by then, objective, limits."""
+    """The best of the designs of a step: how many designs were evaluated by then, its objective, its limits."""
 
-    looked: int
+    evaluated: int
     f: float
-    kept: bool
-
-
-class Monitor:
-    """How far a search has come; ``stop()`` ends it with `SearchStopped` before the next design.
-
-    ``looked`` counts designs, ``best`` are the free values of the best so far that keeps every limit (``None`` while
-    there is none) and ``f`` is its objective.  ``report(watch)`` is called after every `Evaluated`.
-    """
-
-    def __init__(self, report: Callable[[Monitor], None] = lambda watch: None) -> None:
-        self.looked, self.f = 0, np.inf
-        self.best: np.ndarray | None = None
-        self.looks: list[Evaluated] = []
-        self._report, self._stop = report, threading.Event()
-
-    def stop(self) -> None:
-        """End the search before the next design."""
-        self._stop.set()
-
-    def before(self) -> None:
-        """Raise `SearchStopped` if the search is to end."""
-        if self._stop.is_set():
-            raise SearchStopped
-
-    def after(self, study: Study, x: np.ndarray, analysis: Any) -> None:
-        """Take note of designs ``(p, n_free)`` and their analysis."""
-        evaluation = study.judge(x, analysis)
-        f, kept = evaluation.f[:, 0], evaluation.feasible
-        self.looked += len(x)
-        i = np.lexsort((f, ~kept))[0]
-        self.looks.append(Evaluated(self.looked, float(f[i]), bool(kept[i])))
-        if kept[i] and f[i] < self.f:
-            self.best, self.f = x[i].copy(), float(f[i])
-        self._report(self)
+    feasible: bool
 
 
 @dataclass(frozen=True)
-class MonitoredStudy(Study):
-    """A study whose every look at designs goes through a `Monitor`."""
+class Step:
+    """Where a search stands after ``number`` of ``of`` parts (0 where nobody knows how many there will be)."""
 
-    watch: Monitor | None = None
+    number: int
+    of: int
+    study: Study
+    found: Evaluation | Callable[[], Evaluation]
+    """What the search works with now, or how to get it."""
+    evaluated: int = 0
+    """How many designs were evaluated so far."""
+    best: Minimum | None = None
+    """The best design so far that keeps every limit, of a search with one objective."""
+    message: str = ""
+    """Why the search ended, or why it goes on without its checkpoint; empty where there is nothing to say."""
+    record: Mapping[str, Any] = field(default_factory=dict)
+    """How it was found: size, seed, seconds, versions."""
+
+    @cached_property
+    def evaluation(self) -> Evaluation:
+        """The designs that the search works with now."""
+        return self.found() if callable(self.found) else self.found
+
+    @cached_property
+    def front(self) -> Front:
+        """The front so far."""
+        return replace(front_of(self.evaluation, self.study), record=self.record)
+
+    @property
+    def feasible(self) -> int:
+        """How many of the step's designs keep every limit."""
+        return int(self.evaluation.feasible.sum())
+
+    @property
+    def seconds_left(self) -> float:
+        """How long the search still takes, if it goes on as it did; ``nan`` where that cannot be known."""
+        seconds = self.record.get("seconds", np.nan)
+        return float(seconds / self.number * (self.of - self.number)) if self.of else np.nan
+
+    @property
+    def summary(self) -> Evaluated:
+        """The best of the step's designs, by its first objective."""
+        f, feasible = self.evaluation.f[:, 0], self.evaluation.feasible
+        i = np.lexsort((f, ~feasible))[0]
+        return Evaluated(self.evaluated, float(f[i]), bool(feasible[i]))
+
+
+def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
+    """The steps of a search for the best designs of ``study``; leave the loop to stop it.
+
+    ``step.number`` of ``step.of``, ``step.front`` (several objectives) or ``step.best`` (one) and ``step.message`` tell
+    where it stands.  Without a ``method`` it is ``"nsga2"`` for several objectives and ``"slsqp"`` for one.
+
+    - ``"nsga2"``: ``population``, ``generations``, ``seed``, ``checkpoint``; see `camkit.nsga2`.
+    - ``"fast_front"``: ``size``, ``start``; see `camkit.quick_front`.
+    - ``"epsilon_constraint"``: ``points`` and the options of one search; see `camkit.trade_off`.
+    - ``"slsqp"``, ``"de"``, ``"ga"``, ``"competitive"``: ``seed``, ``starts``, ``designs``, ``recheck``; see
+      `camkit.minimise`.  A step is one evaluation, and a stop takes effect before the next.
+    - ``"cycle_time"``: ``limit``, ``shortest``, ``longest``, ``intervals``; see `camkit.shortest_interval`.
+
+    >>> from camkit.machines.door_handle import door_handle_study
+    >>> for step in search(door_handle_study(), "nsga2", population=20, generations=9, seed=1):
+    ...     if step.number == 3:
+    ...         break
+    >>> step.number, step.of, step.evaluated, len(step.front) > 0
+    (3, 9, 60, True)
+
+    Raises ``ValueError`` for a method that there is not, and an option that it does not take.
+    """
+    refuse_arguments(search, locals())
+    method = method or ("slsqp" if len(study.minimise) == 1 else "nsga2")
+    if method not in METHODS:
+        raise ValueError(f"the method is {method!r}; there are {', '.join(map(repr, METHODS))}")
+    module, name = METHODS[method]
+    steps = getattr(import_module(f".{module}", __package__), name)
+    chosen = {"method": method} if METHODS[method] == ONE else {}
+    try:
+        signature(steps).bind(study, **chosen, **options)
+    except TypeError as unfit:
+        raise ValueError(f"the method {method!r} cannot search like this: {unfit}") from None
+    return steps(study, **chosen, **options)
+
+
+# ---------------------------------------------------------------- searches that do not know of steps
+
+
+class SearchStopped(Exception):
+    """Nobody asks for the next step of a search any more."""
+
+
+@dataclass(frozen=True)
+class _FollowedStudy(Study):
+    """A study that hands every analysis of designs on."""
+
+    follow: Callable[[Evaluation], None] | None = None
 
     def analyse(self, x: Any) -> Any:
-        """The analysis of the design or population ``x``; `SearchStopped` if the search is to end."""
-        assert self.watch is not None
-        self.watch.before()
+        """The analysis of the design or population ``x``."""
         analysis = super().analyse(x)
-        self.watch.after(self, np.atleast_2d(x), analysis)
+        assert self.follow is not None
+        self.follow(self.judge(np.atleast_2d(x), analysis))
         return analysis
 
 
-def monitored(study: Study, watch: Monitor) -> MonitoredStudy:
-    """``study`` under ``watch``.
-
-    >>> from camkit.machines.high_speed_study import high_speed_study
-    >>> watch, study = Monitor(), high_speed_study()
-    >>> _ = monitored(study, watch).evaluate([study.x0, study.x0])
-    >>> watch.looked, watch.looks[0].kept, f"{watch.f:.4f}"
-    (2, True, '78.3608')
-    """
-    return MonitoredStudy(**{f.name: getattr(study, f.name) for f in fields(Study)}, watch=watch)
-
-
-def unmonitored(study: Study) -> Study:
-    """``study`` without a `Monitor`, if it has one."""
+def plain(study: Study) -> Study:
+    """``study`` as it was before somebody followed it."""
+    if not isinstance(study, _FollowedStudy):
+        return study
     return Study(**{f.name: getattr(study, f.name) for f in fields(Study)})
+
+
+def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Iterator[Step]:
+    """A step for each evaluation of ``work(study)``, and a last one with its result, whose message is not empty."""
+
+    def follow(give: Callable[[Step], None]) -> None:
+        best, count = None, 0
+
+        def note(evaluation: Evaluation) -> None:
+            nonlocal best, count
+            count += len(evaluation.x)
+            step = Step(count, max(of, count) if of else 0, study, evaluation, count)
+            if step.summary.feasible and (best is None or step.summary.f < best.f):
+                i = int(np.lexsort((evaluation.f[:, 0], ~evaluation.feasible))[0])
+                best = Minimum(study, evaluation.x[i].copy(), step.summary.f, True, count)
+            give(replace(step, best=best))
+
+        known = {f.name: getattr(study, f.name) for f in fields(Study)}
+        found = work(_FollowedStudy(**known, follow=note))
+        end = partial(found.study.evaluate, found.x)
+        give(Step(count, count, study, end, count, found, found.message))
+
+    return relayed(follow)
+
+
+def relayed(work: Callable[[Callable[[Any], None]], None]) -> Iterator[Any]:
+    """What ``work(give)`` gives, one by one.
+
+    ``work`` runs in a thread of its own, which waits in ``give`` until the next is asked for.  When the loop is left,
+    ``give`` raises `SearchStopped` there.
+    """
+    asked: SimpleQueue[bool] = SimpleQueue()
+    given: SimpleQueue[tuple[bool, Any]] = SimpleQueue()
+
+    def give(thing: Any) -> None:
+        given.put((True, thing))
+        if not asked.get():
+            raise SearchStopped
+
+    def run() -> None:
+        try:
+            work(give)
+        except BaseException as error:
+            given.put((False, error))
+        else:
+            given.put((False, None))
+
+    thread = threading.Thread(target=copy_context().run, args=(run,), daemon=True)
+    thread.start()
+    try:
+        while True:
+            goes_on, thing = given.get()
+            if not goes_on and thing:
+                raise thing
+            if not goes_on:
+                return
+            yield thing
+            asked.put(True)
+    finally:
+        asked.put(False)
+        thread.join()
+
+
+# ---------------------------------------------------------------- the grid
 
 
 def on_grid(shares: np.ndarray) -> np.ndarray:

@@ -10,13 +10,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from pymoo.core.algorithm import Algorithm
 from pymoo.core.population import Population
-from pymoo.util.display.single import SingleObjectiveOutput
-from pymoo.util.optimum import filter_optimum
 
 from ..kinds import numbers, one_number, refuse_arguments
 from ..quantities import counted
+from .evolution import OneObjective
 
 
 def selection_chances(count: int, best: float) -> np.ndarray:
@@ -63,7 +61,7 @@ def _refuse_best(best: float) -> None:
     one_number(best, "the chance of the best", "be above 0 and below 1", lambda q: 0 < q < 1)
 
 
-class ToolboxGenetic(Algorithm):
+class ToolboxGenetic(OneObjective):
     """Ranking selection, a few crossovers and mutations in each generation, the best kept (Houck, Joines, Kay 1995).
 
     A generation:
@@ -91,6 +89,8 @@ class ToolboxGenetic(Algorithm):
     objectives or without bounds.
     """
 
+    title = "this genetic algorithm"
+
     def __init__(
         self,
         population: int = 80,
@@ -101,28 +101,21 @@ class ToolboxGenetic(Algorithm):
         shape: float = 3.0,
         **kwargs: Any,
     ) -> None:
-        super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
+        super().__init__(population, **kwargs)
         self.population, self.generations = counted(population, "designs"), counted(generations, "generations")
         self.crossovers = counted(crossovers, "crossovers", 0)
         self.mutations = counted(mutations, "mutations", 1)
         _refuse_best(best)
         one_number(shape, "the shape of the mutation", "be a finite number above 0", lambda v: 0 < v < np.inf)
         self.best, self.shape = best, shape
-        self.opt: Any = None
 
     def _setup(self, problem: Any, **kwargs: Any) -> None:
-        if problem.n_obj != 1:
-            raise ValueError(f"there are {problem.n_obj} objectives; this genetic algorithm takes one")
-        if not problem.has_bounds():
-            raise ValueError("a variable has no bounds; this genetic algorithm needs them")
+        super()._setup(problem, **kwargs)
         self._number = 1
 
-    def _initialize_infill(self) -> Population:
-        low, high = self.problem.bounds()
-        return Population.new(X=low + self.random_state.random((self.population, self.problem.n_var)) * (high - low))
-
     def _initialize_advance(self, infills: Population, **kwargs: Any) -> None:
-        self._stand(infills, infills)
+        self.pop = infills
+        self._remember(infills)
 
     def _infill(self) -> Population:
         """The designs that are new in this generation."""
@@ -151,16 +144,9 @@ class ToolboxGenetic(Algorithm):
         self._number += 1
         known = self.pop[self._ranked(self.pop)[:1]]
         people = Population.merge(self._kept, infills)
-        self._stand(Population.merge(people[self._ranked(people)[:-1]], known), infills)
-
-    def _stand(self, people: Population, looked_at: Population) -> None:
-        self.pop = people
-        known = looked_at if self.opt is None else Population.merge(self.opt, looked_at)
-        self._best = filter_optimum(known, least_infeasible=True)
+        self.pop = Population.merge(people[self._ranked(people)[:-1]], known)
+        self._remember(infills)
 
     @staticmethod
     def _ranked(people: Population) -> np.ndarray:
         return np.lexsort((people.get("F")[:, 0], people.get("CV")[:, 0]))
-
-    def _set_optimum(self) -> None:
-        self.opt = self._best

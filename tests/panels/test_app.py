@@ -64,7 +64,7 @@ from camkit.quantities import Measure, Quantity, value_of
 from camkit.render.artists import _find
 from camkit.search.checkpoint import read
 from camkit.search.front import Front
-from camkit.search.nsga2 import Generation, nsga2_generations
+from camkit.search.protocol import Step, search
 from camkit.units import deg, mm
 from camkit.views import curvature, mechanism, pressure_angle
 from camkit.views.front import shown_objectives
@@ -652,13 +652,13 @@ def test_an_empty_front_says_why(finder):
 def test_stop_takes_effect_after_the_running_generation_and_keeps_the_front(finder, monkeypatch):
     module, late = sys.modules["camkit.panels.pareto"], []
 
-    def watched(*args):
-        for generation in nsga2_generations(*args):
-            if finder._run.asked.is_set():
-                late.append(generation.number)
-            yield generation
+    def followed(*args, **options):
+        for step in search(*args, **options):
+            if finder._run.stopping:
+                late.append(step.number)
+            yield step
 
-    monkeypatch.setattr(module, "nsga2_generations", watched)
+    monkeypatch.setattr(module, "search", followed)
     finder.population.value, finder.generations.value = 100, 10000
     press(finder, "Optimise")
     assert (finder.run_button.disabled, finder.stop_button.disabled) == (True, False)
@@ -700,7 +700,7 @@ def test_a_panel_that_follows_the_front_is_called_after_it_is_shown(finder):
 @pytest.fixture
 def stopped(finder, monkeypatch):
     """Runs a search that is stopped after its third generation and gives the names of the files that it left."""
-    monkeypatch.setattr(sys.modules["camkit.panels.pareto"], "REPORT", 0.0)
+    monkeypatch.setattr(sys.modules["camkit.panels.kit.running"], "REPORT", 0.0)
 
     def stop_after_three(change):
         if change.new == 3:
@@ -841,7 +841,7 @@ CELLS = {
 def test_a_cell_that_is_run_again_takes_over_the_search_that_runs(finder, monkeypatch, places):
     """One thread, the page as it was at Optimise, progress, Stop, and the front of a search without a break."""
     module = sys.modules["camkit.panels.pareto"]
-    monkeypatch.setattr(module, "REPORT", 0.0)
+    monkeypatch.setattr(sys.modules["camkit.panels.kit.running"], "REPORT", 0.0)
     monkeypatch.setattr(finder, "_place", places[0])
     monkeypatch.setattr(module, "here", lambda: places[1])
     design = DoorHandleCam(lift_start_angle=0.371234567890123)
@@ -1058,7 +1058,7 @@ def test_a_disk_that_is_full_from_the_start_ends_no_search(finder, monkeypatch):
 
 
 def test_a_folder_that_vanishes_ends_no_search(finder, monkeypatch):
-    monkeypatch.setattr(sys.modules["camkit.panels.pareto"], "REPORT", 0.0)
+    monkeypatch.setattr(sys.modules["camkit.panels.kit.running"], "REPORT", 0.0)
     finder.generations.value = 60
     finder.progress.observe(lambda change: change.new == 3 and shutil.rmtree(".camkit"), "value")
     run(finder)
@@ -1148,7 +1148,7 @@ def test_a_page_that_somebody_made_is_refused_and_the_lock_let_go(a_stopped_sear
 def test_the_status_tells_the_time_that_is_left():
     study = door_handle_study()
     left = sys.modules["camkit.panels.pareto"]._left
-    at = partial(Generation, evaluation=study.evaluate(study.x0), study=study, record={"seconds": 5.0})
+    at = partial(Step, study=study, found=study.evaluate(study.x0), record={"seconds": 5.0})
     assert left(at(10, 30)) == ", 10 s left"
     assert left(at(10, 1010)) == ", 8 min left"
 

@@ -20,10 +20,10 @@ from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity
 from camkit.render.artists import _find, moving
 from camkit.render.picture import draw, layout
-from camkit.search.epsilon_constraint import dominated_shares, trade_off, trade_off_steps
+from camkit.search.epsilon_constraint import dominated_shares, epsilon_constraint_steps, trade_off
 from camkit.search.front import Front, front_of
 from camkit.search.minimise import minimise
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.front import ShownFronts, fronts_overlaid
@@ -60,8 +60,8 @@ def view(analysis, ax):
 
 @pytest.fixture(scope="module")
 def fronts():
-    *_, smooth = trade_off_steps(places(), 9)
-    *_, evolved = nsga2_generations(places(), 40, 60, 1)
+    *_, smooth = epsilon_constraint_steps(places(), 9)
+    *_, evolved = nsga2_steps(places(), 40, 60, 1)
     return {"limits": smooth.front, "NSGA-II": evolved.front}
 
 
@@ -80,13 +80,17 @@ def test_both_ways_find_the_front_that_is_known(fronts):
 
 
 def test_the_steps_of_a_trade_off_are_its_designs_so_far():
-    steps, minima = list(trade_off_steps(places(), 4)), list(trade_off(places(), 4))
+    every, minima = list(epsilon_constraint_steps(places(), 4)), list(trade_off(places(), 4))
+    assert len(every) > 8
+    assert all(step.number == len(step.front) for step in every)
+    assert [s.evaluated for s in every] == sorted(s.evaluated for s in every)
+    steps = [step for step in every if step.message]
     assert [(s.number, s.of) for s in steps] == [(1, 4), (2, 4), (3, 4), (4, 4)]
     for i, step in enumerate(steps):
         assert_allclose(step.evaluation.x, [best.x for best in minima[: i + 1]])
         assert step.feasible == i + 1
     with pytest.raises(ValueError, match="has 1 objectives; a trade-off is between two"):
-        trade_off_steps(places().replace(minimise=(here,)))
+        epsilon_constraint_steps(places().replace(minimise=(here,)))
 
 
 def test_dominated_shares_by_throwing_darts(fronts):
@@ -219,8 +223,8 @@ def close(*panels):
 
 
 WAYS = {
-    "limits": (places, partial(trade_off_steps, points=5)),
-    "NSGA-II": (places, partial(nsga2_generations, population=20, generations=15, seed=1)),
+    "limits": (places, partial(epsilon_constraint_steps, points=5)),
+    "NSGA-II": (places, partial(nsga2_steps, population=20, generations=15, seed=1)),
 }
 
 
@@ -286,7 +290,7 @@ def test_the_searches_run_around_the_design_in_the_sliders(app):
 
 
 def test_stop_keeps_the_fronts_so_far(app):
-    endless = partial(nsga2_generations, population=8, generations=10**6, seed=1)
+    endless = partial(nsga2_steps, population=8, generations=10**6, seed=1)
     panel = compare_fronts(app, {"endless": (places, endless), "never": (places, endless)})
     panel.run()
     until = time.monotonic() + 20
@@ -305,7 +309,7 @@ def test_stop_keeps_the_fronts_so_far(app):
 
 
 def test_what_cannot_be_searched_is_said(app):
-    broken = (places, lambda study: nsga2_generations(study, 1, 5, 1))
+    broken = (places, lambda study: nsga2_steps(study, 1, 5, 1))
     panel = compare_fronts(app, {"broken": broken})
     panel.run()
     panel.wait(20)

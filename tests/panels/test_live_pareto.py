@@ -29,7 +29,7 @@ from camkit.quantities import Design, quantity
 from camkit.render.artists import _find
 from camkit.render.picture import draw, layout
 from camkit.search.checkpoint import versions
-from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, quick_front, quick_front_rounds
+from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, fast_front_steps, quick_front
 from camkit.search.front import Front, reference_point
 from camkit.units import mm
 from camkit.views import curvature
@@ -196,14 +196,14 @@ def test_it_is_the_same_at_every_call(lift):
 
 
 def test_a_front_tells_how_it_was_found(lift):
-    assert lift.record["designs"] == [step.record["designs"] for step in quick_front_rounds(lift_curve_study())][-1]
+    assert lift.record["designs"] == [step.record["designs"] for step in fast_front_steps(lift_curve_study())][-1]
     assert lift.record["seconds"] > 0
     assert lift.record["versions"] == versions()
     study, looked = lift_curve_study(), []
     counted = Study.evaluate
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Study, "evaluate", lambda self, x: (looked.append(len(x)), counted(self, x))[1])
-        *_, last = quick_front_rounds(study)
+        *_, last = fast_front_steps(study)
     assert 0 < sum(looked) - last.record["designs"] <= 300  # those of the last rounds begin with what is there already
 
 
@@ -238,7 +238,7 @@ def test_a_front_that_is_near_saves_most_of_the_search():
     moved = partial(lift_curve_study, reference=DoorHandleCam())
     before = quick_front(moved(DoorHandleCam()))
     study = moved(DoorHandleCam(lift_centre_distance=76 * mm))
-    cold, warm = list(quick_front_rounds(study)), list(quick_front_rounds(study, start=before))
+    cold, warm = list(fast_front_steps(study)), list(fast_front_steps(study, start=before))
     assert len(warm) < len(cold) / 4
     assert (warm[-1].number, warm[-1].of) == (len(warm), len(warm))
     reference = reference_point(study)

@@ -4,7 +4,7 @@ import threading
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import Measure, explore, try_everything
 from camkit.machines.cam_lever import CamLever, cam_lever_study
@@ -23,7 +23,8 @@ from camkit.render.artists import _find
 from camkit.render.draw import unit_text
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.minimise import minimise
-from camkit.search.protocol import Monitor, SearchStopped, monitored
+from camkit.search.minimum import Minimum
+from camkit.search.protocol import search, stepwise
 from camkit.study.study import KEPT, Study
 from camkit.units import cm, deg, mm
 from camkit.views.high_speed import contact_stress
@@ -80,43 +81,54 @@ class Gate:
         assert panel.runner.stop_button.disabled
 
 
-# --- a watched study --------------------------------------------------------------------------------------------------
+# --- the steps of a search --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("method", ["slsqp", "de"])
-def test_a_watched_search_finds_the_same(method):
-    study, watch = high_speed_study(angles=101), Monitor()
-    best, seen = minimise(study, method, designs=1000), minimise(monitored(study, watch), method, designs=1000)
-    assert_allclose(seen.x, best.x, rtol=1e-12)
-    assert seen.message == best.message
-    assert watch.looked >= best.evaluations
-    assert watch.f == pytest.approx(best.f, rel=1e-6)
-    assert watch.looks[-1].looked == watch.looked
-    assert min(look.f for look in watch.looks if look.kept) == watch.f
+@pytest.mark.parametrize("method", ["slsqp", "de", "ga"])
+def test_a_search_in_steps_finds_the_same(method):
+    study = high_speed_study(angles=101)
+    best, steps = minimise(study, method, designs=1000), list(search(study, method, designs=1000))
+    *before, last = steps
+    assert_array_equal(last.best.x, best.x)
+    assert (last.message, last.best.message, last.best.study) == (best.message, best.message, study)
+    assert not any(step.message for step in before)
+    assert last.evaluated >= best.evaluations
+    assert before[-1].best.f == pytest.approx(best.f, rel=1e-6)
+    seen = [step.summary for step in before]
+    assert seen[-1].evaluated == last.evaluated == sum(len(step.evaluation.x) for step in before)
+    assert min(each.f for each in seen if each.feasible) == before[-1].best.f
 
 
-def test_what_a_watch_counts_as_the_best():
-    study, watch = high_speed_study(), Monitor()
+def steps_of(study, *populations):
+    """The steps of a search that evaluates these populations, one after the other."""
+
+    def work(followed):
+        for x in populations:
+            followed.evaluate(x)
+        return Minimum(study, study.x0, 0.0, True, 0, message="done")
+
+    return list(stepwise(study, work))[:-1]
+
+
+def test_what_counts_as_the_best_so_far():
+    study = high_speed_study()
     start, better, broken, unbuilt = study.x0, study.x0 * [1, 1.5, 1], study.x0 * [1, 1, 0.85], study.x0 * [1, 0.1, 9]
     evaluation = study.evaluate([start, better, broken, unbuilt])
     assert evaluation.feasible.tolist() == [True, True, False, False]
     assert evaluation.f[2, 0] < np.inf == evaluation.f[3, 0]
-    for x in ([broken, unbuilt], [start, broken], [unbuilt, better], [start]):
-        monitored(study, watch).evaluate(x)
-    assert [look.kept for look in watch.looks] == [False, True, True, True]
-    assert [look.looked for look in watch.looks] == [2, 4, 6, 7]
-    assert_allclose(watch.best, better)
-    assert watch.f == evaluation.f[1, 0]
+    steps = steps_of(study, [broken, unbuilt], [start, broken], [unbuilt, better], [start])
+    assert [step.summary.feasible for step in steps] == [False, True, True, True]
+    assert [step.evaluated for step in steps] == [2, 4, 6, 7]
+    assert [step.best and step.best.f for step in steps] == [None, *evaluation.f[[0, 1, 1], 0]]
+    assert_allclose(steps[-1].best.x, better)
 
 
 def test_a_limit_may_be_missed_by_a_millionth():
     study, kept = high_speed_study(), []
     radius = float(min_radius(FIRST.analyse()))
     for share in (0.5, 2):
-        watch = Monitor()
-        limit = {min_radius: radius * (1 + share * KEPT)}
-        monitored(study.replace(at_least=limit), watch).evaluate([study.x0])
-        kept.append(watch.looks[0].kept)
+        (step,) = steps_of(study.replace(at_least={min_radius: radius * (1 + share * KEPT)}), [study.x0])
+        kept.append(step.summary.feasible)
     assert kept == [True, False]
 
 
@@ -125,18 +137,32 @@ def test_a_limit_of_0_may_be_missed_by_the_tolerance_of_all_limits():
     radius = float(min_radius(FIRST.analyse()))
     for shift in (0.5, 2):
         below = Measure("radius less 44.6", "", lambda a, shift=shift: a.min_radius - radius + shift * KEPT)
-        watch = Monitor()
-        monitored(study.replace(at_most={below: 0.0}, at_least={}), watch).evaluate([study.x0])
-        kept.append(watch.looks[0].kept)
+        (step,) = steps_of(study.replace(at_most={below: 0.0}, at_least={}), [study.x0])
+        kept.append(step.summary.feasible)
     assert kept == [True, False]
 
 
-def test_a_stopped_watch_lets_nothing_more_through():
-    watch, study = Monitor(), high_speed_study()
-    watch.stop()
-    with pytest.raises(SearchStopped):
-        minimise(monitored(study, watch))
-    assert watch.looked == 0
+@pytest.mark.parametrize("method", ["slsqp", "de"])
+def test_a_search_that_is_left_evaluates_nothing_more(method):
+    asked, threads = [], threading.active_count()
+    stress = Measure("stress", "N^0.5 mm^-0.5", lambda analysis: asked.append(1) or peak_stress(analysis))
+    steps = search(high_speed_study(angles=101).replace(minimise=(stress,)), method)
+    assert not asked
+    next(steps)
+    before = len(asked)
+    steps.close()
+    assert (len(asked), threading.active_count()) == (before, threads)
+    assert list(steps) == []
+
+
+def test_what_a_search_cannot_do_is_said():
+    study = high_speed_study()
+    with pytest.raises(ValueError, match="the method is 'best'; there are 'nsga2', 'fast_front', "):
+        search(study, "best")
+    with pytest.raises(ValueError, match=r"the method 'slsqp' cannot search like this: .*population"):
+        search(study, population=3)
+    with pytest.raises(ValueError, match="the study has 2 objectives; minimise takes one"):
+        next(search(study.replace(minimise=(peak_stress, peak_wear)), "de"))
 
 
 # --- optimise from here -----------------------------------------------------------------------------------------------
@@ -206,7 +232,7 @@ def test_the_search_is_drawn_in_the_measures_unit(app):
     assert y[-1] == pytest.approx(panel.minimum.f * mm**0.5, rel=1e-5)
     assert (np.diff(y) <= 0).all()
     assert (np.diff(x) > 0).all()
-    assert x[-1] == panel.runner.watch.looked
+    assert x[-1] == panel.runner.job.step.evaluated
     shown = len(xy(panel.picture.axes[0], "keeps all limits")[0]) + len(xy(panel.picture.axes[0], "misses a limit")[0])
     assert 10 < shown <= len(x)
 
@@ -217,11 +243,11 @@ def test_stop_keeps_the_best_so_far(app, method):
     blocked = Measure("stress", "N^0.5 mm^-0.5", gate)
     panel = optimise_panel(app, sizes, minimise={"stress": blocked}, methods=(method,))
     gate.stop(panel)
-    watch = panel.runner.watch
+    step = panel.runner.job.step
     assert panel.minimum is None
-    assert panel.summary().endswith(f"The search was stopped after {watch.looked} designs.")
-    assert watch.looked < (1000 if method == "de" else 200)
-    assert_allclose([getattr(app.design, name) for name in GEOMETRY], watch.best)
+    assert panel.summary().endswith(f"The search was stopped after {step.evaluated} designs.")
+    assert step.evaluated < (1000 if method == "de" else 200)
+    assert_allclose([getattr(app.design, name) for name in GEOMETRY], step.best.x)
     study = high_speed_study(app.design, angles=101)
     assert study.evaluate([study.x0]).f[0, 0] < 78.3  # that of the first design is 78.36
     panel.back.click()

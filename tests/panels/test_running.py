@@ -17,7 +17,7 @@ from camkit.panels.kit import running
 from camkit.panels.kit.runner import named
 from camkit.panels.kit.running import RUNNING, Job, Place, here, left_behind
 from camkit.panels.optimise import optimise_panel
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.protocol import search
 from camkit.units import deg, mm
 
 VIEW = {"width": 3.0, "height": 2.0}
@@ -50,7 +50,7 @@ def interval(start):
 
 
 def endless(study):
-    return nsga2_generations(study, 20, 10_000, 1)
+    return search(study, "nsga2", population=20, generations=10_000, seed=1)
 
 
 PANELS = {
@@ -76,7 +76,7 @@ def underway(panel):
     panel.run()
     assert panel.runner.banner.layout.display == "none", panel.runner.banner.value
     until = time.monotonic() + 20
-    while panel.runner.watch.looked < 5 and time.monotonic() < until:
+    while not (panel.runner.job.step and panel.runner.job.step.evaluated >= 5) and time.monotonic() < until:
         time.sleep(0.01)
     assert panel.runner.stop_button.disabled is False
     return RUNNING[-1]
@@ -106,7 +106,7 @@ def test_another_panel_leaves_a_job_alone():
     job = underway(panel)
     optimise_panel(an_explorer(lever=251 * mm), one_wish, methods=("de",))
     optimise_panel(an_explorer(), lambda start, method: one_wish(start), methods=("de",))
-    assert not panel.runner.watch._stop.is_set()
+    assert not panel.runner.job.stopping
     assert RUNNING[:] == [job]
     panel.stop()
     panel.wait(20)
@@ -115,7 +115,7 @@ def test_another_panel_leaves_a_job_alone():
 
 def test_which_jobs_a_panel_replaces():
     def job(kind, cell, run):
-        return Job(kind, Place(cell, run), lambda: None, lambda: None)
+        return Job(kind, Place(cell, run), lambda: iter(()))
 
     jobs = [
         job("a", "1", "x"),
@@ -137,7 +137,7 @@ def test_which_jobs_a_panel_replaces():
 
 def test_a_job_that_breaks_is_not_running(monkeypatch):
     monkeypatch.setattr(threading, "excepthook", lambda _: None)
-    job = Job("a", here(), lambda: 1 / 0, lambda: None)
+    job = Job("a", here(), lambda: 1 / 0)
     job.start()
     job.thread.join(10)
     assert not RUNNING
@@ -171,7 +171,7 @@ def test_a_function_is_the_same_when_its_cell_runs_again():
 ENDS = """
 import time
 from camkit.panels.kit.running import Job
-Job("a", ("", ""), lambda: time.sleep(0.1), lambda: None).start()
+Job("a", ("", ""), lambda: iter([time.sleep(0.1)])).start()
 """
 
 

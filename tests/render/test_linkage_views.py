@@ -16,7 +16,7 @@ from camkit.render.linkage import CURVES, LINKAGE_VIEWS, linkage_in_space, outpu
 from camkit.render.linkage_sketch import rssr_sketch
 from camkit.render.picture import draw, positions_of
 from camkit.render.turntable import Turntable
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
 from camkit.views.progress import convergence
 
@@ -240,7 +240,7 @@ def test_the_sketch_has_every_letter():
 
 
 def test_convergence_shows_best_and_mean():
-    generations = list(nsga2_generations(rssr_study(), 10, 6, seed=1))
+    generations = list(nsga2_steps(rssr_study(), 10, 6, seed=1))
     shown = convergence(generations)
     f = [g.evaluation.f[np.isfinite(g.evaluation.f)] / deg for g in generations]
     np.testing.assert_allclose([shown["best"].x, shown["best"].y], [range(1, 7), [v.min() for v in f]])

@@ -16,7 +16,7 @@ from camkit.render.picture import draw, layout
 from camkit.render.shaft import SHAFT_VIEWS, candidates, diameters, on_the_plane, section, utilisation
 from camkit.render.universal_joint import JOINT_VIEWS, drive, pins
 from camkit.search.competitive import CompetitiveAlgorithm
-from camkit.search.nsga2 import StudyProblem
+from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
 from camkit.views.optimiser_trials import evaluations_needed, solved_within
 

@@ -18,7 +18,7 @@ from numpy.testing import assert_array_equal
 from camkit import door_handle_study, nsga2
 from camkit.search import checkpoint as module
 from camkit.search.checkpoint import ARRAYS, WORST, read, remove_parts
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 
 STUDY = door_handle_study()
 SIZE = {"population": 8, "generations": 4, "seed": 1}
@@ -287,7 +287,7 @@ def test_a_file_that_is_far_too_long_is_not_read(kept):
 
 
 def uninterrupted():
-    return [g.evaluation.x.tolist() for g in nsga2_generations(STUDY, *SIZE.values())]
+    return [g.evaluation.x.tolist() for g in nsga2_steps(STUDY, *SIZE.values())]
 
 
 def test_a_full_disk_ends_no_search(kept, monkeypatch):
@@ -315,10 +315,10 @@ def test_a_full_disk_ends_no_search(kept, monkeypatch):
 def test_a_device_that_is_full_ends_no_search(tmp_path):
     """As the system says it: the file that is written beside leads to a full device."""
     part = tmp_path / f".lift.npz.{os.getpid()}.part"
-    search = nsga2_generations(STUDY, *SIZE.values(), tmp_path / "lift.npz")
+    search = nsga2_steps(STUDY, *SIZE.values(), tmp_path / "lift.npz")
     next(search)
     part.symlink_to("/dev/full")
-    told = [generation.unkept for generation in search]
+    told = [generation.message for generation in search]
     assert told == ["no space left on device"] * 3
     assert os.listdir(tmp_path) == ["lift.npz"]
 
@@ -327,14 +327,14 @@ def test_a_folder_that_vanishes_ends_no_search(tmp_path):
     folder = tmp_path / "kept"
     folder.mkdir()
     found = []
-    for generation in nsga2_generations(STUDY, *SIZE.values(), folder / "lift.npz"):
+    for generation in nsga2_steps(STUDY, *SIZE.values(), folder / "lift.npz"):
         found.append(generation.evaluation.x.tolist())
         if generation.number == 2:
             (folder / "lift.npz").unlink()
             folder.rmdir()
-            assert generation.unkept == ""
+            assert generation.message == ""
         if generation.number > 2:
-            assert generation.unkept == "no such file or directory"
+            assert generation.message == "no such file or directory"
     assert found == uninterrupted()
 
 

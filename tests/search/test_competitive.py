@@ -16,7 +16,7 @@ from camkit.papers.problems import (
     tension_spring,
 )
 from camkit.search.competitive import CompetitiveAlgorithm
-from camkit.search.nsga2 import StudyProblem
+from camkit.search.evolution import StudyProblem
 from camkit.units import mm
 
 OPTIMUM = lightest_shaft().analyse().area

@@ -22,7 +22,7 @@ from camkit.motion import Poly345
 from camkit.quantities import Design, quantity
 from camkit.search.checkpoint import Checkpoint, fingerprint, read, versions
 from camkit.search.front import Front, dominated, front_of, reference_point
-from camkit.search.nsga2 import nsga2_generations
+from camkit.search.nsga2 import nsga2_steps
 from camkit.units import mm
 
 
@@ -130,7 +130,7 @@ def test_a_search_beats_chance_with_the_same_budget(seed, whole):
 
 def test_leaving_early_keeps_the_front_so_far():
     study = two_places()
-    for generation in nsga2_generations(study, 20, 1000, 1):
+    for generation in nsga2_steps(study, 20, 1000, 1):
         assert generation.of == 1000
         assert generation.feasible == generation.evaluation.feasible.sum() <= 20
         if generation.number == 7:
@@ -278,12 +278,12 @@ def every_number(generation):
 def test_a_search_goes_on_as_if_it_had_never_stopped(study, stop, tmp_path):
     """Bit by bit, wherever it was stopped, and without evaluating anything twice."""
     path = tmp_path / "search.npz"
-    whole = [every_number(g) for g in nsga2_generations(study, 24, 12, 5)]
-    before = [every_number(g) for g in islice(nsga2_generations(study, 24, 12, 5, path), stop)]
-    after = [every_number(g) for g in nsga2_generations(study, 24, 12, 5, path)]
+    whole = [every_number(g) for g in nsga2_steps(study, 24, 12, 5)]
+    before = [every_number(g) for g in islice(nsga2_steps(study, 24, 12, 5, path), stop)]
+    after = [every_number(g) for g in nsga2_steps(study, 24, 12, 5, path)]
     assert before == whole[:stop]
     assert after == whole[stop - 1 :]
-    assert [every_number(g) for g in nsga2_generations(study, 24, 12, 5, path)] == whole[-1:]
+    assert [every_number(g) for g in nsga2_steps(study, 24, 12, 5, path)] == whole[-1:]
     assert os.listdir(tmp_path) == ["search.npz"]
 
 
@@ -296,8 +296,8 @@ def test_a_search_goes_on_with_more_generations(tmp_path):
 KILLED = """
 import sys
 from camkit import door_handle_study
-from camkit.search.nsga2 import nsga2_generations
-for generation in nsga2_generations(door_handle_study(), 40, 10_000, 3, sys.argv[1]):
+from camkit.search.nsga2 import nsga2_steps
+for generation in nsga2_steps(door_handle_study(), 40, 10_000, 3, sys.argv[1]):
     print(generation.number, flush=True)
 """
 

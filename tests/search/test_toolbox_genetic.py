@@ -9,7 +9,7 @@ from scipy.stats import chisquare
 
 from camkit.data import load
 from camkit.machines.cabin_door import rssr_study
-from camkit.search.nsga2 import StudyProblem
+from camkit.search.evolution import StudyProblem
 from camkit.search.toolbox_genetic import ToolboxGenetic, crossed, selection_chances, shrinking_step
 from camkit.units import deg
 

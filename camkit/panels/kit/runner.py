@@ -1,22 +1,19 @@
-"""`Runner`: two buttons around a job in a thread of its own; `Choices`: the menus that say what the job is.
+"""`Runner`: two buttons around a search in a thread of its own; `Choices`: the menus that say what the job is.
 
 `JobPanel`: a panel with a `Runner` on the left and its picture on the right.
 """
 
 from __future__ import annotations
 
-import threading
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import ipywidgets as w
 
 from ...markup import Html, html
 from ...quantities import words
-from ...search.protocol import Monitor
+from ...search.protocol import Step
 from ...study.study import Study
-from ..pareto import REPORT
 from .controls import banner, show_message
 from .panel import IMPOSSIBLE, Panel
 from .running import Job, here, left_behind
@@ -58,28 +55,25 @@ class Choices:
 
 
 class Runner:
-    """Run and Stop, a line that says how far the job is, and a banner for what is impossible.
+    """Run and Stop, a line that says how far the search is, and a banner for what is impossible.
 
-    ``prepare()`` says what is to be done, ``ValueError`` if it cannot be.  ``job(task, watch)`` does it in a thread of
-    its own, on studies under ``watch``: the page stays alive, and Stop takes effect before the next design.
-    ``report(watch)`` is called now and then meanwhile.  ``page`` is what the panel was made of: a job that was begun
-    by the same panel, before its cell was run again, is stopped.
+    ``prepare()`` gives the steps of a search, ``ValueError`` if it cannot be; they are taken in a `Job`, and
+    ``show(step, last)`` is called now and then.  ``page`` is what the panel was made of: a search that was begun by
+    the same panel, before its cell was run again, is stopped.
     """
 
     def __init__(
         self,
         description: str,
-        prepare: Callable[[], Any],
-        job: Callable[[Any, Monitor], None],
-        report: Callable[[Monitor], None],
+        prepare: Callable[[], Iterator[Step]],
+        show: Callable[[Step, bool], None],
         *page: Any,
     ) -> None:
         self._kind, self._place = f"{description} {[named(thing) for thing in page]}", here()
         for left in left_behind(self._kind, self._place):
             left.stop()
-        self._prepare, self._job, self._report, self._reported = prepare, job, report, 0.0
-        self.watch = Monitor()
-        self._running: Job | None = None
+        self._prepare, self._show = prepare, show
+        self.job: Job | None = None
         fits = w.Layout(width="auto")
         self.run_button = w.Button(description=description, icon="play", button_style="primary", layout=fits)
         self.stop_button = w.Button(description="Stop", icon="stop", disabled=True, layout=fits)
@@ -89,48 +83,34 @@ class Runner:
         self.stop_button.on_click(lambda _: self.stop())
 
     def run(self) -> None:
-        """Start the job; returns at once."""
-        if self._running and self._running.thread.is_alive():
+        """Start the search; returns at once."""
+        if self.job and self.job.thread.is_alive():
             return
         try:
-            task = self._prepare()
+            steps = self._prepare()
         except IMPOSSIBLE as refusal:
-            self._refuse(refusal)
+            self._end(refusal)
             return
         show_message(self.banner, "")
         self.run_button.disabled, self.stop_button.disabled = True, False
-        self.watch = watch = Monitor(self._look)
-        self._running = Job(self._kind, self._place, lambda: self._work(task, watch), watch.stop)
-        self._running.start()
+        self.job = Job(self._kind, self._place, lambda: steps, self._show, self._end)
+        self.job.start()
 
-    def _refuse(self, refusal: Exception) -> None:
-        show_message(self.banner, f"This cannot be searched: {refusal}.")
-
-    def _look(self, watch: Monitor) -> None:
-        if not threading.main_thread().is_alive():  # the kernel is going, and nobody waits for the result
-            watch.stop()
-        if time.monotonic() - self._reported > REPORT:
-            self._report(watch)
-            self._reported = time.monotonic()
-
-    def _work(self, task: Any, watch: Monitor) -> None:
-        try:
-            self._job(task, watch)
-        except ValueError as refusal:
-            self._refuse(refusal)
-        except Exception as error:  # shown to the user: a thread has no other way to speak
-            show_message(self.banner, f"The search ended early: {error}.")
-        finally:
-            self.run_button.disabled, self.stop_button.disabled = False, True
+    def _end(self, error: Exception | None) -> None:
+        if error:
+            early = "This cannot be searched" if isinstance(error, IMPOSSIBLE) else "The search ended early"
+            show_message(self.banner, f"{early}: {error}.")
+        self.run_button.disabled, self.stop_button.disabled = False, True
 
     def stop(self) -> None:
         """Stop before the next design; the best so far stays."""
-        self.watch.stop()
+        if self.job:
+            self.job.stop()
 
     def wait(self, seconds: float | None = None) -> None:
-        """Until the job has ended."""
-        if self._running:
-            self._running.thread.join(seconds)
+        """Until the search has ended."""
+        if self.job:
+            self.job.thread.join(seconds)
 
 
 class JobPanel(Panel):

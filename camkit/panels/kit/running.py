@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Generator, Iterator
 from typing import Any, NamedTuple
 
 from IPython.core.getipython import get_ipython
+
+from ...search.protocol import Step
+
+REPORT = 0.25
+"""Seconds between two steps of a search that are shown."""
 
 RUNNING: list[Job] = []
 """Every job of this kernel that has not ended."""
@@ -27,10 +33,26 @@ def here() -> Place:
 
 
 class Job:
-    """``work()`` in a thread of its own, begun by a panel of this ``kind`` that was made at ``place``."""
+    """The steps of a search in a thread of its own, begun by a panel of this ``kind`` that was made at ``place``.
 
-    def __init__(self, kind: str, place: Place, work: Callable[[], None], stop: Callable[[], None]) -> None:
-        self.kind, self.place, self.stop, self._work = kind, place, stop, work
+    ``steps()`` gives them.  ``show(step, last)`` is called for the first, now and then, and for the last; then ``end``
+    with the error that the search ended with, if it did.  After Stop the step that comes next is the last.
+    """
+
+    def __init__(
+        self,
+        kind: str,
+        place: Place,
+        steps: Callable[[], Iterator[Step]],
+        show: Callable[[Step, bool], None] = lambda step, last: None,
+        end: Callable[[Exception | None], None] = lambda error: None,
+    ) -> None:
+        self.kind, self.place = kind, place
+        self._steps, self._show, self._end = steps, show, end
+        self._stop = threading.Event()
+        self.step: Step | None = None
+        self.ended = False
+        """Whether the search came to its end."""
         self.thread = threading.Thread(target=self._run)
 
     def start(self) -> None:
@@ -38,11 +60,42 @@ class Job:
         RUNNING.append(self)
         self.thread.start()
 
+    def stop(self) -> None:
+        """End the search with its next step."""
+        self._stop.set()
+
+    @property
+    def stopping(self) -> bool:
+        """Whether the next step is the last."""
+        return self._stop.is_set() or not threading.main_thread().is_alive()  # the kernel is going
+
     def _run(self) -> None:
+        error = None
         try:
-            self._work()
+            self._follow()
+        except Exception as caught:  # shown to the user: a thread has no other way to speak
+            error = caught
         finally:
-            RUNNING.remove(self)
+            try:
+                self._end(error)
+            finally:
+                RUNNING.remove(self)
+
+    def _follow(self) -> None:
+        shown, steps = -REPORT, self._steps()
+        for step in steps:
+            self.step = step
+            if self.stopping:
+                break
+            if time.monotonic() - shown > REPORT:
+                self._show(step, False)
+                shown = time.monotonic()
+        else:
+            self.ended = True
+        if isinstance(steps, Generator):
+            steps.close()
+        if self.step:
+            self._show(self.step, True)
 
 
 def left_behind(kind: str, place: Place) -> list[Job]:

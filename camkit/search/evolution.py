@@ -1,0 +1,78 @@
+"""How every search by pymoo is set up: a study as its problem, and what algorithms for one objective share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from pymoo.core.algorithm import Algorithm
+from pymoo.core.population import Population
+from pymoo.core.problem import Problem
+from pymoo.core.repair import Repair
+from pymoo.util.display.single import SingleObjectiveOutput
+from pymoo.util.optimum import filter_optimum
+
+from ..kinds import applied
+from ..study.study import Study
+from .checkpoint import WORST
+from .protocol import on_grid
+
+
+class StudyProblem(Problem):
+    """A `Study` as pymoo sees it: one call evaluates a whole generation."""
+
+    def __init__(self, study: Study) -> None:
+        with applied("a search", study):
+            low, high = study.bounds
+            counts = {"n_obj": len(study.minimise), "n_ieq_constr": len(study.limits)}
+        super().__init__(n_var=len(study.free), xl=low, xu=high, **counts)
+        self.study = study
+
+    def _evaluate(self, x: np.ndarray, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
+        evaluation = self.study.evaluate(x)
+        out["F"] = np.minimum(evaluation.f, WORST)
+        out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
+
+
+class OnGrid(Repair):
+    """Moves free values onto the grid of `on_grid`."""
+
+    def _do(self, problem: Problem, x: np.ndarray, **kwargs: Any) -> np.ndarray:
+        low, high = problem.xl, problem.xu
+        return np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
+
+
+class OneObjective(Algorithm):
+    """An algorithm for one objective within bounds: ``size`` designs drawn evenly at first, the best never forgotten.
+
+    Raises ``ValueError`` when it is set up for a problem with several objectives or without bounds.
+    """
+
+    title: str
+    """How it is called in sentences."""
+
+    def __init__(self, size: int, **kwargs: Any) -> None:
+        super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
+        self.size, self.opt = size, None
+
+    def _setup(self, problem: Any, **kwargs: Any) -> None:
+        if problem.n_obj != 1:
+            raise ValueError(f"there are {problem.n_obj} objectives; {self.title} takes one")
+        if not problem.has_bounds():
+            raise ValueError(f"a variable has no bounds; {self.title} needs them")
+
+    def _initialize_infill(self) -> Population:
+        return self._people(self.random_state.random((self.size, self.problem.n_var)))
+
+    def _people(self, place: np.ndarray) -> Population:
+        """Designs from shares of the bounds."""
+        low, high = self.problem.bounds()
+        return Population.new(X=low + place * (high - low))
+
+    def _remember(self, people: Population) -> None:
+        """A design that keeps every limit is not forgotten, whatever the algorithm prefers."""
+        known = people if self.opt is None else Population.merge(self.opt, people)
+        self._best = filter_optimum(known, least_infeasible=True)
+
+    def _set_optimum(self) -> None:
+        self.opt = self._best
