@@ -13,6 +13,9 @@ AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 # Two processes, each with a file of tests at a time: what a file's tests share is made once.
 PYTEST := $(BIN)/python -m pytest -n 2 --dist loadscope
 
+# Coverage is asked of the maths alone: watching makes the tests of panels and pictures slower by half.
+PANELS := tests/panels tests/render
+
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
 
@@ -41,7 +44,9 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(PYTEST) -m "not browser" --cov --cov-report=term-missing:skip-covered
+	$(PYTEST) -m "not browser" $(addprefix --ignore=,$(PANELS)) --cov --cov-report=term-missing:skip-covered
+	@echo "== tests of panels and pictures (pytest)"
+	$(PYTEST) $(PANELS)
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(PYTEST) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"

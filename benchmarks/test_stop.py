@@ -12,12 +12,12 @@ STOPS = 9
 
 CELLS = [
     """
-from camkit import DoorHandleCam, lift_curve_study, explore, search
+from camkit import DoorHandleCam, lift_curve_study, explore, pareto_panel
 from camkit.machines.door_handle import LIFT_SPACE
 from camkit.views import mechanism
 
 app = explore(DoorHandleCam(), mechanism)
-search(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""
+pareto_panel(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""
 ]
 
 WATCH = """([button, status]) => {

@@ -22,10 +22,10 @@ DESIGN = (
 from dataclasses import dataclass
 import numpy as np
 from camkit import *
-from camkit import survey, tolerate, trade, tray, decide, edit_program, offer
+from camkit import contour_panel, tolerance_panel, compare_fronts, shortlist, choose_panel, edit_program, presets
 from camkit.papers.published import Comparison, Row, Table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from camkit.render.artists import frame, line, new
+from camkit.views.picture import Axes, Picture, Points
 from camkit.quantities import Design, Measure, quantity
 from camkit.decision import side_by_side
 
@@ -54,25 +54,24 @@ space = {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}
 def study(start=Evil(), weights=None, reference=None, space=space):
     return Study(start, space, (first, second), at_most={limited: 5 * mm})
 
-def view(analysis, ax):
-    if new(ax):
-        frame(ax, EVIL, EVIL, EVIL)
-    line(ax, "point", [analysis.cam.x], [analysis.cam.y], marker="o", label=EVIL)
-    return ax"""
+def view(analysis):
+    point = Points("point", [analysis.cam.x], [analysis.cam.y], label=EVIL)
+    return Picture(Axes(title=EVIL, xlabel=EVIL, ylabel=EVIL), (point,))"""
 )
 
 PANELS = (
     "app = explore(Evil(), view, measures=(first, second, limited), at_most={limited: 1 * mm})\napp",
-    "kept = tray(app, study())\nkept.keep()\nkept",
-    "judged = judge([EVIL, 'b'], [3], EVIL)\njudged.boxes[0, 1].value = EVIL\njudged",
-    "found = search(app, {EVIL: study}, space=space, free=['x', 'y'], population=24, generations=3)\n"
+    "kept = shortlist(app, study())\nkept.keep()\nkept",
+    "judged = ahp_panel(Judgements([EVIL, 'b'], [3]), EVIL)\njudged.boxes[0, 1].value = EVIL\njudged",
+    "found = pareto_panel(app, {EVIL: study}, space=space, free=['x', 'y'], population=24, generations=3)\n"
     "found.run()\nfound.wait()\nfound",
-    "decide(found)",
-    "live_front(app, {EVIL: study}, space)",
-    "trade(app, given={EVIL: found.front})",
-    "survey(app, {EVIL: lambda start, weights: Study(start, space, (first,), at_most={limited: 5 * mm})}, {'x': 1.0})",
-    "tolerate(app, study())",
-    "offer(app, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design})",
+    "choose_panel(found)",
+    "live_pareto_panel(app, {EVIL: study}, space)",
+    "compare_fronts(app, given={EVIL: found.front})",
+    "make = lambda start, weights: Study(start, space, (first,), at_most={limited: 5 * mm})\n"
+    "contour_panel(app, {EVIL: make}, {'x': 1.0})",
+    "tolerance_panel(app, study())",
+    "presets(app, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design})",
     "edit_program(MotionProgram((Rise(2.0, 0.01, EvilLaw()), Dwell(1.0), Return(2.0, 0.01, EvilLaw()))))",
     "Evil()",
     "Comparison(EVIL, EVIL, [Row(EVIL, EVIL, '3.1', 4.0, EVIL)], EVIL)",

@@ -11,7 +11,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from lab import LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
 
 EXPLORER = """
-from camkit import DoorHandleCam, deg, door_handle_study, explore, judge
+from camkit import DoorHandleCam, Judgements, ahp_panel, deg, door_handle_study, explore
 from camkit.machines.door_handle import CURVE_TABLE
 from camkit.views import CAM_VIEWS
 
@@ -44,7 +44,7 @@ TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
 
 @pytest.fixture(scope="module")
 def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
-    cells = [EXPLORER, "judge(['pressure angle', 'contact force', 'cam torque'], [1, 1, 1])"]
+    cells = [EXPLORER, "ahp_panel(Judgements(['pressure angle', 'contact force', 'cam torque'], [1, 1, 1]))"]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in cells])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "panels.ipynb")

@@ -16,12 +16,12 @@ from lab import eventually, voila_server
 
 REPOSITORY = Path(__file__).parents[2]
 SEARCH = """
-from camkit import DoorHandleCam, door_handle_study, explore, search
+from camkit import DoorHandleCam, door_handle_study, explore, pareto_panel
 from camkit.machines.door_handle import PAPER_SPACE
 from camkit.views import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
-search(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
+pareto_panel(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
 """
 
 

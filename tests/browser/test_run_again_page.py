@@ -10,7 +10,7 @@ from lab import LabServer, cell, eventually, kernel_value, open_notebook, run_al
 
 NAME = "run_again.ipynb"
 EXPLORER = """
-from camkit import DoorHandleCam, door_handle_study, explore, search
+from camkit import DoorHandleCam, door_handle_study, explore, pareto_panel
 from camkit.panels.kit.running import RUNNING
 from camkit.machines.door_handle import PAPER_SPACE
 from camkit.views import pressure_angle
@@ -19,7 +19,7 @@ app = explore(DoorHandleCam(), pressure_angle)
 app
 """
 SEARCH = """
-finder = search(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
+finder = pareto_panel(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
 finder
 """
 THREADS = "[job.thread.ident for job in RUNNING]"
