@@ -57,12 +57,14 @@ SHADES = ((0.0, 0.0), (0.0, 0.45), (1.0, 0.5), (0.0, 0.7))
 
 STROKES: dict[str, dict[str, Any]] = {
     "solid": {"linestyle": "-"},
+    "line": {"linewidth": 1.9},
     "thin": {"linewidth": 1.0},
     "bold": {"linewidth": 3.0},
     "dashed": {"linestyle": "--"},
     "dotted": {"linestyle": ":"},
     "dashdot": {"linestyle": "-."},
     "arm": {"linewidth": 4.5, "solid_capstyle": "round"},
+    "shaft": {"linewidth": 9, "solid_capstyle": "round", "solid_joinstyle": "round"},
     "bar": {"linewidth": 16, "solid_capstyle": "butt"},
 }
 FORMS = {"dot": "o", "plus": "+", "cross": "x", "star": "*", "square": "s", "diamond": "D", "triangle": "^"}
@@ -278,7 +280,7 @@ def _legend(ax: Axes, picture: shown.Picture) -> None:
     """Labelled marks in one row above the axes if there is room beside the title, else below; no curve meets them."""
     labels = list(dict.fromkeys(plain(mark.label) for mark in picture.marks if mark.label))
     legend = ax.get_legend()
-    if labels == [text.get_text() for text in (legend.get_texts() if legend else ())]:
+    if set(labels) == {text.get_text() for text in (legend.get_texts() if legend else ())}:
         return
     if legend:
         legend.remove()

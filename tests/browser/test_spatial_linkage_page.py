@@ -14,8 +14,8 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study
 from camkit.render.artists import BLUE
-from camkit.render.linkage import scene_of
 from camkit.units import deg, mm
+from camkit.views.linkage import scene_of
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 STUDY = ninety_degree_study()
@@ -79,7 +79,7 @@ def drawn(panel: Locator, points: Any, colour: str) -> bool:
 
 def crank_seen(design: CabinDoorLinkage, turn: float, azimuth: float, elevation: float) -> np.ndarray:
     """Points along the crank on the picture of the view in space, computed here."""
-    scene = scene_of(design.linkage, [HOUSING], None, azimuth, elevation)  # type: ignore[arg-type]
+    scene = scene_of(design.linkage, [HOUSING], azimuth, elevation)
     start, end = design.linkage.analyse(turn, design.branch).chain[:, :2, 0].T / mm
     return scene.seen(start[:, None] + np.linspace(0.3, 0.7, 7) * (end - start)[:, None])[:2]
 

@@ -9,8 +9,8 @@ from camkit import explore, try_everything
 from camkit.files.designs import from_json, to_json
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, Branch, CabinDoorLinkage, ninety_degree_study
-from camkit.render.linkage import CURVES, linkage_in_space
 from camkit.units import deg, mm
+from camkit.views.linkage import CURVES, linkage_in_space
 
 START = ninety_degree_study().start
 FREE = ("crank", "coupler", "branch", "load.mass", "load.lean", "load.torque")

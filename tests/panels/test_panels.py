@@ -49,18 +49,18 @@ from camkit.panels import (
 )
 from camkit.panels.kit.number import NumberBox, WholeBox
 from camkit.quantities import Measure, PeakMeasure
-from camkit.render.linkage import CURVES, linkage_in_space
 from camkit.render.picture import picture
 from camkit.render.shaft import SHAFT_VIEWS
-from camkit.render.universal_joint import JOINT_VIEWS
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.typed import typed_number, typed_whole
 from camkit.views import CAM_VIEWS, contact_force, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
+from camkit.views.linkage import CURVES, linkage_in_space
 from camkit.views.sweep import limit_sweep
 from camkit.views.tolerances import sobol_bars
+from camkit.views.universal_joint import JOINT_VIEWS
 from camkit.views.valve import VALVE_VIEWS
 
 # ---------------------------------------------------------------- numbers as people type them

@@ -4,21 +4,20 @@ from functools import partial
 
 import numpy as np
 import pytest
-from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from camkit.linkage.measures import room_in
 from camkit.linkage.space import Box
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study, rssr_study
-from camkit.render.artists import GREY, WARNING, moving
-from camkit.render.linkage import CURVES, LINKAGE_VIEWS, linkage_in_space, output_angle, pressure_angles
-from camkit.render.linkage_sketch import rssr_sketch
+from camkit.render.draw import moving
 from camkit.render.picture import draw, positions_of
-from camkit.render.turntable import Turntable
 from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
+from camkit.views.linkage import CURVES, LINKAGE_VIEWS, linkage_in_space, output_angle, pressure_angles
+from camkit.views.linkage_sketch import rssr_sketch
 from camkit.views.progress import convergence
+from camkit.views.turntable import Turntable
 
 EXAMPLE = CabinDoorLinkage()
 SKEW = CabinDoorLinkage(90 * mm, 200 * mm, 110 * mm, 120 * mm, 80 * mm, 40 * mm, 70 * deg, -40 * deg, 20 * deg)
@@ -29,19 +28,13 @@ def axes(count=1):
     return [Figure().add_subplot() for _ in range(count)]
 
 
-def artist(ax, key):
-    """What was drawn with ``key``."""
-    (found,) = (a for a in moving(ax) if a.get_gid() == key)
-    return found
-
-
-def data(ax, key):
-    return np.array(artist(ax, key).get_data())
+def data(picture, key):
+    mark = picture[key]
+    return np.array(np.broadcast_arrays(np.atleast_1d(mark.x), np.atleast_1d(mark.y)))
 
 
 def shown(design, view=linkage_in_space, **position):
-    (ax,) = axes()
-    return view(design.analyse(), ax, **position)
+    return view(design.analyse(), **position)
 
 
 @pytest.mark.parametrize("view", LINKAGE_VIEWS)
@@ -77,7 +70,7 @@ def test_only_the_view_in_space_asks_where_it_is_seen_from():
 def test_the_turntable_by_turning_the_scene(azimuth, elevation):
     """Turn the scene back by the azimuth, tip it towards the viewer on +x, and read off y and z."""
     points = np.random.default_rng(0).normal(size=(3, 7))
-    table = Turntable(None, np.eye(3), np.array([0.1, -0.2, 0.3]), 1.0, 1.0, azimuth * deg, elevation * deg)
+    table = Turntable(np.eye(3), np.array([0.1, -0.2, 0.3]), 1.0, 1.0, azimuth * deg, elevation * deg)
     turned = Rotation.from_euler("zy", [-azimuth, elevation], degrees=True)
     near, right, up = turned.apply(points.T - table.centre).T
     np.testing.assert_allclose(table.seen(points), [right, up, near], atol=1e-12)
@@ -85,7 +78,7 @@ def test_the_turntable_by_turning_the_scene(azimuth, elevation):
 
 def test_the_turntable_drops_points_straight_to_its_floor():
     up = np.array([0.0, 0.6, 0.8])
-    table = Turntable(None, np.stack([[1, 0, 0], np.cross(up, [1, 0, 0]), up]), np.ones(3), 1.0, 2.0, 0.0, 0.0)
+    table = Turntable(np.stack([[1, 0, 0], np.cross(up, [1, 0, 0]), up]), np.ones(3), 1.0, 2.0, 0.0, 0.0)
     points = np.random.default_rng(1).normal(size=(3, 5))
     fallen = table.dropped(points)
     np.testing.assert_allclose(up @ (fallen - 1), -2.0)
@@ -112,9 +105,9 @@ def test_links_in_space_are_where_the_analysis_has_them(design, azimuth, elevati
     faint = projected(design, turn, other, azimuth * deg, elevation * deg)
     np.testing.assert_allclose(np.diff(data(ax, "other branch")), np.diff(faint), atol=1e-9)
     numbers = f"crank {turn / deg:.1f}°   rocker {here.rocker_angle[0] / deg:.1f}°"
-    assert artist(ax, "numbers").get_text() == numbers
+    assert ax["numbers"].words == numbers
     for name, angle in (("α₁", here.crank_pressure_angle), ("α₂", here.rocker_pressure_angle)):
-        assert artist(ax, name).get_text() == f"{name} {angle[0] / deg:.0f}°"
+        assert ax[name].words == f"{name} {angle[0] / deg:.0f}°"
 
 
 def test_seen_from_above_circles_and_pressure_angles_are_true():
@@ -133,15 +126,14 @@ def test_seen_from_above_circles_and_pressure_angles_are_true():
 
 
 def test_nothing_jumps_while_the_crank_turns():
-    (ax,) = axes()
     a = PRACTICAL.analyse()
     windows = set()
     for turn in np.linspace(-1, 4, 7):
-        linkage_in_space(a, ax, turn=turn)
-        windows.add((*ax.get_xlim(), *ax.get_ylim()))
+        ax = linkage_in_space(a, turn=turn)
+        windows.add((*ax.axes.xlim, *ax.axes.ylim))
         x, y = np.hstack([data(ax, key) for key in ("crank", "coupler", "rocker", "other branch", "shadow")])
-        assert ax.get_xlim()[0] < x.min() < x.max() < ax.get_xlim()[1]
-        assert ax.get_ylim()[0] < y.min() < y.max() < ax.get_ylim()[1]
+        assert ax.axes.xlim[0] < x.min() < x.max() < ax.axes.xlim[1]
+        assert ax.axes.ylim[0] < y.min() < y.max() < ax.axes.ylim[1]
     assert len(windows) == 1
 
 
@@ -154,21 +146,18 @@ def test_where_the_crank_cannot_go_is_shown():
     assert 360 * np.isfinite(never[0]).mean() == pytest.approx(360 - np.ptp(possible), abs=6)
     assert data(ax, "limits").shape == (2, 2)
     high = PRACTICAL.analyse().turn_range[1] / deg
-    assert artist(ax, "numbers").get_text().startswith(f"crank {high:.1f}°")
-    assert artist(ax, "never").get_color() == WARNING
+    assert ax["numbers"].words.startswith(f"crank {high:.1f}°")
+    assert ax["never"].role == "trouble"
 
 
-def test_a_box_turns_vermilion_when_a_link_breaks_it():
+def test_a_box_is_in_trouble_when_a_link_breaks_it():
     pipe = Box((-60 * mm, 90 * mm, 60 * mm), (-40 * mm, 110 * mm, 110 * mm), "the pipe")
-    (ax,) = axes()
     for design in (PRACTICAL, EXAMPLE, PRACTICAL):
-        linkage_in_space(design.analyse(), ax, inside=HOUSING)
+        edges = linkage_in_space(design.analyse(), inside=HOUSING)["the housing"]
         broken = room_in(HOUSING)(design.analyse()) < 0
-        assert artist(ax, "the housing").get_color() == (WARNING if broken else GREY)
-        assert ax.get_legend().get_texts()[-1].get_text() == "the housing"
-        assert same_color(ax.get_legend().get_lines()[-1].get_color(), WARNING if broken else GREY)
+        assert (edges.role, edges.label) == ("trouble" if broken else "guide", "the housing")
     optimum = rssr_study().design(np.array([80, 141.914, 130, 136.787, 100.344]) * mm)
-    assert artist(shown(optimum, partial(linkage_in_space, outside=pipe)), "the pipe").get_color() == WARNING
+    assert shown(optimum, partial(linkage_in_space, outside=pipe))["the pipe"].role == "trouble"
 
 
 # The curves.
@@ -185,22 +174,21 @@ def test_output_angle_of_both_branches():
             i = np.argmin(abs(x - angle))
             expected = np.mod(EXAMPLE.linkage.analyse(x[i] * deg, branch).rocker_angle[0], 2 * np.pi)
             assert np.isnan(y[i]) or y[i] == pytest.approx(expected / deg)
-    wall = artist(ax, "never").get_xy()
-    hatched = wall[wall[:, 1] > 0, 0]
+    wall = data(ax, "never")
+    hatched = wall[0, wall[1] > 0]
     assert [hatched.min(), hatched.max()] == pytest.approx([265.623052 - 360, 274.376948 - 360], abs=1e-3)
-    assert artist(ax, "sweep").get_xy()[:, 0].tolist()[:2] == pytest.approx([15, 105])
+    assert ax["sweep"].x[:2] == pytest.approx([15, 105])
 
 
 def test_a_dot_follows_the_crank_within_the_sweep():
     a = EXAMPLE.analyse(91)
-    (ax,) = axes()
     for turn, inside in ((40 * deg, True), (150 * deg, False), (105 * deg, True)):
-        pressure_angles(a, ax, turn=turn)
+        ax = pressure_angles(a, turn=turn)
         x, y = data(ax, "crank now")[:, 0]
         here = EXAMPLE.linkage.analyse(turn).crank_pressure_angle[0]
         assert (x, y) == pytest.approx((turn / deg, here / deg), abs=1e-3) if inside else np.isnan([x, y]).any()
     backwards = EXAMPLE.replace(start_angle=105 * deg, end_angle=15 * deg).analyse(91)
-    pressure_angles(backwards, ax, turn=40 * deg)
+    ax = pressure_angles(backwards, turn=40 * deg)
     assert data(ax, "crank now")[1, 0] == pytest.approx(
         EXAMPLE.linkage.analyse(40 * deg).crank_pressure_angle[0] / deg, abs=1e-3
     )
@@ -221,8 +209,8 @@ def test_curves_show_the_analysis_with_units(view, curves):
     a = PRACTICAL.analyse()
     for key, values in curves.items():
         np.testing.assert_allclose(data(ax, key), [a.crank_angle / deg, values(a)])
-    assert ax.get_xlabel() == "crank angle  [deg]"
-    assert ax.get_ylabel().endswith("]")
+    assert ax.axes.xlabel == "crank angle  [deg]"
+    assert ax.axes.ylabel.endswith("]")
 
 
 # Other pictures.
@@ -234,7 +222,7 @@ def test_the_sketch_has_every_letter():
         rssr_sketch,
         turn=50 * deg,
     )
-    letters = {text.get_text().strip("$") for text in ax.texts}
+    letters = {mark.words.strip("$") for mark in ax.marks if hasattr(mark, "words")}
     greek = {r"\varphi_1", r"\varphi_3", r"\alpha_1", r"\alpha_2"}
     assert letters == {"l_1", "l_2", "l_3", "s_0", "s_3", "h_0", "L", "v_B", "v_C", "B", "C", *greek}
 

@@ -14,11 +14,11 @@ from camkit.render.artists import WARNING, _find, moving
 from camkit.render.design_map import design_plane, level_curve, region_below
 from camkit.render.picture import draw, layout
 from camkit.render.shaft import SHAFT_VIEWS, candidates, diameters, on_the_plane, section, utilisation
-from camkit.render.universal_joint import JOINT_VIEWS, drive, pins
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
 from camkit.views.optimiser_trials import evaluations_needed, solved_within
+from camkit.views.universal_joint import JOINT_VIEWS, drive, pins
 
 OTHERS = (
     UniversalJointShaft(power=400 * kW),
@@ -209,14 +209,15 @@ def test_the_pins_of_a_cross_stand_square_and_turn_as_computed() -> None:
 
 def test_the_drawing_turns_and_can_be_seen_from_elsewhere() -> None:
     a = DoubleUniversalJoint().analyse()
-    _, (ax,) = drawn(a, drive, turn=0.0, azimuth=-90 * deg, elevation=0.0)
-    straight = np.diff(xy(ax, "input 0 shaft"))  # seen from the side, the input falls by its angle
+    shown = drive(a, turn=0.0, azimuth=-90 * deg, elevation=0.0)
+    straight = np.diff(
+        [shown["input 0 shaft"].x, shown["input 0 shaft"].y]
+    )  # seen from the side, the input falls by its angle
     assert np.degrees(np.arctan2(straight[1], straight[0]))[0] % 180 == pytest.approx(160)
-    before = xy(ax, "input 0 left pin")
-    drive(a, ax, turn=60 * deg, azimuth=-90 * deg, elevation=0.0)
-    assert abs(xy(ax, "input 0 left pin") - before).max() > 0.2
-    drive(a, ax, turn=60 * deg, azimuth=-90 * deg, elevation=90 * deg)
-    assert abs(xy(ax, "input 0 shaft")[1]).max() < 1e-12  # from above the shafts lie in one line
+    turned = drive(a, turn=60 * deg, azimuth=-90 * deg, elevation=0.0)
+    assert abs(turned["input 0 left pin"].y - shown["input 0 left pin"].y).max() > 0.2
+    above = drive(a, turn=60 * deg, azimuth=-90 * deg, elevation=90 * deg)
+    assert abs(above["input 0 shaft"].y).max() < 1e-12  # from above the shafts lie in one line
 
 
 def test_curves_over_a_turn() -> None:

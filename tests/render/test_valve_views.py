@@ -16,9 +16,9 @@ from camkit.machines.valve_study import VALVE_MEASURES, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER
 from camkit.render.artists import BLUE, WARNING, _find, moving
 from camkit.render.picture import draw, layout
-from camkit.render.valve_sketch import valve_cam_sketch
 from camkit.units import deg, mm, rpm
 from camkit.views.front import ShownFront
+from camkit.views.sketch import valve_cam_sketch
 from camkit.views.valve import (
     VALVE_VIEWS,
     acceleration,
@@ -204,12 +204,11 @@ def test_the_fronts_known_points_are_on_it():
 
 def test_the_sketch_is_made_from_the_cam():
     cam = ValveCam(n=4, m=3, base_radius=34 * mm, half_angle=70 * deg)
-    (ax,) = picture(cam, valve_cam_sketch, turn=40 * deg, width=5, height=4).axes
+    shown = valve_cam_sketch(cam.analyse(), turn=40 * deg)
     whole = cam.analyse().whole
     i = int(np.argmin(abs(whole.cam_angle - 40 * deg)))
     contact, rho = whole.contact_point[:, i] / mm, whole.flat_radius[i] / mm
-    fits = [line for line in ax.lines if len(line.get_xdata()) == 73][1]
-    points = np.array(fits.get_data())
+    points = np.array([shown["fitting circle"].x, shown["fitting circle"].y])
     assert_allclose(np.hypot(*(points - [[contact[0]], [contact[1] - rho]])), rho)
     profile = rotated(whole.profile, float(whole.cam_angle[i])) / mm
     near = np.hypot(*(profile - contact[:, None])) < 1

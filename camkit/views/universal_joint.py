@@ -6,36 +6,34 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ..units import deg, rpm
-from .artists import BLUE, GREY, INK, ORANGE, beside_title, frame, line, new
-from .turntable import NEAR, Turntable
+from .picture import Axes, Line, Picture, picture
+from .turntable import Turntable
 
-COLOUR = {"input": GREY, "intermediate": ORANGE, "driven": BLUE}
+ROLE = {"input": "guide", "intermediate": "follower", "driven": "position"}
 ACROSS = np.array([0.0, 1.0, 0.0])
 """Normal of the plane in which the shafts of the drawing lie."""
 REACH, GAP = 0.5, 0.85
 """Half the length of a pin and how far a fork reaches back from it, in lengths of which the middle shaft has 3."""
 
 
-def _direction(slope: float) -> np.ndarray:
+def _direction(slope: Any) -> np.ndarray:
     """Of a shaft that falls by ``slope`` (rad) to the right."""
     return np.array([np.cos(slope), 0.0, -np.sin(slope)])
 
 
-def _pin(axis: np.ndarray, angle: float) -> np.ndarray:
+def _pin(axis: np.ndarray, angle: Any) -> np.ndarray:
     """The direction of a pin that has turned by ``angle`` about ``axis`` from the plane of the shafts."""
     upright = np.cross(axis, ACROSS)
-    return np.cos(angle) * upright + np.sin(angle) * ACROSS
+    return np.asarray(np.cos(angle) * upright + np.sin(angle) * ACROSS)
 
 
-def pins(analysis: Any, i: int) -> dict[str, np.ndarray]:
+def pins(analysis: Any, i: Any) -> dict[str, np.ndarray]:
     """Directions of the four pins at the input angle ``i``: of each shaft at each joint, as they stand in space."""
     drive, quarter = analysis.drive, np.pi / 2
     middle = analysis.intermediate_angle[i] + quarter
-    slopes = (drive.first_angle, 0.0, drive.second_angle)
-    first, second, third = (_direction(float(slope)) for slope in slopes)
+    first, second, third = (_direction(slope) for slope in (drive.first_angle, 0.0, drive.second_angle))
     return {
         "input": _pin(first, analysis.input_angle[i]),
         "intermediate, first": _pin(second, middle),
@@ -44,17 +42,12 @@ def pins(analysis: Any, i: int) -> dict[str, np.ndarray]:
     }
 
 
-def drive(analysis: Any, ax: Axes, turn: float = 0.0, azimuth: float = -75 * deg, elevation: float = 25 * deg) -> Axes:
+def drive(analysis: Any, turn: float = 0.0, azimuth: float = -75 * deg, elevation: float = 25 * deg) -> Picture:
     """The three shafts with their forks and crosses, the input shaft turned by ``turn`` (rad)."""
-    i = int(np.argmin(abs(analysis.input_angle - turn)))
-    pin = pins(analysis, i)
+    pin = pins(analysis, np.argmin(abs(analysis.input_angle - turn)))
     joints = np.array([[-1.5, 0, 0], [1.5, 0, 0]])
     first, second, third = (_direction(s) for s in (analysis.drive.first_angle, 0.0, analysis.drive.second_angle))
-    if new(ax):
-        ax.set(xlim=(-3.5, 3.5), ylim=(-1.75, 1.75), title="Input (grey), intermediate (orange), driven shaft (blue)")
-        ax.set_aspect("equal")
-        ax.set_axis_off()
-    table = Turntable(ax, np.eye(3), np.zeros(3), 3.5, 2.0, azimuth, elevation)
+    table = Turntable(np.eye(3), np.zeros(3), 3.5, 2.0, azimuth, elevation)
     forks = (
         ("input", joints[0], -first, pin["input"], joints[0] - 1.9 * first),
         ("intermediate", joints[0], second, pin["intermediate, first"], np.zeros(3)),
@@ -62,65 +55,57 @@ def drive(analysis: Any, ax: Axes, turn: float = 0.0, azimuth: float = -75 * deg
         ("driven", joints[1], third, pin["driven"], joints[1] + 1.9 * third),
     )
     for k, (name, joint, away, direction, end) in enumerate(forks):
-        _fork(table, f"{name} {k}", joint, away, REACH * direction, end, COLOUR[name])
-    return ax
+        _fork(table, name, k, joint, away, REACH * direction, end)
+    return table.picture(Axes(title="Drive", equal=True, bare=True, xlim=(-3.5, 3.5), ylim=(-1.75, 1.75)))
 
 
-def _fork(table: Turntable, key: str, joint: Any, away: Any, pin: Any, end: Any, colour: str) -> None:
+def _fork(table: Turntable, name: str, k: int, joint: Any, away: Any, pin: Any, end: Any) -> None:
     """Half a shaft with its fork, and the pin that the fork carries: from ``-pin`` to ``pin`` at the joint."""
-    root, back = joint + GAP * away, joint + 0.62 * GAP * away
-    _bar(table, f"{key} shaft", [root, end], 10, color=colour)
+    root, back, key = joint + GAP * away, joint + 0.62 * GAP * away, f"{name} {k}"
+    _bar(table, f"{key} shaft", [root, end], role=ROLE[name], stroke="shaft", label=f"{name} shaft")
     for side, half in (("left", pin), ("right", -pin)):
-        _bar(table, f"{key} {side}", [joint + half, back + half, root], 8, color=colour)
-        _bar(table, f"{key} {side} pin", [joint, joint + half], 4, color=INK)
-        table.ball(f"{key} {side} end", joint + half, 8, color=INK)
+        _bar(table, f"{key} {side}", [joint + half, back + half, root], role=ROLE[name], stroke="shaft")
+        _bar(table, f"{key} {side} pin", [joint, joint + half], stroke="arm")
+        table.ball(f"{key} {side} end", joint + half, 8)
 
 
-def _bar(table: Turntable, key: str, points: Any, width: float, color: str) -> None:
-    """A thick line through ``points``, in front of what lies behind it."""
-    shape: Any = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-    drawn = table.path(key, np.transpose(points), linewidth=width, color=color, **shape)
-    drawn.set_zorder(NEAR + 4 * table.seen(np.transpose(points))[2].mean() / table.radius)
+def _bar(table: Turntable, key: str, points: Any, **style: Any) -> None:
+    table.bar(key, np.transpose(points), **style)
 
 
-def _over_a_turn(analysis: Any, ax: Axes, title: str, ylabel: str, curves: Mapping[str, Any]) -> Axes:
+def _over_a_turn(analysis: Any, title: str, ylabel: str, curves: Mapping[str, Any]) -> Picture:
     """Values over the input angle, by the name of the shaft that they belong to."""
-    first = new(ax)
-    if first:
-        frame(ax, title, "input angle  [deg]", ylabel)
-        ax.set_xticks(range(0, 361, 90))
+    marks = []
     for name, values in curves.items():
         shown = np.broadcast_to(values, analysis.input_angle.shape)
         # the even input needs no name where three would not find room
-        label = "_" if name == "input" and len(curves) == 3 else name
-        line(ax, name, analysis.input_angle / deg, shown, color=COLOUR[name], label=label)
-    if first:
-        beside_title(ax)
-    return ax
+        label = "" if name == "input" and len(curves) == 3 else name
+        marks.append(Line(name, analysis.input_angle / deg, shown, role=ROLE[name], stroke="line", label=label))
+    return picture(Axes(title=title, xlabel="input angle  [deg]", ylabel=ylabel), marks)
 
 
-def speeds(analysis: Any, ax: Axes) -> Axes:
+def speeds(analysis: Any) -> Picture:
     """Speeds of the three shafts over a turn of the input shaft, which turns evenly."""
     n = (analysis.drive.speed, analysis.intermediate_speed, analysis.output_speed)
-    return _over_a_turn(analysis, ax, "Speed", "n  [rpm]", {k: v / rpm for k, v in zip(COLOUR, n, strict=True)})
+    return _over_a_turn(analysis, "Speed", "n  [rpm]", {k: v / rpm for k, v in zip(ROLE, n, strict=True)})
 
 
-def leads(analysis: Any, ax: Axes) -> Axes:
+def leads(analysis: Any) -> Picture:
     """How far the intermediate and the driven shaft are ahead of the input shaft."""
     lead = {"intermediate": analysis.first.lead / deg, "driven": analysis.lead / deg}
-    return _over_a_turn(analysis, ax, "Lead", "angle  [deg]", lead)
+    return _over_a_turn(analysis, "Lead", "angle  [deg]", lead)
 
 
-def torques(analysis: Any, ax: Axes) -> Axes:
+def torques(analysis: Any) -> Picture:
     """Torque in the intermediate shaft at its driven end and in the driven shaft; that of the input shaft is even."""
     torque = (analysis.drive.torque, analysis.intermediate_torque, analysis.output_torque)
-    return _over_a_turn(analysis, ax, "Torque", "T  [N m]", dict(zip(COLOUR, torque, strict=True)))
+    return _over_a_turn(analysis, "Torque", "T  [N m]", dict(zip(ROLE, torque, strict=True)))
 
 
-def couples(analysis: Any, ax: Axes) -> Axes:
+def couples(analysis: Any) -> Picture:
     """Secondary couples: what the torque that goes round a corner puts on the bearings of the outer shafts."""
     couple = {"input": analysis.input_couple, "driven": analysis.output_couple}
-    return _over_a_turn(analysis, ax, "Couple", "C  [N m]", couple)
+    return _over_a_turn(analysis, "Couple", "C  [N m]", couple)
 
 
 JOINT_VIEWS = (drive, speeds, leads, torques, couples)

@@ -1,0 +1,260 @@
+"""Views of an RSSR linkage: the linkage in space on a turntable, and its curves over the crank angle.
+
+The crank is the first of the series, the rocker the second; trouble is where the crank cannot go, and a box that a
+link breaks.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from ..linkage.measures import TARGET, clearance_from, room_in
+from ..units import deg, mm
+from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps, picture
+from .turntable import Turntable
+
+LIMIT = 50 * deg
+"""The usual limit of a linkage's pressure angle: a transmission angle of 40 deg."""
+
+CIRCLE = np.linspace(0, 2 * np.pi, 181)
+CRANK: Any = {"role": "series", "index": 0}
+ROCKER: Any = {"role": "series", "index": 1}
+GRID = 50.0
+"""Width of a square of the floor, mm."""
+
+
+def linkage_in_space(
+    analysis: Any,
+    turn: float | None = None,
+    azimuth: float = -60 * deg,
+    elevation: float = 25 * deg,
+    inside: Any = None,
+    outside: Any = None,
+) -> Picture:
+    """The linkage at crank angle ``turn``, seen from ``azimuth`` and ``elevation`` (rad), the rocker's axis upright.
+
+    Faint: the other way to assemble it.  Trouble: where the crank cannot go.  The edges of the boxes to stay
+    ``inside`` and ``outside`` of are in trouble when a link breaks them.
+    """
+    here = analysis.at(_middle(analysis) if turn is None else turn)
+    boxes = [box for box in (inside, outside) if box]
+    scene = scene_of(analysis.linkage, boxes, azimuth, elevation)
+    _ground(scene, here)
+    _sweeps(scene, analysis)
+    if inside is not None:
+        _box(scene, inside, broken=room_in(inside)(analysis) < 0)
+    if outside is not None:
+        _box(scene, outside, broken=clearance_from(outside)(analysis) < 0)
+    _door(scene, here)
+    _links(scene, here)
+    _pressure_angles_at(scene, here)
+    ends = (-scene.radius, scene.radius), (-1.2 * scene.radius, 0.96 * scene.radius)
+    numbers = Text("numbers", ends[0][0], ends[1][1], _numbers(here), anchor="left top", size=11)
+    return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
+
+
+def _middle(analysis: Any) -> float:
+    return float(analysis.crank_angle[[0, -1]].mean())
+
+
+def crank_circle(linkage: Any, angle: Any) -> np.ndarray:
+    """Places of the crank's ball joint, mm."""
+    return (linkage.crank_root[:, None] + linkage.crank * linkage.crank_direction(angle)) / mm
+
+
+def rocker_circle(linkage: Any, angle: Any) -> np.ndarray:
+    """Places of the rocker's ball joint, mm."""
+    return (linkage.rocker_root[:, None] + linkage.rocker * linkage.rocker_direction(angle)) / mm
+
+
+def scene_of(linkage: Any, boxes: Any, azimuth: float, elevation: float) -> Turntable:
+    """A turntable that holds both circles whole, so that nothing jumps while the crank turns, and the boxes."""
+    corners = (np.transpose(list(product(*zip(box.low, box.high, strict=True)))) / mm for box in boxes)
+    points = np.hstack([crank_circle(linkage, CIRCLE), rocker_circle(linkage, CIRCLE), *corners])
+    centre = (points.min(1) + points.max(1)) / 2
+    radius = 1.02 * float(np.linalg.norm(points - centre[:, None], axis=0).max())
+    x, up = np.array([1.0, 0.0, 0.0]), linkage.rocker_axis
+    depth = float((up @ (centre[:, None] - points)).max()) + 20
+    return Turntable(np.stack([x, np.cross(up, x), up]), centre, radius, depth, azimuth, elevation)
+
+
+def _ground(scene: Turntable, here: Any) -> None:
+    """Floor, shadows, plumb lines, and both axes."""
+    chain, linkage = here.chain[..., 0] / mm, here.linkage
+    scene.floor("floor", GRID)
+    scene.shadow("shadow", chain)
+    (b, c), (b0, c0) = chain[:, 1:3].T, scene.dropped(chain[:, 1:3]).T
+    plumb = np.stack([b, b0, np.full(3, np.nan), c, c0], axis=1)
+    scene.path("plumb lines", plumb, at=2.0, role="guide", stroke="dotted")
+    for name, root, axis, style in (
+        ("crank axis", linkage.crank_root, linkage.crank_axis, CRANK),
+        ("rocker axis", linkage.rocker_root, linkage.rocker_axis, ROCKER),
+    ):
+        scene.axis(name, root / mm, 0.4 * scene.radius * axis, label=name, **style)
+
+
+def _sweeps(scene: Turntable, analysis: Any) -> None:
+    """Both circles, what is swept of them, and where the crank cannot go."""
+    linkage = analysis.linkage
+    for name, circle, swept, root, style in (
+        ("crank", crank_circle, analysis.crank_angle, linkage.crank_root, CRANK),
+        ("rocker", rocker_circle, analysis.rocker_angle, linkage.rocker_root, ROCKER),
+    ):
+        sector = np.hstack([root[:, None] / mm, circle(linkage, swept)])
+        scene.face(f"{name} sweep", sector, opacity=0.16, **style)
+        scene.path(f"{name} swept", circle(linkage, swept), at=3.1, **style)
+        scene.path(f"{name} circle", circle(linkage, CIRCLE), at=4.0, stroke="thin", **style)
+    never = gaps(crank_circle(linkage, CIRCLE), ~linkage.assembles(CIRCLE))
+    scene.path("never", never, at=5.0, role="trouble", label="never reached")
+    x, y, _ = scene.seen(crank_circle(linkage, linkage.limit_angles()))
+    scene.put(5.0, Points("limits", x, y, role="trouble", size=6))
+
+
+def _box(scene: Turntable, box: Any, broken: bool) -> None:
+    low, high = np.divide(box.low, mm), np.divide(box.high, mm)
+    scene.box(box.name, low, high, role="trouble" if broken else "guide", stroke="thin", label=box.name)
+
+
+def _door(scene: Turntable, here: Any) -> None:
+    """A leaf that turns with the rocker, where the load's centre of gravity is."""
+    linkage, size = here.linkage, 0.9 * scene.radius
+    along = linkage.rocker_direction(here.rocker_angle + here.load.mass_angle)[:, 0]
+    foot = scene.dropped(linkage.rocker_root[:, None] / mm)[:, 0]
+    up = linkage.rocker_axis * (scene.depth + 0.55 * scene.radius)
+    corners = np.transpose([foot, foot + size * along, foot + size * along + up, foot + up])
+    scene.face("door", corners, at=3.5, role="flank", opacity=0.18, edged=True)
+
+
+def _links(scene: Turntable, here: Any) -> None:
+    """Crank, coupler and rocker, and faintly the coupler and the rocker of the other branch."""
+    root, b, c, hinge = np.moveaxis(here.chain[..., 0] / mm, 1, 0)
+    other = here.at(float(here.crank_angle[0]), -here.branch).rocker_joint[:, 0] / mm
+    faint = np.stack([b, other, hinge], axis=1)
+    scene.path("other branch", faint, at=4.5, role="ghost", stroke="arm", label="other branch")
+    for name, ends, style in (("crank", (root, b), CRANK), ("coupler", (b, c), {}), ("rocker", (hinge, c), ROCKER)):
+        scene.link(name, np.stack(ends, axis=1), label=name, **style)
+    for name, point, style in (("crank root", root, CRANK), ("hinge", hinge, ROCKER)):
+        scene.ball(name, point, 8, fill="paper", **style)
+    for name, point in (("B", b), ("C", c)):
+        scene.ball(name, point, 12, fill="paper")
+
+
+def _pressure_angles_at(scene: Turntable, here: Any) -> None:
+    """At each ball joint the way it moves, and the angle between that and the coupler."""
+    size = 0.34 * scene.radius
+    for sign, joint, motion, angle, style, name in (
+        (1, here.crank_joint, here.crank_motion, here.crank_pressure_angle, CRANK, "α₁"),
+        (-1, here.rocker_joint, here.rocker_motion, here.rocker_pressure_angle, ROCKER, "α₂"),
+    ):
+        start, moves, along = joint[:, 0] / mm, motion[:, 0], sign * here.coupler_direction[:, 0]
+        moves = moves * (1 if moves @ along >= 0 else -1)
+        label = "joint's way" if sign > 0 else ""
+        scene.arrow(f"{name} way", start, size * moves, role="velocity", label=label)
+        share = np.linspace(0, 1, 13)
+        fan = np.outer(moves, 1 - share) + np.outer(along, share)
+        arc = start[:, None] + 0.62 * size * fan / np.linalg.norm(fan, axis=0)
+        scene.path(f"{name} arc", arc, at=18.0, **style)
+        said = f"{name} {angle[0] / deg:.0f}°"
+        place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start)
+        scene.words(name, place, said, size=11, bold=True)
+
+
+def _numbers(here: Any) -> str:
+    """Where it stands, in words."""
+    turn, rocker = float(here.crank_angle[0]) / deg, float(here.rocker_angle[0]) / deg
+    return f"crank {turn:.1f}°   rocker {rocker:.1f}°"
+
+
+def _curve(key: str, x: Any, y: Any, turn: float | None, named: bool = True, **style: Any) -> list[Mark]:
+    """A curve over the crank angle (rad), ``named`` in the legend, with a dot where the crank stands."""
+    at = np.nan if turn is None or not x.min() <= turn <= x.max() else turn
+    order = np.argsort(x)
+    dot = np.interp(at, x[order], np.broadcast_to(y, x.shape)[order])
+    return [
+        Line(key, x / deg, y, label=key if named else "", **style),
+        Points(f"{key} now", at / deg, dot, size=7, **style),
+    ]
+
+
+def _swept(title: str, ylabel: str, **window: Any) -> Axes:
+    return Axes(title=title, xlabel="crank angle  [deg]", ylabel=ylabel, **window)
+
+
+def output_angle(analysis: Any, turn: float | None = None) -> Picture:
+    """Rocker angle over one turn of the crank, both branches; bold is the sweep, shaded where the crank cannot go."""
+    own, other = analysis.one_turn(), analysis.one_turn(-analysis.branch)
+    x = own.crank_angle[:, 0] / deg
+    start, end = analysis.crank_angle[[0, -1]] / deg
+    wall = np.where(own.linkage.assembles(own.crank_angle[:, 0]), 0, 360)
+    now = analysis.at(_middle(analysis) if turn is None else turn)
+    at, angle = now.crank_angle / deg, np.mod(now.rocker_angle, 2 * np.pi) / deg
+    swept = _unbroken(analysis.rocker_angle)
+    return picture(
+        _swept("Output angle", "rocker angle  [deg]", ylim=(0, 360)),
+        Polygon("sweep", [start, end, end, start], [0, 0, 360, 360], role="body"),
+        Polygon("never", np.array([x[0], *x, x[-1]]), np.array([0, *wall, 0]), role="trouble", opacity=0.15),
+        Line("other", x, _unbroken(other.rocker_angle[:, 0]), role="guide", label="other branch"),
+        Line("own", x, _unbroken(own.rocker_angle[:, 0]), stroke="line", **ROCKER),
+        Line("swept", analysis.crank_angle / deg, swept, stroke="bold", **ROCKER),
+        Points("now", at, angle, size=8, fill="paper", **ROCKER),
+    )
+
+
+def _unbroken(angle: Any) -> np.ndarray:
+    """Angles in degrees within one turn, without a line across where they pass 360."""
+    shown = np.mod(angle, 2 * np.pi) / deg
+    return np.asarray(gaps(shown, np.append(abs(np.diff(shown)) < 180, True)))
+
+
+def pressure_angles(analysis: Any, turn: float | None = None) -> Picture:
+    """Both pressure angles over the sweep, with the target of 30 deg and the usual limit of 50 deg."""
+    x = analysis.crank_angle
+    return picture(
+        _swept("Pressure angle", "alpha  [deg]", ylim=(0, 90)),
+        Band("target", TARGET / deg, TARGET / deg, role="allowed"),
+        Band("limit", LIMIT / deg, LIMIT / deg, role="limit"),
+        _curve("crank", x, analysis.crank_pressure_angle / deg, turn, **CRANK),
+        _curve("rocker", x, analysis.rocker_pressure_angle / deg, turn, **ROCKER),
+    )
+
+
+def velocity_ratio(analysis: Any, turn: float | None = None) -> Picture:
+    """Rocker's speed over the crank's."""
+    curve, dot = _curve("ratio", analysis.crank_angle, analysis.ratio, turn, named=False, role="velocity")
+    return picture(_swept("Velocity ratio", "dφ₃/dφ₁  [-]"), curve, dot)
+
+
+def acceleration_ratio(analysis: Any, turn: float | None = None) -> Picture:
+    """Rocker's angular acceleration over the square of the crank's speed."""
+    y = analysis.acceleration_ratio
+    marks = _curve("acceleration", analysis.crank_angle, y, turn, named=False, role="acceleration")
+    return picture(_swept("Acceleration ratio", "d²φ₃/dφ₁²  [1/rad]"), marks)
+
+
+def torques(analysis: Any, turn: float | None = None) -> Picture:
+    """Torque that turns the crank, and torque with which the rocker resists."""
+    return picture(
+        _swept("Torque", "M  [N m]"),
+        _curve("on the crank", analysis.crank_angle, analysis.crank_torque, turn, **CRANK),
+        _curve("resisting", analysis.crank_angle, analysis.resisting_torque, turn, **ROCKER),
+    )
+
+
+def forces(analysis: Any, turn: float | None = None) -> Picture:
+    """Force along the coupler, compression positive (the crank's bearing carries as much), and on the hinge."""
+    hinge = np.linalg.norm(analysis.rocker_bearing_force, axis=0)
+    return picture(
+        _swept("Force", "F  [N]"),
+        _curve("coupler", analysis.crank_angle, analysis.coupler_force, turn),
+        _curve("hinge", analysis.crank_angle, hinge, turn, **ROCKER),
+    )
+
+
+CURVES = (output_angle, pressure_angles, velocity_ratio, acceleration_ratio, torques, forces)
+"""The curves of a linkage over the crank angle."""
+
+LINKAGE_VIEWS = (linkage_in_space, *CURVES)
+"""What a designer of a spatial linkage wants to see at once."""

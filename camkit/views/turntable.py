@@ -1,0 +1,126 @@
+"""Things in space as seen on a turntable: no perspective, the vertical stays upright; nearer things lie above."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, picture
+
+NEAR = 10.0
+"""Height in the drawing of what lies at the middle of a scene; nearer things come later, flat things before."""
+
+
+@dataclass(frozen=True)
+class Turntable:
+    """A scene around ``centre``, ``(3,)``, of size ``radius``; the rows of ``frame`` are x, y and up."""
+
+    frame: np.ndarray
+    centre: np.ndarray
+    radius: Any
+    depth: Any
+    """How far the floor lies below the centre."""
+    azimuth: Any
+    elevation: Any
+    drawn: list[tuple[Any, Mark]] = field(default_factory=list)
+    """Marks so far, each with its height in the drawing."""
+
+    @cached_property
+    def eye(self) -> np.ndarray:
+        """Rows: to the right, up, towards the viewer; a view from azimuth and elevation.
+
+        >>> Turntable(np.eye(3), np.zeros(3), 1.0, 1.0, 0.0, 0.0).eye.round(6).tolist()
+        [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+        """
+        sin, cos = np.sin(self.azimuth), np.cos(self.azimuth)
+        up, flat = np.sin(self.elevation), np.cos(self.elevation)
+        right = np.array([-sin, cos, 0.0])
+        above = np.array([-up * cos, -up * sin, flat])
+        return np.stack([right, above, np.cross(right, above)]) @ self.frame
+
+    def seen(self, points: Any) -> np.ndarray:
+        """Where ``points`` ``(3, ...)`` are on the picture, and how near they are, ``(3, ...)``."""
+        middle = self.centre.reshape(3, *(1 for _ in np.shape(points)[1:]))
+        return np.tensordot(self.eye, np.asarray(points) - middle, 1)
+
+    def picture(self, axes: Axes, *more: Mark) -> Picture:
+        """What has been put on the table, nearer things above, with ``more`` above all."""
+        order = np.argsort([float(height) for height, _ in self.drawn], kind="stable")
+        return picture(axes, [self.drawn[i][1] for i in order], more)
+
+    def put(self, height: Any, mark: Mark) -> None:
+        """Put a mark into the drawing at a height."""
+        self.drawn.append((height, mark))
+
+    def _height(self, near: Any) -> Any:
+        return NEAR + 4 * np.mean(near) / self.radius
+
+    def path(self, key: str, points: Any, at: float = 3.0, **style: Any) -> None:
+        """A line through ``points`` ``(3, n)``."""
+        x, y, _ = self.seen(points)
+        self.put(at, Line(key, x, y, **style))
+
+    def bar(self, key: str, points: Any, **style: Any) -> None:
+        """A thick line through ``points`` ``(3, n)``, before what lies behind it."""
+        x, y, near = self.seen(points)
+        self.put(self._height(near), Line(key, x, y, **style))
+
+    def link(self, key: str, ends: Any, **style: Any) -> None:
+        """A thick line that parts what lies behind it."""
+        x, y, near = self.seen(ends)
+        self.put(self._height(near) - 0.01, Line(f"{key} edge", x, y, role="paper", stroke="solid"))
+        self.put(self._height(near), Line(key, x, y, stroke="arm", **style))
+
+    def ball(self, key: str, point: Any, size: float, **style: Any) -> None:
+        """A round mark at ``point`` ``(3,)``, above the links that it joins."""
+        x, y, near = self.seen(point)
+        self.put(self._height(near) + 2.5, Points(key, x, y, size=size, **style))
+
+    def arrow(self, key: str, start: Any, along: Any, **style: Any) -> None:
+        """An arrow from ``start``, ``along`` being direction and length."""
+        foot, tip = self.seen(start)[:2], self.seen(start + along)[:2]
+        back, side = 0.22 * (foot - tip), 0.09 * (foot - tip)[::-1] * [1, -1]
+        shaft = np.transpose([foot, tip, tip + back + side, tip, tip + back - side])
+        self.put(18.0, Line(key, *shaft, **style))
+
+    def face(self, key: str, corners: Any, at: float = 3.0, **style: Any) -> None:
+        """A filled polygon with ``corners`` ``(3, n)``."""
+        x, y, _ = self.seen(corners)
+        self.put(at, Polygon(key, x, y, **style))
+
+    def words(self, key: str, point: Any, said: str, **style: Any) -> None:
+        """A text at ``point`` ``(3,)``."""
+        x, y, _ = self.seen(point)
+        self.put(19.0, Text(key, x, y, said, **style))
+
+    def axis(self, key: str, point: Any, along: Any, **style: Any) -> None:
+        """A line through ``point``, ``along`` being direction and half its length."""
+        self.path(key, np.stack([point - along, point + along], axis=1), at=4.0, stroke="dashdot", **style)
+
+    def box(self, key: str, low: Any, high: Any, **style: Any) -> None:
+        """The edges of a box from corner ``low`` to corner ``high``."""
+        corners = np.array(list(product(*zip(low, high, strict=True))))
+        edges = [(a, b) for a in corners for b in corners if (a < b).sum() == 1 == (a != b).sum()]
+        self.path(key, np.concatenate([[a, b, [np.nan] * 3] for a, b in edges]).T, **style)
+
+    def floor(self, key: str, step: float) -> None:
+        """A square grid below the scene, with lines ``step`` apart."""
+        ticks = np.arange(-np.floor(self.radius / step), np.floor(self.radius / step) + 1) * step
+        ends = ticks[[0, -1]]
+        lines = [[(t, ends[0]), (t, ends[1]), (np.nan, np.nan)] for t in ticks]
+        flat = np.concatenate([*lines, *(np.array(one)[:, ::-1] for one in lines)]).T
+        grid = self.frame.T @ np.vstack([flat, np.full(flat.shape[1], -self.depth)]) + self.centre[:, None]
+        self.path(key, grid, at=1.0, role="body")
+
+    def shadow(self, key: str, points: Any) -> None:
+        """The shadow of ``points`` ``(3, n)`` on the floor, light from straight above."""
+        self.path(key, self.dropped(points), at=2.0, role="body", stroke="arm")
+
+    def dropped(self, points: Any) -> np.ndarray:
+        """``points`` ``(3, n)`` let fall to the floor."""
+        up = self.frame[2][:, None]
+        return points - up * (up.T @ (points - self.centre[:, None]) + self.depth)
