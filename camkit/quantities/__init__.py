@@ -42,7 +42,6 @@ from .declaration import (
     counted,
     declarations,
     fails,
-    members,
     numbered,
     quantity,
     row,
@@ -51,7 +50,7 @@ from .declaration import (
 )
 from .design import Design
 from .measure import Measure, PeakMeasure
-from .tree import Paths, choices_of, declared_in, quantities_of, value_of, with_quantities
+from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 
 __all__ = [
     "Analysable",

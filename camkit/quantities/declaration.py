@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from types import MethodType
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -300,26 +299,6 @@ def fails(ok: Any) -> bool:
 def counted(n: Any, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     return whole(n, f"the number of {what}", least, most)
-
-
-def members(value: Any, rows: Any) -> Any:
-    """Some members of a population: ``value`` with those rows of every column in it; what all share stays.
-
-    >>> members((1.0, np.array([[2.0], [3.0], [4.0]])), [2, 0])
-    (1.0, array([[4.],
-           [2.]]))
-    """
-    if isinstance(value, np.ndarray):
-        return value[rows] if value.ndim == 2 else value
-    if isinstance(value, tuple):
-        return tuple(members(part, rows) for part in value)
-    if isinstance(value, MethodType):
-        return MethodType(value.__func__, members(value.__self__, rows))
-    if not dataclasses.is_dataclass(value) or isinstance(value, type):
-        return value
-    some = object.__new__(type(value))
-    some.__dict__.update({f.name: members(getattr(value, f.name), rows) for f in dataclasses.fields(value)})
-    return some
 
 
 def words(name: str) -> str:

@@ -11,7 +11,10 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from types import MethodType
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..kinds import shown
 from .declaration import Choice, Declared, Quantity
@@ -212,3 +215,23 @@ def _followed(design: Any, path: str) -> str:
         if not isinstance(part, Declared):
             break
     return ""
+
+
+def members(value: Any, rows: Any) -> Any:
+    """Some members of a population: ``value`` with those rows of every column in it; what all share stays.
+
+    >>> members((1.0, np.array([[2.0], [3.0], [4.0]])), [2, 0])
+    (1.0, array([[4.],
+           [2.]]))
+    """
+    if isinstance(value, np.ndarray):
+        return value[rows] if value.ndim == 2 else value
+    if isinstance(value, tuple):
+        return tuple(members(part, rows) for part in value)
+    if isinstance(value, MethodType):
+        return MethodType(value.__func__, members(value.__self__, rows))
+    if not dataclasses.is_dataclass(value) or isinstance(value, type):
+        return value
+    some = object.__new__(type(value))
+    some.__dict__.update({f.name: members(getattr(value, f.name), rows) for f in dataclasses.fields(value)})
+    return some
