@@ -61,6 +61,23 @@ def test_a_forbidden_import_would_be_seen() -> None:
     assert "matplotlib is not part of the maths" in refused.stderr
 
 
+WING = """
+import sys
+import camkit.search as wing
+assert set(wing.__all__) <= set(dir(wing))
+assert "pymoo" not in sys.modules
+from camkit.search import Front, Minimum, Step, search
+from camkit.machines.high_speed_study import high_speed_study
+*_, last = search(high_speed_study(angles=61), "slsqp", seed=1)
+of_pymoo = {"CompetitiveAlgorithm", "StudyProblem", "ToolboxGenetic"}
+print(last.best.feasible, [name for name in wing.__all__ if name not in of_pymoo and not hasattr(wing, name)])
+"""
+
+
+def test_the_wing_of_searches_needs_pymoo_only_for_what_is_pymoos() -> None:
+    assert python("-c", ONLY_NUMPY_AND_SCIPY + WING, cwd=REPOSITORY).split() == ["True", "[]"]
+
+
 STAR = """
 import camkit
 from camkit import *

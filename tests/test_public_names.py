@@ -45,7 +45,7 @@ WINGS = [
 ]
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
-    *("Polished", "Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
+    *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
     *("Evaluated", "Found"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""

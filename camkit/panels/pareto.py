@@ -31,7 +31,7 @@ from .kit.number import NumberBox, WholeBox, staying
 from .kit.panel import IMPOSSIBLE, Panel, reason
 from .kit.picture import LivePicture
 from .kit.running import Job, here, left_behind
-from .kit.search_files import Kept, keep, unfinished
+from .kit.search_files import Kept, keep, pending
 
 SIZE = ("population", "generations", "seed")
 
@@ -241,14 +241,14 @@ class ParetoPanel(Panel):
         """Go on with the last search that did not end, under the settings that it had; returns at once."""
         if self._running():
             return
-        kept = unfinished(self._kind())
+        kept = pending(self._kind())
         try:
             if kept is None:
                 raise ValueError("there is no search that did not end")
             page, design, study = self._read(kept)
         except ValueError as refusal:
             if kept:
-                kept.let_go()
+                kept.release()
             show_message(self._banner, f"This cannot be resumed: {refusal}.")
         else:
             self._put_back(page, design)
@@ -261,10 +261,10 @@ class ParetoPanel(Panel):
         show_message(self._banner, f"{message}. {unkept}" if message and unkept else message or unkept)
 
     def _offer_resume(self) -> None:
-        kept = unfinished(self._kind())
+        kept = pending(self._kind())
         self.resume_button.disabled = kept is None
         if kept:
-            kept.let_go()
+            kept.release()
 
     def _running(self) -> bool:
         return self._run is not None and self._run.thread.is_alive()
@@ -642,7 +642,7 @@ class _Run(Job):
             self.over = True
             if self._kept:
                 ended = self.step and self.step.number == self.step.of
-                self._kept.remove() if ended and not error else self._kept.let_go()
+                self._kept.remove() if ended and not error else self._kept.release()
             self.panel._show_run(self)
 
 

@@ -44,7 +44,7 @@ def optima() -> Comparison:
         study = rssr_study(CabinDoorLinkage(start_angle=start * deg, end_angle=end * deg))
         found = polish(study, np.array(printed["x"], dtype=float) * mm)
         rows.append(
-            Row(f"sum, crank from {start:g} to {end:g} deg", "deg", printed["sum"], found.f[0] / deg, _sizes(found.x))
+            Row(f"sum, crank from {start:g} to {end:g} deg", "deg", printed["sum"], found.f / deg, _sizes(found.x))
         )
     title, source = "Least sums of |alpha - 30 deg|", "an independent computation"
     return Comparison(title, source, rows, against="evaluated apart")

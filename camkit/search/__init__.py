@@ -15,7 +15,6 @@ _HOMES = {
     "fast_front": ("quick_front",),
     "front": ("Front", "dominated", "front_of", "reference_point"),
     "minimum": ("Active", "Minimum"),
-    "polish": ("Polished",),
     "protocol": ("Step", "search"),
     "toolbox_genetic": ("ToolboxGenetic",),
 }

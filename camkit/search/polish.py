@@ -6,7 +6,6 @@ and small where the sum of all ``t`` is small.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,33 +14,17 @@ from ..kinds import numbers, refuse_arguments, shown
 from ..study.residuals import SumOfResiduals
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
+from .minimum import Minimum
 
 
-@dataclass(frozen=True)
-class Polished:
-    """The design after the last step; ``message`` says how it went."""
-
-    study: Study
-    x: np.ndarray
-    f: np.ndarray
-    feasible: bool
-    evaluations: int
-    message: str
-
-    @property
-    def design(self) -> Any:
-        """The design itself."""
-        return self.study.design(self.x)
-
-
-def polish(study: Study, x: Any = None) -> Polished:
+def polish(study: Study, x: Any = None) -> Minimum:
     """The best design next to ``x`` (default: the study's start) within all limits, by SLSQP.
 
     The study's objective is a `SumOfResiduals`; what else there is to be small is the business of `minimise`.
 
     >>> from camkit.machines.cabin_door import rssr_study
     >>> found = polish(rssr_study())
-    >>> print(f"{np.degrees(found.f[0]):.5f} deg, crank {1e3 * found.design.crank:.2f} mm")
+    >>> print(f"{np.degrees(found.f):.5f} deg, crank {1e3 * found.design.crank:.2f} mm")
     213.29848 deg, crank 80.00 mm
 
     Raises ``ValueError`` for another objective, or a start that lies outside its bounds or cannot be built.
@@ -81,7 +64,8 @@ def _merit(evaluation: Evaluation) -> tuple[float, float]:
     return float(evaluation.missed.sum()), float(evaluation.f[0, 0])
 
 
-def _polished(study: Study, evaluation: Evaluation, evaluations: int, message: str) -> Polished:
+def _polished(study: Study, evaluation: Evaluation, evaluations: int, message: str) -> Minimum:
     feasible = bool(evaluation.feasible[0])
     broken = "" if feasible else "; it does not keep every limit"
-    return Polished(study, evaluation.x[0], evaluation.f[0], feasible, evaluations, message + broken)
+    f = float(evaluation.f[0, 0])
+    return Minimum(study, evaluation.x[0], f, feasible, evaluations, message=message + broken)

@@ -59,7 +59,7 @@ from camkit.panels.kit import picture as live
 from camkit.panels.kit.controls import Download, Upload, label_html
 from camkit.panels.kit.number import NumberBox
 from camkit.panels.kit.running import RUNNING, Place
-from camkit.panels.kit.search_files import unfinished
+from camkit.panels.kit.search_files import pending
 from camkit.quantities import Measure, Quantity, value_of
 from camkit.render.artists import _find
 from camkit.search.checkpoint import read
@@ -814,9 +814,7 @@ def test_a_search_that_runs_is_nobody_elses(finder, monkeypatch):
     assert not other.run_button.disabled
     assert other._new_files() is None
     assert other._unkept == "the very same search runs already"
-    code = (
-        "import sys; from camkit.panels.kit.search_files import unfinished as u; sys.exit(u(sys.argv[1]) is not None)"
-    )
+    code = "import sys; from camkit.panels.kit.search_files import pending as u; sys.exit(u(sys.argv[1]) is not None)"
     assert subprocess.run([sys.executable, "-c", code, finder._kind()]).returncode == 0  # another kernel
     finder.stop()
     finder.wait(10)
@@ -1074,12 +1072,12 @@ def test_what_a_killed_kernel_left_half_written_is_removed(finder, stopped):
     name = next(name for name in stopped() if name.endswith(".npz"))
     for part in (f".{name}.1.part", ".gone.npz.1.part"):
         (Path(".camkit") / part).write_bytes(b"half")
-    held = unfinished(finder._kind())
+    held = pending(finder._kind())
     assert sorted(os.listdir(".camkit"))[:2] == [".gitignore", name.replace("npz", "json")]
     (Path(".camkit") / f".{name}.1.part").write_bytes(b"half")
     fresh()
     assert f".{name}.1.part" in os.listdir(".camkit")
-    held.let_go()
+    held.release()
     fresh()
     assert f".{name}.1.part" not in os.listdir(".camkit")
 
@@ -1138,8 +1136,8 @@ def test_a_page_that_somebody_made_is_refused_and_the_lock_let_go(a_stopped_sear
     assert len(alert(finder)) < 600
     assert finder._page() == before
     for _ in range(2):  # nobody holds it, and a search that follows begins anew
-        held = unfinished(finder._kind())
-        held.let_go()
+        held = pending(finder._kind())
+        held.release()
     run(finder, generations=12)
     assert finder.status.value.startswith("generation 12 of 12: ")
     assert alert(finder) == ""

@@ -70,14 +70,14 @@ def test_a_published_page_keeps_its_searches_to_itself(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     beside = search_files.keep("kind-1", "{}")
     beside.checkpoint.write_bytes(b"")
-    beside.let_go()
+    beside.release()
     monkeypatch.setenv("VOILA_BASE_URL", "/")
-    assert search_files.unfinished("kind") is None
+    assert search_files.pending("kind") is None
     own = search_files.keep("kind-1", "{}")
     assert own.page.parent != beside.page.parent
     assert own.page.parent.stat().st_mode & 0o077 == 0
     own.checkpoint.write_bytes(b"")
-    own.let_go()
-    again = search_files.unfinished("kind")
+    own.release()
+    again = search_files.pending("kind")
     assert again.page == own.page
     again.remove()

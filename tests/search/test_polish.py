@@ -64,7 +64,7 @@ def test_the_sums_by_hand():
 def test_the_least_absolute_errors():
     found = polish(study(total), [0.0, 0.0])
     assert found.feasible
-    assert found.f[0] == pytest.approx(least_by_linear_programming(), rel=1e-7)
+    assert found.f == pytest.approx(least_by_linear_programming(), rel=1e-7)
     assert found.message.startswith("best of its neighbours after")
     assert found.evaluations > 5
     assert found.design == Line(*map(float, found.x))
@@ -74,13 +74,13 @@ def test_limits_are_kept_to_the_last_digit():
     found = polish(study(total, at_most={end: 2.0}))
     assert found.feasible
     assert end(found.design.analyse(1)) == pytest.approx(2.0, abs=1e-7)
-    assert found.f[0] == pytest.approx(least_by_linear_programming(2.0), rel=1e-7)
+    assert found.f == pytest.approx(least_by_linear_programming(2.0), rel=1e-7)
 
 
 def test_an_error_below_is_no_fault_of_the_excess():
     found = polish(study(above, at_least={middle: 2.5}), [0.0, 3.0])
     assert found.feasible
-    assert _best_of_a_grid() * (1 - 2e-3) < found.f[0] < _best_of_a_grid() * (1 + 1e-7)
+    assert _best_of_a_grid() * (1 - 2e-3) < found.f < _best_of_a_grid() * (1 + 1e-7)
 
 
 def _best_of_a_grid():

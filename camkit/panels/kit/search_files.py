@@ -34,7 +34,7 @@ BEYOND = 2**30
 
 
 class Kept:
-    """The files of one search, held until `let_go` or `remove`; ``OSError`` if somebody else holds them."""
+    """The files of one search, held until `release` or `remove`; ``OSError`` if somebody else holds them."""
 
     def __init__(self, page: Path, mode: str = "r+") -> None:
         self.page, self.checkpoint = page, page.with_suffix(".npz")
@@ -70,7 +70,7 @@ class Kept:
         self._file.write(text)
         self._file.flush()
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Leave the search to whoever resumes it."""
         with suppress(OSError):
             self._file.close()
@@ -80,7 +80,7 @@ class Kept:
         remove_parts(self.checkpoint)
         with suppress(OSError):
             self.checkpoint.unlink(missing_ok=True)
-        self.let_go()  # Windows removes no file that is open
+        self.release()  # Windows removes no file that is open
         with suppress(OSError):
             self.page.unlink(missing_ok=True)
 
@@ -110,7 +110,7 @@ def keep(name: str, text: str) -> Kept:
     return kept
 
 
-def unfinished(kind: str) -> Kept | None:
+def pending(kind: str) -> Kept | None:
     """The latest search whose name begins with ``kind``, that did not end and that nobody runs."""
     with suppress(OSError):
         folder = _folder()
@@ -121,7 +121,7 @@ def unfinished(kind: str) -> Kept | None:
             if kept and checkpoint.exists():  # else it has just ended
                 return kept
             if kept:
-                kept.let_go()
+                kept.release()
     return None
 
 
@@ -156,7 +156,7 @@ def _sweep(folder: Path) -> None:
         if kept or not page.exists():
             remove_parts(checkpoint)
         if kept:
-            kept.let_go()
+            kept.release()
 
 
 def _held(page: Path) -> Kept | None:
