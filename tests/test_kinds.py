@@ -230,7 +230,6 @@ FUNCTIONS = {
     camkit.OscillatingFlatCam().face_offset_for: {"min_radius": 0.001},
     camkit.OscillatingFlatCam().conjugate: {"spread": 1.0, "face_offset": 0.01},
     camkit.ValveCam().with_spring: {"preload_share": 0.4},
-    camkit.ValveCam().motion: {"cam_angle": 0.3},
     UniversalJointShaft().made_of: {"name": "45"},
     UniversalJointShaft().stiff_diameter: {"inner_diameter": 0.1},
     STUDY.design: {"x": [0.03]},

@@ -12,7 +12,8 @@ from ..kinds import listed, refuse_arguments
 from ..quantities import Measure
 from ..study.study import Space, Study, WeightedSum, weighted
 from ..units import deg, mm
-from .valve_cam import ValveAnalysis, ValveCam
+from .valve_analysis import ValveAnalysis
+from .valve_cam import ValveCam
 
 fullness = Measure("fullness", "", lambda a: a.fullness)
 nose_acceleration = Measure("nose acceleration", "m/s^2", lambda a: a.nose_acceleration)
@@ -23,7 +24,7 @@ min_radius = Measure("least convex radius anywhere", "mm", lambda a: a.min_radiu
 min_concave_radius = Measure("least hollow radius", "mm", lambda a: a.min_concave_radius)
 face_reach = Measure("reach of the contact on a flat face", "mm", peak(lambda a: abs(a.velocity)))
 jump_margin = Measure("overspeed before the follower jumps", "%", lambda a: a.jump_margin)
-peak_stress = Measure("peak contact stress", "MPa", peak(lambda a: a.contact_stress))
+peak_stress = Measure("peak contact stress", "MPa", lambda a: a.peak_contact_stress)
 peak_camshaft_torque = Measure("peak camshaft torque", "N m", peak(lambda a: abs(a.cam_torque)))
 
 VALVE_MEASURES = (

@@ -13,7 +13,8 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from camkit.geometry import rotated
-from camkit.machines.valve_cam import ValveAnalysis, ValveCam
+from camkit.machines.valve_analysis import ValveAnalysis
+from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_study import (
     PAPER_BOX,
     PAPER_MIN_RADIUS,
@@ -29,7 +30,7 @@ from camkit.machines.valve_study import (
     valve_front_study,
     valve_study,
 )
-from camkit.machines.valve_train import FLAT, ROLLER, highest
+from camkit.machines.valve_train import FLAT, ROLLER
 from camkit.search.minimise import minimise
 from camkit.study.study import Study
 from camkit.units import deg, mm, rpm
@@ -121,7 +122,11 @@ def test_extremes_are_those_of_a_very_fine_table(n, m):
 
 
 def test_jerk_at_the_nose():
-    assert ValveCam(n=1.2, m=4).analyse().jerk[-1] == -np.inf  # 2n < 3: h''' ~ b^(2n - 3)
+    pointed = ValveCam(n=1.2, m=4)  # 2n < 3: h''' ~ b^(2n - 3), down to -inf before the nose, from inf after it
+    assert pointed.analyse().jerk[-1] == np.inf
+    before, after = pointed.motion(pointed.half_angle + np.array([-1e-9, 1e-9])).j
+    assert_allclose(after, -before)
+    assert before < 1e3 * pointed.analyse().jerk[-2] < 0
     assert ValveCam(n=1.6, m=4).analyse().jerk[-1] == 0
 
 
@@ -354,14 +359,6 @@ def test_least_radius_and_the_base_radius_it_asks_for():
     assert_allclose(cam.replace(base_radius=float(needed)).analyse().min_radius, 4.5 * mm, rtol=1e-9)
 
 
-def test_highest_finds_what_lies_between_the_angles():
-    peaks = np.array([0.3, 1.234567, 2.9])[:, None]
-    value, angle = highest(lambda x: 5 - (x - peaks) ** 2, np.linspace(0, 3, 40))
-    assert_allclose(value, 5, atol=1e-8)
-    assert_allclose(angle, peaks[:, 0], atol=1e-4)
-    assert_allclose(highest(lambda x: -x, np.linspace(1, 2, 11)), (-1, 1))
-
-
 # --- forces -----------------------------------------------------------------------------------------------------------
 
 
@@ -399,6 +396,28 @@ def test_a_strong_spring_needs_no_more():
     assert analysis.preload_needed == 0
     assert analysis.rate_needed == 0
     assert analysis.jump_margin > 1
+
+
+@pytest.mark.parametrize("preload", [0.0, 60.0, 500.0])
+def test_the_rate_for_any_preload_is_that_of_a_fine_table(preload):
+    cam = ValveCam(spring_preload=preload, speed=2500 * rpm)
+    fine = cam.analyse(20_001)
+    lacking = -cam.train_mass * fine.top_speed**2 * fine.acceleration - preload
+    assert_allclose(fine.rate_needed, (lacking[1:] / fine.lift[1:]).max(), rtol=1e-6)
+
+
+@pytest.mark.parametrize("follower", [FLAT, ROLLER])
+def test_under_either_follower_it_is_a_cam_of_the_family(follower):
+    """Geometry and forces of the whole turn as a sliding follower without an offset has them, from its own angles."""
+    cam = ValveCam(n=8, m=5, follower=follower)
+    family = follower.on(cam, cam.motion).analyse(361)
+    ours = ValveAnalysis(cam, family.cam_angle)
+    for name in ("profile", "profile_curvature", "pressure_angle", "undercut", "lift"):
+        assert_allclose(getattr(ours, name), getattr(family, "travel" if name == "lift" else name), atol=1e-15)
+    open_ = ours.valve_open
+    assert_allclose(ours.contact_force[open_], family.contact_force[open_], rtol=1e-12)
+    assert cam.motion.periodic
+    assert all(joint.order is None for joint in cam.motion.transitions())
 
 
 def test_force_at_another_speed():
