@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,6 +33,17 @@ class CamAnalysis(ABC):
     Arrays are ``(n,)`` for one design and ``(p, n)`` for ``p``; points ``(2, n)`` and ``(2, p, n)``.  Each is
     computed when first asked for.  ``nan`` where a member of a population cannot be built.
     """
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "bodies",
+        "motion",
+        "pressure_angle",
+        "contact_force",
+        "cam_torque",
+        "curvature",
+        "efficiency",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     cam: Any
     cam_angle: np.ndarray

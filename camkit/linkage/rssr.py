@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -234,6 +234,17 @@ class RSSRAnalysis:
     Each is computed when first asked for.  A member of a population that cannot be assembled at one of the crank
     angles is ``nan`` at all of them; its ``discriminant`` still says by how much.
     """
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "chain",
+        "rocker_angle",
+        "crank_pressure_angle",
+        "ratio",
+        "acceleration_ratio",
+        "crank_torque",
+        "coupler_force",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     linkage: RSSR
     crank_angle: np.ndarray

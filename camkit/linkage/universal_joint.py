@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -212,6 +212,15 @@ class DoubleUniversalJoint(Design):
 @dataclass(frozen=True)
 class DoubleUniversalJointAnalysis:
     """What follows from a `DoubleUniversalJoint` at the input angles; ``(n,)`` or ``(p, n)``."""
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "drive",
+        "output_speed",
+        "lead",
+        "output_torque",
+        "output_couple",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     drive: DoubleUniversalJoint
     input_angle: np.ndarray

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -139,6 +139,17 @@ class CamLever(FreeLawCam):
 @dataclass(frozen=True)
 class CamLeverAnalysis(HighSpeedAnalysis):
     """What follows from a `CamLever`: all of its cam's `HighSpeedAnalysis`, the slider's way and what closes it."""
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "bodies",
+        "motion",
+        "pressure_angle",
+        "stress",
+        "wear",
+        "hertz_pressure",
+        "way",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     press: CamLever
 

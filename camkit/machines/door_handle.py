@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -197,6 +197,17 @@ class DoorHandleAnalysis:
 
     ``cam_angle[..., :k]`` is the relief crank's motion, the rest the lift crank's.
     """
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "bodies",
+        "motion",
+        "pressure_angle",
+        "contact_force",
+        "cam_torque",
+        "curvature",
+        "efficiency",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     cam: DoorHandleCam
     cam_angle: np.ndarray

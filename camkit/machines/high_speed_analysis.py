@@ -9,7 +9,7 @@ from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -222,6 +222,17 @@ class HighSpeedAnalysis(HighSpeedContact):
 
     Numbers of the cam are one or ``(p,)``; what cannot be built is ``nan``.
     """
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "bodies",
+        "motion",
+        "pressure_angle",
+        "stress_coefficient",
+        "wear_coefficient",
+        "hertz_pressure",
+        "cam_torque",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     rise_at: np.ndarray
     fall_at: np.ndarray

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -37,6 +37,19 @@ class ValveAnalysis:
     the cam as a whole are one or ``(p,)``.  Derivatives are by cam angle.  ``nan`` where a member of a population
     cannot be built.
     """
+
+    offers: ClassVar[tuple[str, ...]] = (
+        "whole",
+        "lift",
+        "velocity",
+        "acceleration",
+        "jerk",
+        "flat_radius",
+        "spring_force",
+        "contact_stress",
+        "follower_force",
+    )
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
     cam: ValveCam
     cam_angle: np.ndarray

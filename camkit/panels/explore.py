@@ -28,6 +28,7 @@ from ..render.picture import below, positions_of, small_png, strip
 from ..study.study import keeps, refuse_limits
 from ..study.tolerances import ANGLES
 from ..units import deg
+from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.controls import Download, Menu, NumberRow, Upload, banner, control, show_message, tables_html
 from .kit.orbit import Orbit
@@ -85,7 +86,8 @@ class Explorer(Panel):
         self._at_most = dict(at_most or {})
         self._first = [float(m(self.analysis)) for m in self.measures]
         self._followers: list[Callable[[Any], None]] = []
-        self.picture = LivePicture(tuple(views), f"Pictures of the {type(design).__name__}", width=width, height=height)
+        views = tuple(views) or default_views(self.analysis)
+        self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
         self._banner, self._undercut = banner(), banner()
         self._impossible = ""
         self._free = Paths(design, free).declared if free else None
@@ -318,6 +320,8 @@ class Explorer(Panel):
 
 def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Explorer:
     """Sliders and menus for the ``free`` paths of ``design`` (default: all) over live ``views`` of it.
+
+    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
 
     Paths are those of `quantities_of` and `choices_of`, such as ``"load.mass"`` or ``"motion.rise.law"``; where another
     law is chosen, the sliders of its coefficients appear.

@@ -17,6 +17,7 @@ from PIL import Image
 from ..kinds import a_number, applied, refuse_arguments
 from ..study.study import refuse_limits
 from ..units import deg
+from ..views.defaults import default_views
 from ..views.picture import View
 from .draw import draw_picture, theme_style
 
@@ -119,14 +120,18 @@ def picture(
 ) -> Picture:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
 
+    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
+
     ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
     """
     refuse_arguments(picture, locals())
     refuse_limits(limits or {}, {})
     given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
     asked = {name: value for name, value in given.items() if value is not None}
+    analysis = shown.analyse() if hasattr(shown, "analyse") else shown
+    views = views or default_views(analysis)
     figure, axes = layout(views, width, height)
-    draw(shown.analyse() if hasattr(shown, "analyse") else shown, axes, views, **asked)
+    draw(analysis, axes, views, **asked)
     return figure
 
 

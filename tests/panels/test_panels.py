@@ -56,6 +56,7 @@ from camkit.study.tolerances import Tolerances
 from camkit.typed import typed_number, typed_whole
 from camkit.views import CAM_VIEWS, contact_force, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
+from camkit.views.defaults import default_views
 from camkit.views.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
 from camkit.views.linkage import CURVES, linkage_in_space
 from camkit.views.sweep import limit_sweep
@@ -461,3 +462,9 @@ def test_a_groove_names_its_flanks():
     said = undercut_in_words(DoorHandleCam(roller_radius=12 * mm).analyse())
     assert "the inner flank of the relief curve at" in said
     assert "the outer flank of the relief curve at" in said
+
+
+def test_without_views_a_panel_shows_what_the_design_offers():
+    panel = explore(OscillatingFlatCam(), free=["arm_length"], width=5, height=4)
+    assert panel.picture.views == default_views(panel.analysis)
+    assert list(panel.positions) == ["turn"]
