@@ -28,8 +28,7 @@ from .decision import (
     weighted_sum,
     winner_map,
 )
-from .files.designs import load, save
-from .files.profiles import profile_csv, profile_dxf
+from .files import Session, profile_csv, profile_dxf, read, write
 from .linkage.load import RockerLoad
 from .linkage.rssr import RSSR
 from .linkage.space import Box
@@ -159,7 +158,7 @@ __all__ = [
     "knee",
     "lift_curve_study",
     "lightest_shaft",
-    "load",
+    "read",
     "m",
     "mm",
     "ninety_degree_study",
@@ -171,7 +170,8 @@ __all__ = [
     "rad",
     "rpm",
     "rssr_study",
-    "save",
+    "Session",
+    "write",
     "shaft_study",
     "side_by_side",
     "topsis",

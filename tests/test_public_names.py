@@ -265,8 +265,8 @@ GOOD = {
     "contour_panel.weights": lambda: {"height": 1.0},
     "compare_fronts.ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "TolerancePanel.study": lambda: STUDY,
-    "Work.search": dict,
-    "Work.judgements": dict,
+    "Session.search": dict,
+    "Session.judgements": dict,
     "lightest_tube.study": lambda: camkit.shaft_study(space={name: (0.05, 0.2) for name in SHAFT.free}),
     "crossed.first": lambda: 0.0,
     "crossed.second": lambda: 10.0,
@@ -333,7 +333,7 @@ OTHERS = [name for name, thing in PUBLIC.items() if not _is_view(thing)]
 @pytest.mark.parametrize("name", [name for name in OTHERS if not isinstance(PUBLIC[name], Measure)])
 def test_every_argument_is_good_before_one_is_bad(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    camkit.save(CAM, "a design.json")
+    camkit.write(CAM, "a design.json")
     call(PUBLIC[name], given(name))
 
 
@@ -341,7 +341,7 @@ def test_every_argument_is_good_before_one_is_bad(name, tmp_path, monkeypatch):
 def test_a_public_name_works_or_refuses_in_a_sentence(name, argument, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for file in ("a design.json", RUBBISH["text"]):
-        camkit.save(CAM, file)
+        camkit.write(CAM, file)
     right, gathers = given(name), _arguments(PUBLIC[name])[argument].kind is inspect.Parameter.VAR_POSITIONAL
     tried = {bad: (value,) if gathers else value for bad, value in RUBBISH.items()}
     failed = {bad: outcome(lambda v=value: call(PUBLIC[name], right | {argument: v})) for bad, value in tried.items()}

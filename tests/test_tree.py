@@ -28,7 +28,7 @@ from camkit import (
     quick_front,
 )
 from camkit.cam.follower_measures import FLAT_CURVE
-from camkit.files.designs import Work, from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.machines.cabin_door import CabinDoorLinkage
 from camkit.motion import (
     LAW_MENU,
@@ -293,7 +293,7 @@ def test_a_law_of_ones_own_is_in_every_study_sweep_tolerance_and_file():
     assert Sweep(study, n=5).evaluation.f.shape == (5, 2)
     made = Tolerances(study, {path: 0.1, "motion.rise.lift": 0.1 * mm}, parts=16)
     assert np.ptp(made.x[:, 0]) > 0.1
-    again = from_json(to_json(Work(study, cam)), Work)
+    again = from_json(to_json(Session(study, cam)), Session)
     assert (again.design, dict(again.study.free)) == (cam, dict(study.free))
     with pytest.raises(ValueError, match=r"^the k \(bends the law\) is inf; it must be"):
         Bent(np.inf)

@@ -1,1 +1,7 @@
-"""Designs, studies, profiles and tables as files."""
+"""Designs, sessions, profiles and tables as files."""
+
+from .designs import Read, from_json, read, read_json, to_json, write
+from .profiles import profile_csv, profile_dxf
+from .sessions import Session
+
+__all__ = ["Read", "Session", "from_json", "profile_csv", "profile_dxf", "read", "read_json", "to_json", "write"]

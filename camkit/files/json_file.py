@@ -101,7 +101,7 @@ def text_of(file: str | bytes) -> str:
     """The text of a file in UTF-8, with or without a byte order mark, that may be JSON."""
     if not isinstance(file, (str, bytes, bytearray, memoryview)):
         raise ValueError(
-            f"what is to be read is {shown(file)}; it must be the text of a file, or its bytes (`load` takes a path)"
+            f"what is to be read is {shown(file)}; it must be the text of a file, or its bytes (`read` takes a path)"
         )
     data = file.encode("utf-8", "surrogatepass") if isinstance(file, str) else bytes(file)
     if len(data) > MOST_BYTES:

@@ -177,7 +177,7 @@ class Explorer(Panel):
     def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            found = designs.read(file, type(self.design))
+            found = designs.read_json(file, type(self.design))
             found.thing.analyse()
         except IMPOSSIBLE as refusal:
             show_message(self._banner, f"This file cannot be used: {reason(refusal)}.")

@@ -14,10 +14,10 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import CHOOSERS, Judgements
-from ..files import designs
+from ..files import Session, designs, sessions
 from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
 from ..markup import Html, escaped, html, joined
-from ..quantities import Measure, Paths, Quantity, quantities_of, value_of, words
+from ..quantities import Measure, Paths, Quantity, words
 from ..search.checkpoint import fingerprint, resume, why
 from ..search.front import Front, front_of, reference_point
 from ..search.protocol import Step, search
@@ -25,7 +25,7 @@ from ..study.study import Study, WeightedSum, made_study, refuse_bounds
 from ..units import in_unit
 from ..views.front import ShownFront, pareto, shown_objectives
 from .ahp import AhpPanel
-from .explore import Explorer, changed, remarked
+from .explore import Explorer, remarked
 from .kit.controls import Download, Upload, banner, label_html, show_message, small_html
 from .kit.number import NumberBox, WholeBox, staying
 from .kit.panel import IMPOSSIBLE, Panel, reason
@@ -192,7 +192,7 @@ class ParetoPanel(Panel):
             self._tell("")
 
     def _body(self) -> w.Widget:
-        save = Download("Save study", "study.json", "application/json", lambda: designs.to_json(self.work()), self._say)
+        save = Download("Save study", "study.json", "application/json", self._json, self._say)
         settings = w.HBox([self.population, self.generations, self.seed], layout=w.Layout(flex_flow="row wrap"))
         buttons = w.HBox(
             [self.run_button, self.stop_button, self.resume_button, self.progress],
@@ -230,12 +230,12 @@ class ParetoPanel(Panel):
         if self._running():
             return
         try:
-            self.study = self._study()
+            session = replace(self.session(), study=self._study())
         except IMPOSSIBLE as refusal:
             show_message(self._banner, f"This cannot be searched: {refusal}.")
             return
         self._unkept = ""
-        self._begin(self._new_files())
+        self._begin(*self._new_files(session))
 
     def resume(self) -> None:
         """Go on with the last search that did not end, under the settings that it had; returns at once."""
@@ -245,15 +245,15 @@ class ParetoPanel(Panel):
         try:
             if kept is None:
                 raise ValueError("there is no search that did not end")
-            page, design, study = self._read(kept)
+            session = self._read(kept)
         except ValueError as refusal:
             if kept:
                 kept.release()
             show_message(self._banner, f"This cannot be resumed: {refusal}.")
         else:
-            self._put_back(page, design)
-            self.study, self._unkept = study, ""
-            self._begin(kept)
+            self._put_back(session)
+            self._unkept = ""
+            self._begin(session, kept)
 
     def _tell(self, message: str) -> None:
         """Say ``message``, and that the search is not kept if it is not."""
@@ -269,8 +269,9 @@ class ParetoPanel(Panel):
     def _running(self) -> bool:
         return self._run is not None and self._run.thread.is_alive()
 
-    def _begin(self, kept: Kept | None) -> None:
-        run = _Run(self, kept)
+    def _begin(self, session: Session, kept: Kept | None) -> None:
+        self.study = session.study
+        run = _Run(self, session, kept)
         self._show_run(run)
         run.start()
 
@@ -288,18 +289,18 @@ class ParetoPanel(Panel):
 
     def _take_over(self, run: _Run) -> bool:
         """Show a search that another panel began, on its page; ``False`` if it is of another study."""
-        if type(run.design) is not type(self.explorer.start):
+        if type(run.session.design) is not type(self.explorer.start):
             return False
         try:
-            same = fingerprint(self._study_of(run.page, run.design)) == fingerprint(run.study)
+            same = fingerprint(self._made_here(run.session).study) == fingerprint(run.session.study)
         except Exception:  # what is of the same name has become something else
             return False
         with run.lock:
             if not same or run.over:
                 return False
             old, run.panel, run.place = run.panel, self, self._place
-            self._put_back(run.page, run.design)
-            self.study, self._unkept = run.study, old._unkept
+            self._put_back(run.session)
+            self.study, self._unkept = run.session.study, old._unkept
             self._show_run(run)
             if run.step:
                 self._report(run.step, run.reference, last=False)
@@ -313,36 +314,27 @@ class ParetoPanel(Panel):
         page = [repr(start), [*self.studies], [*self.bounds], {n: p.names for n, p in self._judges().items()}]
         return f"{type(start).__name__}-{_short(json.dumps(page))}"
 
-    def _new_files(self) -> Kept | None:
-        """Where this search is to be kept, with the page beside it; ``None``, and a reason, if that is not possible."""
+    def _new_files(self, session: Session) -> tuple[Session, Kept | None]:
+        """Where a search is to be kept, and the session to search: as its file says it, to the last bit.
+
+        ``None`` for the files, and a reason, where the search cannot be kept.
+        """
         try:
-            page = json.dumps(self._page())
-            return keep(f"{self._kind()}-{_short(page)}", page)
+            text = designs.to_json(session)
+            return self._reread(text), keep(f"{self._kind()}-{_short(text)}", text)
         except OSError as error:
             self._unkept = why(error)
         except ValueError as refusal:  # a law of one's own, which no file can hold
             self._unkept = str(refusal)
-        return None
+        return session, None
 
-    def _page(self) -> dict[str, Any]:
-        """All that the study depends on, to the last bit: numbers in SI, where a saved study has them in units."""
-        return {"design": designs.to_json(self.explorer.design), **self._asked()}
-
-    def _asked(self) -> dict[str, Any]:
-        """The page without what only a file needs to know of the design."""
-        design = self.explorer.design
-        numbers = {path: value_of(design, path) for path in quantities_of(design)}
-        return {
-            "numbers": numbers,
-            "space": {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value},
-            "judgements": {name: judged.above for name, judged in self._judged_now().items()},
-            "methods": {name: judged.method for name, judged in self._judged_now().items()},
-            "search": self._settings(),
-        }
+    def _reread(self, text: str) -> Session:
+        found: Session = designs.from_json(text, Session, self._measures())
+        return found
 
     def _check_settings(self, settings: Mapping[str, Any]) -> None:
         for name, value in settings.items():
-            known = isinstance(value, designs.SETTINGS.get(name, ()))
+            known = isinstance(value, sessions.SETTINGS.get(name, ()))
             if not known or not _offered(value, getattr(self, name)):
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
 
@@ -359,48 +351,46 @@ class ParetoPanel(Panel):
             if self.criteria and isinstance(measure, WeightedSum) and len(measure.parts) != len(self.criteria.names):
                 raise ValueError(_other_count(f"its {measure.name}", len(measure.parts), "part", self.criteria))
 
-    def _read(self, kept: Kept) -> tuple[Any, Any, Study]:
-        """The page of a search that did not end, its design and study, all checked; ``ValueError`` in a sentence."""
+    def _read(self, kept: Kept) -> Session:
+        """The session of a search that did not end, all checked; ``ValueError`` in a sentence."""
         damaged = ValueError(f"the file {kept.page.name} is damaged; delete it to begin anew")
         try:
-            page = json.loads(kept.text())
-        except (ValueError, RecursionError):
+            session = self._reread(kept.text())
+        except ValueError:
             raise damaged from None
         try:
-            settings = page["search"]
-            self._check_settings(settings)
-            design = changed(designs.from_json(page["design"], type(self.explorer.start)), page["numbers"])
-            self._check_judgements(self._judgements_of(page))
-            study = self._study_of(page, design)
-            resume(kept.checkpoint, study, *(settings[name] for name in SIZE))
+            self._check_settings(session.search)
+            self._check_judgements(session.judgements)
+            if self._judges().keys() - session.judgements.keys():
+                raise damaged
+            session = self._made_here(session)
+            resume(kept.checkpoint, session.study, *(session.search[name] for name in SIZE))
         except ValueError:
             raise
         except Exception:  # whatever else a file that somebody made can lead to
             raise damaged from None
-        return page, design, study
+        return session
 
-    def _study_of(self, page: Mapping[str, Any], design: Any) -> Study:
-        """The study that a page asks for."""
-        space = {name: tuple(bounds) for name, bounds in page["space"].items() if name in self.bounds}
-        weights = {"weights": self._judgements_of(page)["criteria"].weights} if self.criteria else {}
-        make = self.studies[page["search"]["mode"]]
-        return made_study(make, design, reference=self.explorer.start, space=space, **weights)
+    def _made_here(self, session: Session) -> Session:
+        """A session with the study that this page makes of it, as its file would say it."""
+        space = {name: bounds for name, bounds in session.study.free.items() if name in self.bounds}
+        weights = {"weights": session.judgements["criteria"].weights} if self.criteria else {}
+        make = self.studies[session.search["mode"]]
+        study = made_study(make, session.design, reference=self.explorer.start, space=space, **weights)
+        made = replace(session, study=study, front=sessions.empty_front(study))
+        try:
+            return self._reread(designs.to_json(made))
+        except ValueError:  # a law of one's own, which no file can hold
+            return made
 
-    def _judgements_of(self, page: Mapping[str, Any]) -> dict[str, Judgements]:
-        """The judgements that a page asks for."""
-        return {
-            name: Judgements(panel.names, page["judgements"][name] or [[1]], page["methods"][name])
-            for name, panel in self._judges().items()
-        }
-
-    def _put_back(self, page: Mapping[str, Any], design: Any) -> None:
-        for name, judgements in self._judgements_of(page).items():
-            self._judges()[name].load(judgements)
+    def _put_back(self, session: Session) -> None:
+        for name, panel in self._judges().items():
+            panel.load(session.judgements[name])
         for name, bounds in self.bounds.items():
-            bounds.set(tuple(page["space"][name]) if name in page["space"] else None)
-        for name, value in page["search"].items():
+            bounds.set(session.study.free.get(name))
+        for name, value in session.search.items():
             getattr(self, name).value = value
-        self.explorer.load(design)
+        self.explorer.load(session.design)
 
     def stop(self) -> None:
         """Stop after the running generation; the front so far stays."""
@@ -492,10 +482,12 @@ class ParetoPanel(Panel):
         panels = {"criteria": self.criteria, "importance": self.importance}
         return {name: panel for name, panel in panels.items() if panel}
 
-    def work(self) -> designs.Work:
+    def _json(self) -> str:
+        return designs.to_json(self.session())
+
+    def session(self) -> Session:
         """Everything on the page, to be saved."""
-        front, settings = self.front, self._settings()
-        return designs.Work(self.study, self.explorer.design, self._judged_now(), settings, front.x, front.record)
+        return Session(self.study, self.explorer.design, self._judged_now(), self._settings(), self.front)
 
     def _settings(self) -> dict[str, Any]:
         return {
@@ -506,41 +498,39 @@ class ParetoPanel(Panel):
             "rule": self.rule.value,
         }
 
-    def load(self, work: designs.Work) -> None:
+    def load(self, session: Session) -> None:
         """Show a saved study: judgements, bounds, front, and the design in the sliders.
 
         What cannot be judged, computed or drawn here raises ``ValueError`` or ``ArithmeticError``, and all stays as it
         was.
         """
-        if type(work.study.start) is not type(self.explorer.start) or type(work.design) is not type(
+        if type(session.study.start) is not type(self.explorer.start) or type(session.design) is not type(
             self.explorer.start
         ):
             raise ValueError(
-                f"the file holds {kind_words(type(work.study.start), article=True)}; "
+                f"the file holds {kind_words(type(session.study.start), article=True)}; "
                 f"{kind_words(type(self.explorer.start), article=True)} is wanted here"
             )
-        self._check_settings(work.search)
-        self._check_judgements(work.judgements)
-        self._check_objectives(work.study)
-        work.design.analyse()
-        self._show_loaded(work)
+        self._check_settings(session.search)
+        self._check_judgements(session.judgements)
+        self._check_objectives(session.study)
+        session.design.analyse()
+        self._show_loaded(session)
         for name, bounds in self.bounds.items():
-            bounds.set(work.study.free.get(name))
-        for name, value in work.search.items():
+            bounds.set(session.study.free.get(name))
+        for name, value in session.search.items():
             getattr(self, name).value = value
         self.status.value = f"loaded: {len(self.front)} designs on the front"
 
-    def _show_loaded(self, work: designs.Work) -> None:
+    def _show_loaded(self, session: Session) -> None:
         """Front, judgements and design of a file: all of them or none."""
-        x = np.asarray(work.x).reshape(-1, len(work.study.free))
-        front = _front(work.study, x)
         before, pick = (self.study, self._x, self.front, self.rule.value, self._judged_now()), self.pick.value
-        rule = work.search.get("rule", self.rule.value)
+        rule = session.search.get("rule", self.rule.value)
         try:
-            self._swap(work.study, x, replace(front, record=work.record), rule, work.judgements)
-            (self._judged if work.judgements.keys() & self._judges().keys() else self._show_front)()
-            self.explorer.load(work.design)
-            if self.explorer.design is not work.design:
+            self._swap(session.study, session.front.x, session.front, rule, session.judgements)
+            (self._judged if session.judgements.keys() & self._judges().keys() else self._show_front)()
+            self.explorer.load(session.design)
+            if self.explorer.design is not session.design:
                 raise ValueError("its design cannot be computed and drawn")
         except Exception:
             self._swap(*before)
@@ -571,9 +561,8 @@ class ParetoPanel(Panel):
     def load_json(self, file: str | bytes) -> None:
         """Show the study that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
-            found = designs.read(file, designs.Work, self._measures())
+            found = designs.read_json(file, Session, self._measures())
             self.load(found.thing)
-            found = replace(found, remarks=(*found.remarks, *designs.left_out(len(found.thing.x), len(self.front))))
         except IMPOSSIBLE as refusal:
             show_message(self._banner, f"This file cannot be used: {reason(refusal)}.")
         else:
@@ -616,19 +605,20 @@ def _offered(value: Any, control: Any) -> bool:
 
 
 class _Run(Job):
-    """A search, the page that asked for it, and the ``panel`` that shows it, which may change."""
+    """A search, the session that asked for it, and the ``panel`` that shows it, which may change."""
 
-    def __init__(self, panel: ParetoPanel, kept: Kept | None) -> None:
+    def __init__(self, panel: ParetoPanel, session: Session, kept: Kept | None) -> None:
         super().__init__(panel._kind(), panel._place, self._search, self._report, self._finish)
         self.lock, self.over = threading.RLock(), False
-        self.panel, self._kept, self.study = panel, kept, panel.study
-        self.page, self.design = panel._asked(), panel.explorer.design
+        self.panel, self.session, self._kept = panel, session, kept
         self.reference: Any = None
 
     def _search(self) -> Iterator[Step]:
-        self.reference = reference_point(self.study)
+        self.reference = reference_point(self.session.study)
         checkpoint = self._kept.checkpoint if self._kept else None
-        return search(self.study, "nsga2", checkpoint=checkpoint, **{name: self.page["search"][name] for name in SIZE})
+        return search(
+            self.session.study, "nsga2", checkpoint=checkpoint, **{name: self.session.search[name] for name in SIZE}
+        )
 
     def _report(self, step: Step, last: bool) -> None:
         """To whichever panel shows the search."""

@@ -17,7 +17,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from camkit import ArmLoad, DoorHandleCam, ahp, deg, door_handle_study, mm, profile_csv
 from camkit.cam.measures import groove_gap
 from camkit.decision import CHOOSERS
-from camkit.files.designs import from_json
+from camkit.files import from_json
 from camkit.geometry import rotated
 from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.motion import LAWS

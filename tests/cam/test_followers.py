@@ -20,7 +20,7 @@ from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
-from camkit.files.designs import from_json, to_json
+from camkit.files import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 from camkit.quantities import unremarked

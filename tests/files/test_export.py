@@ -19,11 +19,12 @@ from camkit import (
     ahp,
     door_handle_study,
     lift_curve_study,
-    load,
     nsga2,
-    save,
+    read,
+    write,
 )
-from camkit.files.designs import SCHEMA, Work, from_json, to_json
+from camkit.files import Session, from_json, to_json
+from camkit.files.designs import SCHEMA
 from camkit.machines.door_handle import EXPANDED_SPACE
 from camkit.motion import (
     HALF_LAWS,
@@ -129,7 +130,7 @@ def test_a_program_of_any_law_comes_back(law):
 
 def test_files_say_their_schema_and_units(tmp_path):
     path = tmp_path / "cam.json"
-    save(DoorHandleCam(lift_arm=48.09 * mm, lift_start_angle=20.5 * deg), path)
+    write(DoorHandleCam(lift_arm=48.09 * mm, lift_start_angle=20.5 * deg), path)
     content = json.loads(path.read_text(encoding="utf-8"))
     assert content["schema"] == SCHEMA == "camkit/1"
     design = content["design"]
@@ -139,7 +140,7 @@ def test_files_say_their_schema_and_units(tmp_path):
         20.5,
         0.05,
     )
-    assert load(path) == DoorHandleCam(lift_arm=48.09 * mm, lift_start_angle=20.5 * deg)
+    assert read(path) == DoorHandleCam(lift_arm=48.09 * mm, lift_start_angle=20.5 * deg)
 
 
 @pytest.fixture(scope="module", params=["lift", "whole"])
@@ -148,13 +149,13 @@ def work(request):
     study = door_handle_study(space=EXPANDED_SPACE) if whole else lift_curve_study()
     front = nsga2(study, 40, 30, 5)
     judgements = {"criteria": ahp([5.0, 5.0, 1.0]), "importance": ahp([1 / 3])}
-    return Work(study, front[0], judgements, {"population": 40, "generations": 30, "seed": 5}, front.x)
+    return Session(study, front[0], judgements, {"population": 40, "generations": 30, "seed": 5}, front)
 
 
 def test_a_whole_study_comes_back(work, tmp_path):
-    save(work, tmp_path / "study.json")
-    again = load(tmp_path / "study.json")
-    assert isinstance(again, Work)
+    write(work, tmp_path / "study.json")
+    again = read(tmp_path / "study.json")
+    assert isinstance(again, Session)
     assert again.study.start == work.study.start
     assert again.study.angles == work.study.angles
     assert list(again.study.free) == list(work.study.free)
@@ -168,8 +169,8 @@ def test_a_whole_study_comes_back(work, tmp_path):
     assert radius == work.study.minimise[1]
     assert dict(again.judgements) == dict(work.judgements)
     assert dict(again.search) == dict(work.search)
-    assert_allclose(again.x, work.x, rtol=1e-14)
-    before, after = work.study.evaluate(work.x), again.study.evaluate(again.x)
+    assert_allclose(again.front.x, work.front.x, rtol=1e-14)
+    before, after = work.study.evaluate(work.front.x), again.study.evaluate(again.front.x)
     assert_allclose(after.f, before.f, rtol=1e-10)
     assert_array_equal(after.feasible, before.feasible)
 
@@ -179,9 +180,9 @@ def _of(measure):
 
 
 def test_a_study_without_a_front_or_limits_comes_back(work):
-    bare = Work(work.study.replace(at_most={}, at_least={}), work.design)
+    bare = Session(work.study.replace(at_most={}, at_least={}), work.design)
     again = from_json(to_json(bare))
-    assert again.x.shape == (0, len(work.study.free))
+    assert again.front.x.shape == (0, len(work.study.free))
     assert again.study.limits == ()
     assert (dict(again.judgements), dict(again.search)) == ({}, {})
 
@@ -200,7 +201,7 @@ GOOD = to_json(DoorHandleCam())
 def changed(text, change):
     """``text`` with ``change`` made to its design or work."""
     content = json.loads(text)
-    change(content["work"] if "work" in content else content["design"])
+    change(content["session"] if "session" in content else content["design"])
     return json.dumps(content)
 
 
@@ -221,7 +222,7 @@ scalars = st.none() | st.booleans() | st.floats() | st.text(max_size=5) | st.int
 @given(st.recursive(scalars, nested))
 @settings(max_examples=100, deadline=None)
 def test_whatever_json_it_is_a_stranger_is_refused(anything):
-    for content in (anything, {"schema": SCHEMA, "design": anything}, {"schema": SCHEMA, "work": anything}):
+    for content in (anything, {"schema": SCHEMA, "design": anything}, {"schema": SCHEMA, "session": anything}):
         with pytest.raises(ValueError, match=r"^the file "):
             from_json(json.dumps(content))
 
@@ -272,7 +273,7 @@ PYTHON = "object|NoneType|zip|int\\(|float:|inhomogeneous|unpack|multiply|subscr
 
 @pytest.mark.parametrize("damage", WORK_DAMAGE.values(), ids=WORK_DAMAGE.keys())
 def test_a_damaged_study_is_refused_in_words(damage):
-    good = to_json(Work(door_handle_study(), DoorHandleCam(), {"criteria": ahp([5, 5, 1])}, {"population": 9}))
+    good = to_json(Session(door_handle_study(), DoorHandleCam(), {"criteria": ahp([5, 5, 1])}, {"population": 9}))
     from_json(good)
     with pytest.raises(ValueError, match=f"^(?!.*({PYTHON}))the |^a study needs") as refused:
         from_json(changed(good, damage))
@@ -309,26 +310,26 @@ def test_a_bad_file_of_another_kind_is_named():
         ValueError, match=r"^the file holds an oscillating roller cam; a door handle cam is wanted here$"
     ):
         from_json(to_json(OscillatingRollerCam()), DoorHandleCam)
-    with pytest.raises(ValueError, match=r"^the file holds a door handle cam; a work is wanted here$"):
-        from_json(GOOD, Work)
-    with pytest.raises(ValueError, match=r"^the file holds a work; a door handle cam is wanted here$"):
-        from_json(to_json(Work(door_handle_study(), DoorHandleCam())), DoorHandleCam)
+    with pytest.raises(ValueError, match=r"^the file holds a door handle cam; a session is wanted here$"):
+        from_json(GOOD, Session)
+    with pytest.raises(ValueError, match=r"^the file holds a session; a door handle cam is wanted here$"):
+        from_json(to_json(Session(door_handle_study(), DoorHandleCam())), DoorHandleCam)
 
 
 def test_a_judgement_that_was_not_made_and_the_record_come_back(work):
     record = {"population": 40, "generations": 30, "seed": 5, "seconds": 1.5, "versions": {"numpy": "2.4.6"}}
-    kept = replace(work, judgements={"criteria": ahp([5.0, None, 1.0])}, record=record)
+    kept = replace(work, judgements={"criteria": ahp([5.0, None, 1.0])}, front=replace(work.front, record=record))
     again = from_json(to_json(kept))
     assert again.judgements == {"criteria": ahp([5.0, None, 1.0])}
-    assert again.record == record
+    assert again.front.record == record
     quick = {"designs": 6977, "seconds": 0.2, "versions": {"numpy": "2.4.6"}}
-    assert from_json(to_json(replace(work, record=quick))).record == quick
+    assert from_json(to_json(replace(work, front=replace(work.front, record=quick)))).front.record == quick
 
 
 def test_a_study_of_an_older_camkit_has_no_record(work):
     content = json.loads(to_json(work))
-    del content["work"]["record"]
-    assert from_json(json.dumps(content)).record == {}
+    del content["session"]["record"]
+    assert from_json(json.dumps(content)).front.record == {}
 
 
 @pytest.mark.parametrize(
@@ -338,6 +339,6 @@ def test_a_study_of_an_older_camkit_has_no_record(work):
 )  # fmt: skip
 def test_a_record_that_is_garbled_is_refused(work, record):
     content = json.loads(to_json(work))
-    content["work"]["record"] = record
+    content["session"]["record"] = record
     with pytest.raises(ValueError, match=r"^the file "):
         from_json(json.dumps(content))

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from camkit.cam.force_closure import ContactPair, contact_along, jump_speed, preload_needed
 from camkit.contact import contact_modulus
-from camkit.files.designs import from_json, to_json
+from camkit.files import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share
 from camkit.machines.high_speed_cam import HighSpeedCam

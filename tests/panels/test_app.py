@@ -44,7 +44,7 @@ from camkit import (
     try_everything,
 )
 from camkit.decision import CHOOSERS
-from camkit.files.designs import from_json, to_json
+from camkit.files import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.machines.door_handle import (
     CURVE_TABLE,
@@ -738,7 +738,8 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     other.wait(60)
     assert alert(other) == ""
     assert other.status.value.startswith("generation 60 of 60: ")
-    uninterrupted = nsga2(study, 40, 60, 4)
+    assert_allclose(other.study.evaluate(other.front.x).f, study.evaluate(other.front.x).f, rtol=1e-14)
+    uninterrupted = nsga2(other.study, 40, 60, 4)  # the study as its file says it, in units
     assert_array_equal(other.front.x, uninterrupted.x)
     assert_array_equal(other.front.f, uninterrupted.f)
     assert other.explorer.design == typed
@@ -760,11 +761,11 @@ def test_a_search_that_cannot_be_resumed_says_so_and_changes_nothing(finder, sto
     (Path(".camkit") / name).write_bytes(b"{}")
     finder.criteria.load(PAPER_JUDGEMENTS)
     finder.population.value = 24
-    before = finder._page()
+    before = page_of(finder)
     press(finder, "Resume")
     finder.wait(10)
     assert alert(finder) == f"This cannot be resumed: the {what} {name} is damaged; delete it to begin anew."
-    assert finder._page() == before
+    assert page_of(finder) == before
     assert not finder.run_button.disabled
 
 
@@ -1090,28 +1091,43 @@ PAGES = {
     "nested": lambda page: b"[" * 100_000,
     "a page of ten million letters": lambda page: b" " * 10_000_000,
     "a huge number": lambda page: page.replace(b'"seed": 1', b'"seed": ' + b"9" * 5000),
-    "space that is a number": lambda page: edited(page, space=1),
-    "bounds that are a number": lambda page: edited(page, space={"lift_arm": 1}),
-    "no judgements": lambda page: edited(page, judgements={}),
-    "judgements that are a number": lambda page: edited(page, judgements=1),
-    "a method that is not there": lambda page: edited(page, methods=judged_by("x")),
-    "a method that is nested": lambda page: edited(page, methods=judged_by([[]])),
-    "a design that is a number": lambda page: edited(page, design=1),
-    "numbers that are text": lambda page: edited(page, numbers={"lift_arm": "<b>"}),
-    "numbers that are too large": lambda page: edited(page, numbers={"lift_arm": 1e300}),
-    "settings that are a number": lambda page: edited(page, search=1),
-    "no settings": lambda page: edited(page, search={}),
-    "a menu that is not there": lambda page: edited(page, search={**json.loads(page)["search"], "mode": "x"}),
-    "a huge population": lambda page: edited(page, search={**json.loads(page)["search"], "population": 10**400}),
+    "a design alone": lambda page: to_json(DoorHandleCam()).encode(),
+    "space that is a number": lambda page: edited(page, "free", to=1),
+    "bounds that are a number": lambda page: edited(page, "free", to={"lift_arm [mm]": 1}),
+    "no judgements": lambda page: edited(page, "judgements", to={}),
+    "no judgement of the objectives": lambda page: edited(page, "judgements", "importance"),
+    "judgements that are a number": lambda page: edited(page, "judgements", to=1),
+    "a method that is not there": lambda page: edited(page, "judgements", "criteria", "method", to="x"),
+    "a method that is nested": lambda page: edited(page, "judgements", "criteria", "method", to=[[]]),
+    "a design that is a number": lambda page: edited(page, "design", to=1),
+    "numbers that are text": lambda page: edited(page, "design", "lift_arm [mm]", to="<b>"),
+    "numbers that are too large": lambda page: edited(page, "design", "lift_arm [mm]", to=1e300),
+    "another design": lambda page: edited(page, "design", "lift_arm [mm]", to=50.5),
+    "settings that are a number": lambda page: edited(page, "search", to=1),
+    "no settings": lambda page: edited(page, "search", to={}),
+    "a menu that is not there": lambda page: edited(page, "search", "mode", to="x"),
+    "a huge population": lambda page: edited(page, "search", "population", to=10**400),
 }  # fmt: skip
 
 
-def edited(page, **changes):
-    return json.dumps({**json.loads(page), **changes}).encode()
+def edited(page, *path, to=None):
+    """A page with one entry changed, or left out."""
+    content = json.loads(page)
+    inner = content["session"]
+    for step in path[:-1]:
+        inner = inner[step]
+    if to is None:
+        del inner[path[-1]]
+    else:
+        inner[path[-1]] = to
+    return json.dumps(content).encode()
 
 
-def judged_by(method):
-    return {"criteria": method, "importance": method}
+def page_of(finder):
+    """What is set on a page."""
+    session = finder.session()
+    bounds = {name: (row.value, row.free.value) for name, row in finder.bounds.items()}
+    return session.design, session.judgements, session.search, bounds
 
 
 @pytest.fixture(scope="module")
@@ -1129,12 +1145,12 @@ def test_a_page_that_somebody_made_is_refused_and_the_lock_let_go(a_stopped_sear
     Path(".camkit").mkdir(exist_ok=True)
     for name, content in a_stopped_search.items():
         (Path(".camkit") / name).write_bytes(change(content) if name.endswith("json") else content)
-    before = finder._page()
+    before = page_of(finder)
     press(finder, "Resume")
     finder.wait(10)
     assert alert(finder).startswith("This cannot be resumed: ")
     assert len(alert(finder)) < 600
-    assert finder._page() == before
+    assert page_of(finder) == before
     for _ in range(2):  # nobody holds it, and a search that follows begins anew
         held = pending(finder._kind())
         held.release()
@@ -1173,12 +1189,12 @@ def test_the_page_says_how_its_front_was_found_and_saves_it(finder):
     assert (record["population"], record["generations"], record["seed"]) == (40, 30, 9)
     assert finder.found.value == f"found in {record['seconds']:.3g} s: 30 generations, seed 9"
     saved = downloaded(finder, "Save study")["text"]
-    assert json.loads(saved)["work"]["record"]["versions"]["python"] == sys.version.split()[0]
+    assert json.loads(saved)["session"]["record"]["versions"]["python"] == sys.version.split()[0]
     other = fresh()
     upload(other, "Load study", saved)
     assert other.found.value == finder.found.value
     older = json.loads(saved)
-    del older["work"]["record"]
+    del older["session"]["record"]
     upload(other, "Load study", json.dumps(older))
     assert alert(other).startswith("The file is loaded, but its content does not match its digest")
     assert other.found.value == ""
@@ -1386,7 +1402,7 @@ BROKEN_STUDIES = {
 def test_a_study_that_cannot_be_used_is_refused_and_changes_nothing(found, change):
     found.select(1)
     content = json.loads(downloaded(found, "Save study")["text"])
-    content["work"].update(BROKEN_STUDIES.get(change, {}))
+    content["session"].update(BROKEN_STUDIES.get(change, {}))
     text = json.dumps(content)[: 500 if change == "cut short" else None]
 
     def state():

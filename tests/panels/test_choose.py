@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore, try_everything
 from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
-from camkit.files.designs import Work, from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
 from camkit.panels.kit.picture import ImageWidget
 from camkit.quantities import Design, quantity
@@ -447,7 +447,7 @@ def test_what_is_no_judgement_is_refused_in_a_sentence(words):
 
 def test_an_open_judgement_goes_to_a_file_and_back():
     panel = ahp_panel(Judgements(["a", "b", "c"], [2, None, 4]))
-    work = Work(door_handle_study(), DoorHandleCam(), {"importance": panel.judgements})
+    work = Session(door_handle_study(), DoorHandleCam(), {"importance": panel.judgements})
     again = from_json(to_json(work)).judgements["importance"]
     assert again == panel.judgements
     panel.load([1, 1, 1])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camkit import explore, try_everything
-from camkit.files.designs import from_json, to_json
+from camkit.files import from_json, to_json
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, Branch, CabinDoorLinkage, ninety_degree_study
 from camkit.units import deg, mm

@@ -25,18 +25,18 @@ from camkit import (
     ahp,
     door_handle_study,
     lift_curve_study,
-    load,
     most_isolated,
     nsga2,
     picture,
     profile_csv,
+    read,
     topsis,
     weighted,
     weighted_sum,
 )
 from camkit.data import load as reference
 from camkit.decision import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
-from camkit.files.designs import Work, from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.panels import ahp_panel, choose_panel, explore
 from camkit.quantities import quantities_of
 from camkit.search.front import Front
@@ -200,7 +200,7 @@ REFUSALS = [
     (lambda: from_json('{"schema": "camkit/2"}'),
      "the file follows the schema 'camkit/2'; this camkit reads 'camkit/1'"),
     (lambda: from_json('{"schema": "camkit/1"}'), 
-     "the file is damaged: beside its schema it must hold one design, one work or one front"),
+     "the file is damaged: beside its schema it must hold one design, one session or one front"),
     (lambda: a_file(kind="Boat"), "the file names a 'Boat', which this camkit does not know"),
     (lambda: a_file(wing=3), "the file has 'wing', which a door handle cam does not have"),
     (lambda: a_file(**{"lift_arm [mm]": "50"}),
@@ -209,7 +209,7 @@ REFUSALS = [
     (lambda: a_file(motion_law="wobbly"),
      "the file says 'wobbly' for 'motion_law'; there are simple harmonic, parabolic, cycloidal, modified trapezoid, "
      "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial and 9 more"),
-    (lambda: from_json(to_json(CAM), Work), "the file holds a door handle cam; a work is wanted here"),
+    (lambda: from_json(to_json(CAM), Session), "the file holds a door handle cam; a session is wanted here"),
 
     # names
     (lambda: ArmLoad().replace(weight=1),
@@ -292,7 +292,7 @@ IN_WORDS = {
     "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),
     "a picture without a view": lambda: picture(CAM),
     "a profile of many": lambda: profile_csv(DoorHandleCam(lift_arm=np.array([[0.05], [0.06]])).analyse(31)),
-    "a file that is not there": lambda: load("no such file.json"),
+    "a file that is not there": lambda: read("no such file.json"),
 }
 
 

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import explore, nsga2, picture, profile_csv
-from camkit.files.designs import from_json, to_json
+from camkit.files import from_json, to_json
 from camkit.files.profiles import table_csv
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam

@@ -1,0 +1,60 @@
+"""What an entry of a saved file may be: names, lists, numbers, counts; anything else is refused in a sentence."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from .entries import MOST_ROWS, is_number
+from .json_file import shown
+
+PLAIN = re.compile(r"\w[\w +,.:;()/%^-]*")
+"""Names in files: letters, digits, spaces and the signs of camkit's own names."""
+
+
+def mapping(entry: Any, name: str) -> dict[str, Any]:
+    """``entry`` if it is an object of JSON: names and values."""
+    if not isinstance(entry, dict):
+        raise ValueError(f"the file is damaged: it says {shown(entry)} for {name!r}, where names and values belong")
+    return entry
+
+
+def listed(entry: Any, name: str) -> list[Any]:
+    """``entry`` if it is a list that is not too long."""
+    if not isinstance(entry, list):
+        raise ValueError(f"the file is damaged: it says {shown(entry)} for {name!r}, where a list belongs")
+    if len(entry) > MOST_ROWS:
+        raise ValueError(f"the file has {len(entry)} entries in {name!r}; there can be at most {MOST_ROWS}")
+    return entry
+
+
+def all_numbers(entry: Any, name: str, count: int) -> list[float]:
+    """``entry`` as numbers, if it is a list of so many."""
+    if not isinstance(entry, list) or len(entry) != count or not all(map(is_number, entry)):
+        said = "a number belongs" if count == 1 else f"{count} numbers belong"
+        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where {said}")
+    return [float(number) for number in entry]
+
+
+def count(name: str, value: Any, least: int, most: int) -> int:
+    """``value`` if it is a whole number from ``least`` to ``most``."""
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+        raise ValueError(
+            f"the file says {shown(value)} for {name!r}; it must be a whole number of at least {least}, at most {most}"
+        )
+    return value
+
+
+def plain(name: Any, longest: int = 100) -> str:
+    """``name`` if a file may have it."""
+    if not isinstance(name, str) or not PLAIN.fullmatch(name) or len(name) > longest:
+        raise ValueError(
+            f"the file has the name {shown(name)}; a name has up to {longest} letters, digits, spaces and "
+            "+ , - . / : ; ( ) % ^"
+        )
+    return name
+
+
+def message(entry: Any) -> str:
+    """What a front says, which may be nothing."""
+    return plain(entry, 1000) if entry != "" else ""

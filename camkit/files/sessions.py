@@ -1,0 +1,192 @@
+"""The session of a saved file: a study and all that a person did on it, or its front alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ..decision import Judgements
+from ..kinds import refuse_kinds
+from ..quantities import Measure
+from ..search.front import Front, front_of
+from ..study.study import Study
+from .checks import count, listed, mapping, message, plain
+from .entries import MOST_ROWS, Reading, entry_of, is_number
+from .json_file import shown
+from .studies import rows, study_entry, study_of, x_of
+
+SETTINGS: dict[str, type] = {"population": int, "generations": int, "seed": int, "mode": str, "rule": str}
+"""What a search is set to: counts, and the entries of its menus."""
+COUNTS = {"population": (1, 100_000), "generations": (1, 1_000_000), "designs": (0, 10**12), "seed": (0, 10**12)}
+"""What a file may say of a search."""
+
+STUDY = ("at_most", "at_least", "sums", "made", "angles")
+DEFAULTS: dict[str, Any] = {
+    "at_most": {},
+    "at_least": {},
+    "sums": [],
+    "made": {},
+    "angles": Study.angles,
+    "front": [],
+    "record": {},
+    "judgements": {},
+    "search": {},
+}
+"""What a study is read with where its file says nothing."""
+QUIETLY = {"sums", "made", "record"}
+"""Which of them are no matter for a remark: a file has them only where there is something to say."""
+HELD = {
+    "session": {"start", "free", "minimise", "design", "methods", "message", *DEFAULTS},
+    "front": {"start", "free", "minimise", "front", "record", "message", *STUDY},
+}
+
+
+@dataclass(frozen=True)
+class Session:
+    """All that a person did on one study: the study, the design in hand, judgements, search settings, front.
+
+    It is what a page shows, what is downloaded from it, and what a file brings back.  ``judgements`` are by what they
+    judge, such as ``"importance"`` of the objectives; ``search`` is set to a population, generations, a seed, a mode
+    and a rule (entries of menus).  Without a ``front`` there is none yet.
+    """
+
+    study: Study
+    design: Any
+    judgements: Mapping[str, Judgements] = field(default_factory=dict)
+    search: Mapping[str, Any] = field(default_factory=dict)
+    front: Front = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        refuse_kinds(self, ("front",) if self.front is None else ())
+        if self.front is None:
+            object.__setattr__(self, "front", empty_front(self.study))
+
+
+def empty_front(study: Study, message: str = "", record: Mapping[str, Any] | None = None) -> Front:
+    """The front of a study for which nobody has searched."""
+    none = np.zeros((0, len(study.minimise)))
+    return Front(study, np.zeros((0, len(study.free))), none, message, record or {})
+
+
+def session_entry(session: Session) -> dict[str, Any]:
+    """A session as JSON knows it."""
+    front = session.front
+    return {
+        **study_entry(session.study),
+        "design": entry_of(session.design),
+        "judgements": {name: _judgements_entry(judged) for name, judged in session.judgements.items()},
+        "search": {name: entry_of(value) for name, value in session.search.items()},
+        "front": rows(session.study, front.x),
+        "record": _record_entry(front.record),
+        "message": front.message,
+    }
+
+
+def front_entry(front: Any) -> dict[str, Any]:
+    """A front alone as JSON knows it."""
+    return {
+        **study_entry(front.study),
+        "front": rows(front.study, front.x),
+        "record": _record_entry(front.record),
+        "message": front.message,
+    }
+
+
+def _record_entry(record: Mapping[str, Any]) -> dict[str, Any]:
+    return {k: dict(v) if isinstance(v, Mapping) else entry_of(v) for k, v in record.items()}
+
+
+def _judgements_entry(judgements: Judgements) -> dict[str, Any]:
+    return {"names": list(judgements.names), "above": list(judgements.above), "method": judgements.method}
+
+
+def entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
+    """All entries of a study, those that are lacking with their defaults."""
+    given, known = mapping(entry, held), HELD[held]
+    for wrong in given.keys() - known:
+        raise ValueError(f"the file has {shown(wrong)}, which a saved study does not have")
+    for lacking in ("start", "free", "minimise"):
+        if lacking not in given:
+            raise ValueError(f"the file is damaged: it lacks {lacking!r} of the study")
+    reading.missing.extend(f"{name!r} of the study" for name in DEFAULTS if name in known - given.keys() - QUIETLY)
+    if held == "session" and "design" not in given:
+        reading.missing.append("'design' of the study")
+    return DEFAULTS | given
+
+
+def session_of(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure]) -> Session:
+    """The session that `session_entry` wrote, or a front alone; the objectives of its front are computed anew."""
+    study = study_of(entry, reading, measures)
+    reading.held.clear()  # another design
+    design = reading.thing(entry["design"], type(study.start)) if "design" in entry else study.start
+    if not isinstance(design, type(study.start)):
+        raise ValueError("the file is damaged: its design is of another kind than its start")
+    methods = mapping(entry.get("methods", {}), "methods")  # in files of 0.1.0, beside lists without names
+    judgements = {
+        plain(n): _judged(n, m, methods.get(n)) for n, m in mapping(entry["judgements"], "judgements").items()
+    }
+    search = {name: _setting(name, value) for name, value in mapping(entry["search"], "search").items()}
+    front = _front(study, entry, reading)
+    return Session(study, design, judgements, search, front)
+
+
+def _front(study: Study, entry: Mapping[str, Any], reading: Reading) -> Front:
+    x, record = x_of(entry["front"], study), _record(entry["record"])
+    if not len(x):
+        return empty_front(study, message(entry.get("message", "")), record)
+    front = front_of(study.evaluate(x), study)
+    reading.remarks.extend(left_out(len(x), len(front)))
+    return replace(front, record=record)
+
+
+def left_out(told: int, kept: int) -> list[str]:
+    """What is to be remarked where a file has ``told`` designs of a front, of which ``kept`` are one.
+
+    >>> left_out(20, 20), left_out(20, 19)
+    ([], ['1 of its 20 designs miss a limit or are dominated and were left out'])
+    """
+    if kept == told:
+        return []
+    return [f"{told - kept} of its {told} designs miss a limit or are dominated and were left out"]
+
+
+def _setting(name: str, value: Any) -> Any:
+    if name in COUNTS and name in SETTINGS:
+        return count(name, value, *COUNTS[name])
+    if name not in SETTINGS or not isinstance(value, SETTINGS[name]):
+        raise ValueError(f"the file says {shown(value)} for {shown(name)}, which is no setting of a search")
+    return plain(value)
+
+
+def _judged(name: str, entry: Any, method: Any = None) -> Judgements:
+    """Judgements; in a file of 0.1.0 a matrix or what is above its diagonal, and its ``method`` if that is known."""
+    if isinstance(entry, list):
+        entry = {"names": [], "above": entry, "method": "eigenvector" if method is None else method}
+    if not isinstance(entry, dict) or entry.keys() != {"names", "above", "method"}:
+        raise ValueError(f"the file says {shown(entry)} for the judgements of {shown(name)}, where judgements belong")
+    rows = listed(entry["above"], name)
+    flat = [value for row in rows for value in (listed(row, name) if isinstance(row, list) else [row])]
+    if len(flat) > MOST_ROWS or not all(value is None or is_number(value) for value in flat):
+        raise ValueError(f"the file says {shown(rows)} for the judgements of {shown(name)}, where numbers belong")
+    try:
+        return Judgements(listed(entry["names"], name), rows or [[1]], entry["method"])
+    except ValueError as refusal:
+        raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
+
+
+def _record(entry: Any) -> dict[str, Any]:
+    """The record of a search by NSGA-II, or of a quick front, which has no seed."""
+    if entry == {}:
+        return {}
+    common = {"seconds", "versions"}
+    known = ({"population", "generations", "seed"} | common, {"designs"} | common)
+    if not isinstance(entry, dict) or entry.keys() not in known or not is_number(entry["seconds"]):
+        raise ValueError("the file is damaged: its record of the search is not as camkit writes it")
+    for name in entry.keys() - common:
+        count(name, entry[name], *COUNTS[name])
+    for name, version in mapping(entry["versions"], "versions").items():
+        plain(name), plain(version)
+    return dict(entry)
