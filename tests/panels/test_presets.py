@@ -17,7 +17,7 @@ from camkit.machines.shaft import (
     tube_area,
 )
 from camkit.panels.presets import Presets, presets
-from camkit.render.shaft import utilisation
+from camkit.views.shaft import utilisation
 
 SEAMLESS = standard_tubes("GB/T 17395")
 

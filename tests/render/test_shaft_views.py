@@ -13,11 +13,12 @@ from camkit.papers.shaft import printed_designs
 from camkit.render.artists import WARNING, _find, moving
 from camkit.render.design_map import design_plane, level_curve, region_below
 from camkit.render.picture import draw, layout
-from camkit.render.shaft import SHAFT_VIEWS, candidates, diameters, on_the_plane, section, utilisation
+from camkit.render.shaft import SHAFT_VIEWS, diameters, on_the_plane
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
 from camkit.views.optimiser_trials import evaluations_needed, solved_within
+from camkit.views.shaft import candidates, section, utilisation
 from camkit.views.universal_joint import JOINT_VIEWS, drive, pins
 
 OTHERS = (
@@ -155,32 +156,31 @@ def test_the_names_of_limits_keep_apart() -> None:
 
 def test_the_bars_are_the_utilisations() -> None:
     a = UniversalJointShaft().analyse()
-    _, (ax,) = drawn(a, utilisation)
+    shown = utilisation(a)
     for name, use in a.utilisation.items():
-        assert xy(ax, name)[0, 1] == pytest.approx(100 * use)
-        assert _find(ax, f"{name} value").get_text() == f"{100 * use:.1f} %"
-    utilisation(OTHERS[0].analyse(), ax)
-    assert xy(ax, "twist")[0, 1] == 125
-    assert _find(ax, "twist").get_color() == WARNING
-    assert _find(ax, "critical speed").get_color() != WARNING
+        assert shown[name].x[1] == pytest.approx(100 * use)
+        assert shown[f"{name} value"].words == f"{100 * use:.1f} %"
+    shown = utilisation(OTHERS[0].analyse())
+    assert shown["twist"].x[1] == 125
+    assert shown["twist"].role == "trouble"
+    assert shown["critical speed"].role != "trouble"
 
 
 def test_the_section_is_to_scale() -> None:
     a = UniversalJointShaft().analyse()
-    _, (ax,) = drawn(a, section)
-    assert np.hypot(*xy(ax, "outside")) == pytest.approx(128.64 / 2)
-    assert np.hypot(*xy(ax, "inside")) == pytest.approx(101.78 / 2)
-    assert ax.get_aspect() == 1
+    shown = section(a)
+    assert shown["outside"].radius == pytest.approx(128.64 / 2)
+    assert shown["inside"].radius == pytest.approx(101.78 / 2)
+    assert shown.axes.equal
     for series, tube in a.sizes.nearest(a.shaft).items():
-        radius = np.hypot(*xy(ax, series))
+        radius = np.hypot(shown[series].x, shown[series].y)
         assert np.nanmax(radius) == pytest.approx(tube.outer_diameter / mm / 2)
         assert np.nanmin(radius) == pytest.approx(tube.inner_diameter / mm / 2)
-    assert _find(ax, "GB/T 17395 size").get_text() == "nearest GB/T 17395: 133 × 16 mm"
-    section(OTHERS[2].analyse(), ax)
-    assert ax.get_xlim()[1] > 130
-    section(UniversalJointShaft(max_speed=5000 * rpm, length=5.0).analyse(), ax)
-    assert _find(ax, "GB/T 17395 size").get_text() == "no GB/T 17395 tube keeps every limit"
-    assert np.isnan(xy(ax, "GB/T 17395")).all()
+    assert shown["GB/T 17395"].label == "nearest GB/T 17395: 133 × 16 mm"
+    assert section(OTHERS[2].analyse()).axes.xlim[1] > 130
+    none = section(UniversalJointShaft(max_speed=5000 * rpm, length=5.0).analyse())["GB/T 17395"]
+    assert none.label == "no GB/T 17395 tube keeps every limit"
+    assert np.isnan([none.x, none.y]).all()
 
 
 def test_named_tubes_on_a_part_of_the_plane() -> None:
@@ -233,13 +233,13 @@ def test_candidates_are_drawn_where_they_stood() -> None:
     algorithm = CompetitiveAlgorithm().setup(StudyProblem(shaft_study()), termination=("n_gen", 21), seed=1)
     algorithm.run()
     views = candidates(optimum=4776e-6), candidates("outer_diameter", 129 * mm), candidates("inner_diameter")
-    _, axes = drawn(algorithm, *views)
+    shown = [view(algorithm) for view in views]
     x, f = algorithm.paths
     for k in range(4):
-        assert xy(axes[0], f"candidate {k}")[1] == pytest.approx(f[:, k] / mm**2)
-        assert xy(axes[2], f"candidate {k}")[1] == pytest.approx(x[:, k, 1] / mm)
-    assert xy(axes[1], "optimum")[1] == pytest.approx([129, 129])
-    assert [ax.get_ylabel() for ax in axes] == ["area of the tube  [mm^2]", "D  [mm]", "d  [mm]"]
+        assert shown[0][f"candidate {k}"].y == pytest.approx(f[:, k] / mm**2)
+        assert shown[2][f"candidate {k}"].y == pytest.approx(x[:, k, 1] / mm)
+    assert shown[1]["optimum"].y == pytest.approx([129, 129])
+    assert [one.axes.ylabel for one in shown] == ["area of the tube  [mm^2]", "D  [mm]", "d  [mm]"]
 
 
 def test_boxes_of_trials() -> None:
