@@ -104,6 +104,7 @@ class FrontsPanel(JobPanel):
             self._show()
 
     def _show_step(self, step: Step, last: bool) -> None:
+        further = step.number != self.progress.value
         self.fronts[self._name] = step.front
         self.progress.max, self.progress.value = step.of, step.number
         told = f"{self._name}: {step.number} of {step.of}"
@@ -111,7 +112,8 @@ class FrontsPanel(JobPanel):
             ended = self.runner.job and self.runner.job.ended
             told = f"all fronts are there: {sum(self.seconds.values()):.1f} s elapsed" if ended else "stopped"
         self.runner.status.value = escaped(told)
-        self._show()
+        if further:
+            self._show()
 
     # ------------------------------------------------------------ what is shown
 
