@@ -246,6 +246,8 @@ GOOD = {
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
+    "value_of.path": lambda: "base_radius",
+    "with_quantities.values": lambda: {"base_radius": 0.04},
     "AnalysisCurve.name": lambda: "pressure_angle",
     "AnalysisCurve.label": lambda: "pressure angle",
     "CycleTimePanel.explorer": lambda: app("lever"),

@@ -12,7 +12,7 @@ from ..kinds import refuse_arguments
 from ..markup import Html, html, joined, table
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
 from ..units import deg, factor, in_unit
-from ..views.motion import PROGRAM_VIEWS, ShownProgram
+from ..views.laws import PROGRAM_VIEWS, ShownProgram
 from .kit.controls import banner, show_message, tables_html
 from .kit.number import NumberBox, staying
 from .kit.panel import IMPOSSIBLE, Panel

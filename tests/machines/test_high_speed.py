@@ -553,12 +553,13 @@ def test_views_of_cams_show_it():
             (views.pressure_angle, "cam", analysis.pressure_angle / deg),
             (views.cam_torque, "cam", analysis.cam_torque / mm),
             (views.curvature, "cam", analysis.curvature * mm),
-            (views.mechanism, "profile", analysis.profile[1] / mm),
         ):
             drawn = view(analysis)[key].y
             shown = np.isfinite(drawn)  # a view may leave dwells out
             assert shown[analysis.velocity != 0].all()
             assert_allclose(drawn[shown], values[shown], atol=1e-12)
+        profile = views.mechanism(analysis)["profile"]  # the lever's cam is drawn as it stands in the press, mirrored
+        assert_allclose(np.hypot(profile.x, profile.y), np.hypot(*analysis.profile) / mm, rtol=1e-12)
 
 
 # ---------------------------------------------------------------- cam and lever

@@ -24,7 +24,7 @@ from camkit.machines.shaft import (
     tubes_that_hold,
     twist_utilisation,
 )
-from camkit.quantities import declarations
+from camkit.quantities import declarations, words
 from camkit.study.design_map import DesignMap
 from camkit.study.study import Study
 from camkit.units import GPa, MPa, deg, kW, m, mm, rpm
@@ -338,7 +338,7 @@ def test_refuses_what_is_not_positive(name, value) -> None:
     declared = declarations(UniversalJointShaft)[name]
     unit = f" {declared.unit}".rstrip()
     assert refusal(**{name: value}) == (
-        f"the {name.replace('_', ' ')} {declared.symbol} ({declared.meaning}) is {declared.text(value)}; "
+        f"the {words(name)} {declared.symbol} ({declared.meaning}) is {declared.text(value)}; "
         f"it must be a finite number above 0{unit}"
     )
 
