@@ -73,15 +73,7 @@ def judgement_ranges(front: Any, judgements: Any, choose: Chooser = weighted_sum
         weights = judged_weights(_rejudged(judged.array, pairs, values), judged.method)
         return np.reshape(choose(front, weights.reshape(-1, weights.shape[-1])), values.shape)
 
-    stays, goes = np.broadcast_to(now[:, None, None], (*ends.shape, 1)), ends[..., None]
-    changes = np.zeros(ends.shape, dtype=bool)
-    for parts in PARTS:
-        share = np.linspace(0, 1, parts + 1)
-        values = stays ** (1 - share) * goes**share
-        others = winners(values) != winner
-        changes = changes | others.any(-1)
-        first = np.maximum(np.argmax(others, axis=-1), 1)[..., None]
-        stays, goes = (np.take_along_axis(values, first - back, axis=-1) for back in (1, 0))
+    stays, goes, changes = _first_changes(now, ends, lambda values: winners(values) != winner)
     next_ = winners(goes)[..., 0]
     far = np.where(changes, stays[..., 0], ends)
     return tuple(
@@ -90,6 +82,22 @@ def judgement_ranges(front: Any, judgements: Any, choose: Chooser = weighted_sum
         )
         for pair, v, (low, high), n2, c2 in zip(pairs, now, far, next_, changes, strict=True)
     )
+
+
+def _first_changes(
+    now: np.ndarray, ends: np.ndarray, other: Callable[[np.ndarray], np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """From ``now`` to both ``ends``: the last value without an ``other`` winner, the first with one, if any."""
+    stays, goes = np.broadcast_to(now[:, None, None], (*ends.shape, 1)), ends[..., None]
+    changes = np.zeros(ends.shape, dtype=bool)
+    for parts in PARTS:
+        share = np.linspace(0, 1, parts + 1)
+        values = stays ** (1 - share) * goes**share
+        others = other(values)
+        changes = changes | others.any(-1)
+        first = np.maximum(np.argmax(others, axis=-1), 1)[..., None]
+        stays, goes = (np.take_along_axis(values, first - back, axis=-1) for back in (1, 0))
+    return stays, goes, changes
 
 
 def _rejudged(matrix: np.ndarray, pairs: list[tuple[int, int]], values: np.ndarray) -> np.ndarray:

@@ -134,9 +134,9 @@ def session_of(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Me
 
 
 def _front(study: Study, entry: Mapping[str, Any], reading: Reading) -> Front:
-    x, record = x_of(entry["front"], study), _record(entry["record"])
+    x, record, said = x_of(entry["front"], study), _record(entry["record"]), message(entry.get("message", ""))
     if not len(x):
-        return empty_front(study, message(entry.get("message", "")), record)
+        return empty_front(study, said, record)
     front = front_of(study.evaluate(x), study)
     reading.remarks.extend(left_out(len(x), len(front)))
     return replace(front, record=record)

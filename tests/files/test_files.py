@@ -469,7 +469,7 @@ def test_every_flipped_digit_is_noticed(name):
             found = read_json(flipped)
         except ValueError:
             continue
-        assert found.remarks == (EDITED,), text[i - 30 : i + 10]
+        assert found.remarks[0] == EDITED, text[i - 30 : i + 10]
     assert len(places) > 90
 
 
@@ -636,7 +636,7 @@ def test_a_wrong_kind_in_any_field_is_refused_or_changes_nothing_that_breaks(nam
         for rubbish in RUBBISH:
             inner[last] = copy.deepcopy(rubbish)
             tried += 1
-            found, sentence = told_of(partial(read, json.dumps(content)))
+            found, sentence = told_of(partial(read_json, json.dumps(content)))
             assert not re.search(f"{PYTHON}|\n", sentence), sentence
             assert len(sentence) < 500
             refused += bool(sentence)
