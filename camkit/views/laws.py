@@ -95,7 +95,7 @@ def law_overlay(k: int, name: str) -> View:
 
     def view(laws: Sequence[Law]) -> Picture:
         marks = [
-            Line(law.name, SHARES, law(SHARES)[k], role="series", index=i, label=law.name if k == 0 else "")
+            Line(f"{i} {law.name}", SHARES, law(SHARES)[k], role="series", index=i, label=law.name if k == 0 else "")
             for i, law in enumerate(laws)
         ]
         return picture(Axes(title=name, xlabel="share of the angle", ylabel=f"{'svaj'[k]}"), marks)
@@ -149,4 +149,4 @@ def vibration_left(shown: ShownVibration) -> Picture:
 
 def _ringing(tau: Any, law: Law, residual: Any, index: int) -> Line:
     style: Any = {"role": "series", "index": index, "label": law.name}
-    return Line(law.name, tau, np.maximum(100 * residual, 1e-4), **style)
+    return Line(f"{index} {law.name}", tau, np.maximum(100 * residual, 1e-4), **style)

@@ -22,7 +22,7 @@ def limit_sweep(sweep: Sweep) -> Picture:
     x, now = sweep.x / sweep.declared.factor, sweep.now / sweep.declared.factor
     told = words(sweep.name)
     limits = [
-        Line(measure.name, x, np.clip(100 * excess, LOWEST, HIGHEST), role="series", index=i, label=measure.name)
+        Line(f"limit {i}", x, np.clip(100 * excess, LOWEST, HIGHEST), role="series", index=i, label=measure.name)
         for i, (measure, excess) in enumerate(zip(sweep.measures, sweep.limits, strict=True))
     ]
     axes = Axes(

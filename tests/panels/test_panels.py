@@ -367,7 +367,7 @@ def test_five_limits_are_swept_and_five_cams_stand_beside_each_other():
     }
     study = Study(TranslatingFlatCam(), {"base_radius": (10 * mm, 60 * mm)}, (max_pressure_angle,), at_most=limits)
     drawn = [mark for mark in limit_sweep(Sweep(study, n=9)).marks if mark.role == "series"]
-    assert [mark.key for mark in drawn] == [m.name for m in limits]
+    assert [mark.label for mark in drawn] == [m.name for m in limits]
     assert [mark.index for mark in drawn] == [0, 1, 2, 3, 4]
 
     cams = {f"cam {i}": OscillatingRollerCam(roller_radius=(4 + i) * mm).analyse() for i in range(5)}
@@ -465,6 +465,6 @@ def test_a_groove_names_its_flanks():
 
 
 def test_without_views_a_panel_shows_what_the_design_offers():
-    panel = explore(OscillatingFlatCam(), free=["arm_length"], width=5, height=4)
+    panel = explore(OscillatingFlatCam(), free=["arm_length"])
     assert panel.picture.views == default_views(panel.analysis)
     assert list(panel.positions) == ["turn"]
