@@ -23,11 +23,13 @@ from camkit import (
     DesignMap,
     Dwell,
     FreePolynomial,
+    Judgements,
     Measure,
     MotionProgram,
     PeakMeasure,
     Return,
     Rise,
+    Session,
     Skewed,
     SliderLoad,
     SplineLaw,
@@ -120,6 +122,8 @@ GIVEN = {
     AnalysisCurve: ("pressure_angle", "deg", "pressure angle"),
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
     Choice: ("law", LAW, (LAW,), "the law"),
+    Judgements: (("angle", "force"), [3]),
+    Session: (STUDY, TranslatingRollerCam()),
 }
 """What the constructors that have no defaults are given."""
 
@@ -211,7 +215,7 @@ FUNCTIONS = {
     camkit.knee: {"front": FRONT, "weights": (1, 1)},
     camkit.topsis: {"front": FRONT, "weights": (1, 1), "scale": "range"},
     camkit.weighted_sum: {"front": FRONT, "weights": (1, 1)},
-    camkit.judgement_ranges: {"front": FRONT, "judgements": [3], "method": "geometric"},
+    camkit.judgement_ranges: {"front": FRONT, "judgements": [3]},
     camkit.winner_map: {"front": FRONT},
     camkit.line_contact: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
     camkit.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..decision import Judgements
 from ..kinds import refuse_kinds
-from ..quantities import Measure
+from ..quantities import Analysable, Measure
 from ..search.front import Front, front_of
 from ..study.study import Study
 from .checks import count, listed, mapping, message, plain
@@ -54,7 +54,7 @@ class Session:
     """
 
     study: Study
-    design: Any
+    design: Analysable
     judgements: Mapping[str, Judgements] = field(default_factory=dict)
     search: Mapping[str, Any] = field(default_factory=dict)
     front: Front = None  # type: ignore[assignment]

@@ -19,7 +19,7 @@ from ..kinds import refuse_arguments, whole
 from ..quantities import counted
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
-from .minimum import Found, Minimum, described
+from .minimum import SAME, Found, Minimum, described
 from .protocol import Step, plain, stepwise
 
 ROUGH, EXACT = 1e-6, 1e-10
@@ -125,7 +125,7 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
             break
     best, used, finished = _tightened(study, judge, _better(judge, *ends))
     stopped = "the slopes show no way down" if finished else "no step made the design better"
-    f = tuple(f if broken == 0 else np.inf for broken, f in merits)
+    f = tuple(f if broken < SAME else np.inf for broken, f in merits)
     return Found(best, evaluations + used, f, stopped)
 
 

@@ -37,8 +37,8 @@ class Minimum:
     """The best design that a search found; ``message`` says in words why it stopped and what holds the design there.
 
     ``x`` are its free values in SI, ``f`` the objective, ``ends`` the objectives at which each start ended (``inf``
-    where a limit is broken), ``evaluations`` how many designs were evaluated.  While the search goes on, ``message``,
-    ``ends`` and ``active`` are empty.
+    where limits are missed by `SAME` or more), ``evaluations`` how many designs were evaluated.  While the search goes
+    on, ``message``, ``ends`` and ``active`` are empty.
     """
 
     study: Study

@@ -261,7 +261,7 @@ def test_a_judgement_changes_weights_front_and_winner(book: Workbook) -> None:
 
     judged = ahp([2, 5, 1])
     expect(book.criteria.locator("td b")).to_have_text([f"{w:.4f}" for w in judged.weights])
-    assert book.value("criteria.judgement.consistency_ratio") == pytest.approx(judged.consistency_ratio, abs=1e-12)
+    assert book.value("criteria.judgements.consistency_ratio") == pytest.approx(judged.consistency_ratio, abs=1e-12)
     rows = -np.arange(3.0)
     ends = 100 * judged.weights
     eventually(lambda: drawn(book, "criteria", 0, [ends - 0.7, rows], BLUE, within=0).all())

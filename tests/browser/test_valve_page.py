@@ -103,7 +103,7 @@ def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
     shows(book, START.with_spring())
     book.bench.get_by_role("button", name="Keep 4.5 mm everywhere").click()
     shows(book, keeping_least_radius(START.with_spring()))
-    assert book.value("app.analysis.least_radius") == pytest.approx(4.5 * mm, rel=1e-9)
+    assert book.value("app.analysis.min_radius") == pytest.approx(4.5 * mm, rel=1e-9)
 
 
 def test_what_cannot_be_built_is_said_in_a_sentence(book: Workbook) -> None:

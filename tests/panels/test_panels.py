@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from functools import partial
-from operator import attrgetter
 
 import ipywidgets as w
 import numpy as np
@@ -22,6 +21,7 @@ from camkit import (
     door_handle_study,
     explore,
     mm,
+    value_of,
 )
 from camkit.cam.measures import max_pressure_angle
 from camkit.cam.undercut import undercut_in_words
@@ -167,7 +167,7 @@ def assert_shows_its_design(panel):
         assert panel._table.layout.display == "none"
         return
     for name, knob in panel.controls.items():
-        assert knob.value == attrgetter(name)(panel.design), name
+        assert knob.value == value_of(panel.design, name), name
 
 
 @pytest.mark.slow

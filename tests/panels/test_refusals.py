@@ -290,7 +290,6 @@ IN_WORDS = {
     "a complex front": lambda: topsis([[1, 2j], [2, 1]]),
     "a ragged front": lambda: topsis([[1, 2], [1]]),
     "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),
-    "a picture without a view": lambda: picture(CAM),
     "a profile of many": lambda: profile_csv(DoorHandleCam(lift_arm=np.array([[0.05], [0.06]])).analyse(31)),
     "a file that is not there": lambda: read("no such file.json"),
 }
