@@ -203,6 +203,10 @@ class Choice:
             return False
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
 
+    def same_as(self, value: Any) -> Any:
+        """The plain option that equals ``value``, whose type may be another, such as numpy's; else ``value`` itself."""
+        return next(option for option in self.options if option == value) if self._plain else value
+
     @property
     def offered(self) -> str:
         """The names of the options, the first of them where they are many."""
@@ -321,6 +325,8 @@ class Declared:
                 self._check(name, entry, value)
             elif not entry.allows(value):
                 raise ValueError(f"the {words(name)} is {shown(value)}; it must be {entry.possible}")
+            elif (option := entry.same_as(value)) is not value:
+                object.__setattr__(self, name, option)
 
     def _check(self, name: str, declared: Quantity, given: Any) -> None:
         """Refuse one number that cannot be built; drop the members of a population that cannot."""

@@ -36,9 +36,9 @@ def nsga2_steps(
     the search goes on from it, first giving the generation that it holds; see `nsga2`.  Where the file cannot be
     written the search goes on without it, and the ``message`` says why from then on.
     """
-    whole(population, "the population", 4)
-    whole(generations, "the number of generations", 1)
-    whole(seed, "the seed", 0, MOST_SEED)
+    population = whole(population, "the population", 4)
+    generations = whole(generations, "the number of generations", 1)
+    seed = whole(seed, "the seed", 0, MOST_SEED)
     refuse_arguments(nsga2_steps, locals())
     algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, repair=OnGrid())
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)

@@ -129,6 +129,8 @@ def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
 def _numbers(measure: Measure, analysis: Any, p: int) -> Any:
     """A measure of ``p`` designs, ``(p,)``."""
     value = measure(analysis)
+    if np.ma.isMaskedArray(value) or np.asarray(value).dtype.kind not in "fiub":
+        raise ValueError(f"the {measure.name} gives {shown(value)}; a measure gives real numbers")
     try:
         return np.broadcast_to(value, p)
     except ValueError:
@@ -190,6 +192,8 @@ class Study:
         given: Any = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
+        if twice := [name for i, name in enumerate(given) if name in list(given)[:i]]:
+            raise ValueError(f"the study frees {shown(twice[0])} twice; each quantity can be free once")
         if not isinstance(self.free, Mapping):
             ranges = {path: (q.low * q.factor, q.high * q.factor) for path, q in self.declared.items()}
             object.__setattr__(self, "free", ranges)

@@ -1,10 +1,10 @@
 """Views of motion by their marks."""
 
 import numpy as np
-from camkit.views.motion import LAW_VIEWS, PROGRAM_VIEWS, ShownProgram, ShownVibration, vibration_left
 from numpy.testing import assert_allclose
 
 from camkit import Cycloidal, Dwell, MotionProgram, Parabolic, Return, Rise, deg, mm, residual_vibration
+from camkit.views.laws import LAW_VIEWS, PROGRAM_VIEWS, ShownProgram, ShownVibration, vibration_left
 
 PARABOLIC = Parabolic()
 PROGRAM = MotionProgram((Rise(90 * deg, 20 * mm, PARABOLIC), Dwell(60 * deg), Return(210 * deg, 20 * mm, Cycloidal())))
