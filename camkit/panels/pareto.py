@@ -230,7 +230,8 @@ class ParetoPanel(Panel):
         if self._running():
             return
         try:
-            session = replace(self.session(), study=self._study())
+            study = self._study()
+            session = replace(self.session(), study=study, front=sessions.empty_front(study))
         except IMPOSSIBLE as refusal:
             show_message(self._banner, f"This cannot be searched: {refusal}.")
             return
