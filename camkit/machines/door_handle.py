@@ -198,16 +198,8 @@ class DoorHandleAnalysis:
     ``cam_angle[..., :k]`` is the relief crank's motion, the rest the lift crank's.
     """
 
-    offers: ClassVar[tuple[str, ...]] = (
-        "bodies",
-        "motion",
-        "pressure_angle",
-        "contact_force",
-        "cam_torque",
-        "curvature",
-        "efficiency",
-    )
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
+    offers: ClassVar[tuple[str, ...]] = OscillatingRollerAnalysis.offers
+    """The shapes and curves that are shown of it where nobody chooses: those of each of its curves."""
 
     cam: DoorHandleCam
     cam_angle: np.ndarray

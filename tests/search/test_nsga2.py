@@ -427,3 +427,9 @@ def test_a_checkpoint_is_replaced_whole(kept, monkeypatch):
         before.write(kept)
     assert isinstance(read(kept), Checkpoint)
     assert read(kept).number == before.number
+
+
+def test_numbers_of_numpy_are_the_numbers_that_they_are():
+    """An unsigned population is no larger than the same number without a type."""
+    plain, unsigned = (nsga2(two_places(), kind(8), kind(3), kind(1)) for kind in (int, np.uint16))
+    assert_array_equal(unsigned.x, plain.x)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 import camkit
-from camkit import DoubleUniversalJoint, Friction, Measure, Study, minimise, weighted
+from camkit import DoubleUniversalJoint, Friction, Measure, Study, TranslatingRollerCam, minimise, weighted
 from camkit.linkage.load import RockerLoad
 from camkit.linkage.measures import swing
 from camkit.linkage.rssr import RSSR
@@ -209,3 +209,40 @@ def test_every_design_is_analysed_at_a_number_of_positions(kind) -> None:
         assert np.size(measure(one)) == 1, measure.name
         both = np.broadcast_to(measure(two), 2)
         assert both == pytest.approx([measure(one)] * 2, rel=1e-9, nan_ok=True), measure.name
+
+
+# ---------------------------------------------------------------- what is taken for another thing
+
+
+def height(analysis):
+    return analysis.pitch_radius.max(-1)
+
+
+def a_study(**changes):
+    return Study(TranslatingRollerCam(), ["base_radius"], [Measure("height", "mm", height)], angles=31).replace(
+        **changes
+    )
+
+
+@pytest.mark.parametrize("rotation", [np.uint8(1), np.int64(-1), np.float64(-1.0), np.True_])
+def test_an_option_of_another_type_is_the_option_that_it_equals(rotation):
+    """An unsigned number would turn the sign of an offset round; what is kept is the option itself."""
+    meant = TranslatingRollerCam(rotation=int(rotation), offset=0.005)
+    cam = TranslatingRollerCam(rotation=rotation, offset=0.005)
+    assert type(cam.rotation) is int
+    assert cam == meant
+    assert_allclose(cam.analyse(31).profile, meant.analyse(31).profile, rtol=0, atol=0)
+
+
+def test_a_quantity_is_free_once():
+    with pytest.raises(ValueError, match="the study frees 'base_radius' twice"):
+        a_study(free=["base_radius", "base_radius"])
+
+
+@pytest.mark.parametrize("value", [np.ma.masked, 0.5 + 9j, "x"], ids=str)
+def test_a_measure_gives_real_numbers(value):
+    """Neither as an objective nor as a limit, which it would have kept."""
+    odd = Measure("odd", "", lambda analysis: value)
+    for study in (a_study(minimise=(odd,)), a_study(at_most={odd: 1.0})):
+        with pytest.raises(ValueError, match=r"^the odd gives .*; a measure gives real numbers$"):
+            study.evaluate([[0.03]])
