@@ -237,11 +237,11 @@ def run_all(page: Page, timeout: float = 120) -> None:
         page.wait_for_function(_RAN, timeout=1000 * timeout)
     except PlaywrightTimeout:
         state = page.evaluate(_STATE)
-        running = [f"cell {i}:\n{cell['source']}" for i, cell in enumerate(state["cells"]) if cell["running"]]
-        raise AssertionError(
-            f"after {timeout:g} s the kernel is {state['kernel']} and still runs {running[0] if running else 'no cell'}"
-            f"{_dialog(page)}"
-        ) from None
+        running = [
+            f"cell {i} still runs:\n{cell['source']}" for i, cell in enumerate(state["cells"]) if cell["running"]
+        ]
+        no_cell = f"no cell runs and the kernel is {state['kernel']}"
+        raise AssertionError(f"after {timeout:g} s {running[0] if running else no_cell}{_dialog(page)}") from None
     for i, cell in enumerate(page.evaluate(_STATE)["cells"]):
         if cell["error"]:
             traceback = re.sub(r"\x1b\[[0-9;]*m", "", "\n".join(cell["error"]["traceback"]))
