@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .kinds import numbers
+from .quantities.kinds import numbers
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 """``(z/a)^2`` where the shear below the middle of a line contact is largest: the root of ``t^2 + t = 1``."""

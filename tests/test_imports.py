@@ -56,6 +56,16 @@ def test_the_maths_imports_numpy_and_scipy_only() -> None:
     python("-c", ONLY_NUMPY_AND_SCIPY, *maths(), cwd=REPOSITORY)
 
 
+GROUND = {"units", "quantities", "geometry", "contact", "data"}
+WINGS = {*("motion", "cam", "linkage", "machines", "study", "search", "decision"), *("files", "papers", "views"),
+         *("render", "panels")}  # fmt: skip
+
+
+def test_nothing_else_stands_at_the_root() -> None:
+    found = {path.stem for path in (REPOSITORY / "camkit").iterdir() if path.name not in ("__init__.py", "__pycache__")}
+    assert found == GROUND | WINGS
+
+
 def test_a_forbidden_import_would_be_seen() -> None:
     refused = subprocess.run([sys.executable, "-c", ONLY_NUMPY_AND_SCIPY, "matplotlib"], capture_output=True, text=True)
     assert "matplotlib is not part of the maths" in refused.stderr

@@ -17,7 +17,6 @@ import camkit
 from camkit import Judgements, Study
 from camkit.decision import side_by_side
 from camkit.files.profiles import table_csv
-from camkit.markup import Html, attribute, csv_cell, escaped, html, joined, markdown, table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from camkit.panels import (
     ahp_panel,
@@ -34,6 +33,7 @@ from camkit.panels import (
 )
 from camkit.papers.published import Comparison, Row, Table
 from camkit.quantities import Design, Measure, quantity
+from camkit.quantities.markup import Html, attribute, csv_cell, escaped, html, joined, markdown, table
 from camkit.render.picture import picture
 from camkit.search.nsga2 import nsga2
 from camkit.units import deg, mm

@@ -15,10 +15,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..geometry import Body, offset_curvature, rotated
-from ..kinds import columns
 from ..motion import Kinematics
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
+from ..quantities.kinds import columns
 from . import bodies, groove, peaks, statics
 from .peaks import Extreme
 

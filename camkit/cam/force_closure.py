@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..contact import LineContact, contact_modulus, line_contact
-from ..kinds import applied, numbers, refuse_arguments, shown
 from ..quantities import Design, fails, quantity
+from ..quantities.kinds import applied, numbers, refuse_arguments, shown
 
 
 def jump_speed(analysis: Any) -> Any:

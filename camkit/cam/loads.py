@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, shown
 from ..quantities import Design, quantity
+from ..quantities.kinds import numbers, shown
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,9 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Body, Outline
-from ..kinds import a_number
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
+from ..quantities.kinds import a_number
 from ..units import deg, mm, rpm
 from . import bodies
 from .analysis import FlatAnalysis, lowest

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import one_number
 from ..quantities import fails
+from ..quantities.kinds import one_number
 from ..study.study import Study
 from ..units import deg, mm
 

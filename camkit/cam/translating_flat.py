@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Body, Outline
-from ..kinds import a_number
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities.kinds import a_number
 from ..units import mm
 from . import bodies
 from .analysis import FlatAnalysis, lowest

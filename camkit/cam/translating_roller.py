@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Body
-from ..kinds import a_number
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities.kinds import a_number
 from ..units import deg, mm
 from . import bodies
 from .analysis import RollerAnalysis, highest

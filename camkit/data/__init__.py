@@ -6,7 +6,7 @@ import json
 from importlib.resources import files
 from typing import Any
 
-from ..kinds import shown
+from ..quantities.kinds import shown
 
 
 def load(name: str) -> Any:

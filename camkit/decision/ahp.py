@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from ..kinds import listed, refuse_arguments, shown
 from ..quantities import counted
-from ..typed import typed_number
+from ..quantities.kinds import listed, refuse_arguments, shown
+from ..units.typed import typed_number
 from .weights import completed, judged_weights, lambda_max, refuse_method
 
 RANDOM_INDEX = (0, 0, 0.58, 0.90, 1.12, 1.24, 1.32, 1.41, 1.45, 1.49)

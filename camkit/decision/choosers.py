@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, shown
+from ..quantities.kinds import numbers, shown
 from .ahp import Judgements
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_arguments, shown
-from ..markup import Html, attribute, html, markdown, table
 from ..quantities import Measure, can_be_analysed, declared_in, value_of, words
+from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.markup import Html, attribute, html, markdown, table
 from ..study.study import Study, keeps
 
 NOT_MET = "not met"

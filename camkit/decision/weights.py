@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, shown
+from ..quantities.kinds import numbers, shown
 
 ROUNDS, SETTLED = 1000, 1e-13
 """How often missing judgements are improved at most, and by which share the last round may still move them."""

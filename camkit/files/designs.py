@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .. import kinds
-from ..quantities import Design, Measure
+from ..quantities import Design, Measure, kinds
 from ..search.front import Front
 from .checks import mapping
 from .entries import Reading, entry_of

@@ -16,9 +16,9 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from ..kinds import kind_words
 from ..motion import Law, MotionProgram, Segment
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
+from ..quantities.kinds import kind_words
 from ..units import factor, in_unit
 from .json_file import shown
 from .renamed import Renaming

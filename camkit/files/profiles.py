@@ -11,8 +11,8 @@ import numpy as np
 
 from ..cam.flank import flanks
 from ..cam.undercut import INNER, ONLY, OUTER, undercut_in_words
-from ..kinds import refuse_arguments, shown
-from ..markup import csv_cell
+from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.markup import csv_cell
 from ..units import in_unit
 
 FAULT = "FAULT"

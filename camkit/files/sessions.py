@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..decision import Judgements
-from ..kinds import refuse_kinds
 from ..quantities import Analysable, Measure
+from ..quantities.kinds import refuse_kinds
 from ..search.front import Front, front_of
 from ..study.study import Study
 from .checks import count, listed, mapping, message, plain

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import kind_words
 from ..quantities import Design, Measure, quantities_of, words
+from ..quantities.kinds import kind_words
 from ..study.study import Study, WeightedSum, weighted
 from ..units import factor
 from .checks import all_numbers, count, listed, mapping, plain

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, numbers, refuse_arguments
 from ..quantities import Measure, PeakMeasure
+from ..quantities.kinds import a_number, numbers, refuse_arguments
 from ..study.residuals import SumOfResiduals
 from ..units import deg
 from .space import Box

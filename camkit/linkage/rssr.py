@@ -16,8 +16,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..kinds import number, numbers, shown
 from ..quantities import Design, Quantity, counted, declarations, fails, quantity
+from ..quantities.kinds import number, numbers, shown
 from ..units import deg, mm
 from . import limits
 from .load import RockerLoad

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, refuse_kinds, shown
+from ..quantities.kinds import numbers, refuse_kinds, shown
 from ..units import mm
 
 

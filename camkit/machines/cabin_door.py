@@ -13,7 +13,6 @@ from functools import cached_property
 
 import numpy as np
 
-from ..kinds import refuse_arguments, shown
 from ..linkage.load import RockerLoad
 from ..linkage.measures import (
     MAKERS,
@@ -30,6 +29,7 @@ from ..linkage.measures import (
 from ..linkage.rssr import RSSR, Links, RSSRAnalysis
 from ..linkage.space import Box
 from ..quantities import Measure, choice, counted, fails, quantity
+from ..quantities.kinds import refuse_arguments, shown
 from ..study.study import Space, Study
 from ..units import deg, mm
 

@@ -19,8 +19,8 @@ import numpy as np
 from ..cam import bodies
 from ..cam.loads import Table, refuse_table, tabulated
 from ..geometry import Body, Outline, rotated
-from ..kinds import refuse_arguments
 from ..quantities import Measure, declarations, fails, quantity
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis, number

@@ -33,9 +33,9 @@ from ..cam.measures import (
 from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
 from ..decision import Judgements
 from ..geometry import Body, angle_opposite, rotated
-from ..kinds import listed, refuse_arguments
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
+from ..quantities.kinds import listed, refuse_arguments
 from ..study.study import Space, Study, weighted
 from ..units import deg, mm
 

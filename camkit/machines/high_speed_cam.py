@@ -20,10 +20,10 @@ import numpy as np
 from ..cam.directions import ROTATIONS
 from ..cam.loads import Friction
 from ..geometry import angle_opposite
-from ..kinds import shown
 from ..motion import LAWS, Dwell, Law, MotionProgram, Poly345, Return, Rise
 from ..motion.families.shaped import DEGREE9, FAMILIES, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities.kinds import shown
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_load import ConstantTorque, InertialSpringLoad

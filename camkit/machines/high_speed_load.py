@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..kinds import a_number, refuse_kinds
 from ..motion import Kinematics
 from ..quantities import Design, quantity, words
+from ..quantities.kinds import a_number, refuse_kinds
 
 
 @dataclass(frozen=True)

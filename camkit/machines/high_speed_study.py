@@ -10,8 +10,8 @@ from operator import attrgetter
 from typing import Any
 
 from ..cam.force_closure import jump_speed
-from ..kinds import refuse_arguments
 from ..quantities import Measure, PeakMeasure
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Space, Study
 from ..units import mm
 from .high_speed_analysis import number

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from ..data import load
-from ..kinds import numbers, refuse_arguments, shown
 from ..quantities import Design, Measure, declarations, fails, quantity, words
+from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.design_map import DesignMap
 from ..study.study import Space, Study
 from ..units import GPa, MPa, deg, kg, kW, m, mm, rpm

@@ -19,9 +19,9 @@ import numpy as np
 
 from ..cam.force_closure import ContactPair
 from ..cam.slide import SlideLoad
-from ..kinds import one_number
 from ..motion import MotionProgram, Return, Rise
 from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity, unremarked
+from ..quantities.kinds import one_number
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
 from .valve_motion import BLEND, Backwards, Flank, Ramp

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..cam.measures import max_pressure_angle, peak, peak_force
-from ..kinds import listed, refuse_arguments
 from ..quantities import Measure
+from ..quantities.kinds import listed, refuse_arguments
 from ..study.study import Space, Study, WeightedSum, weighted
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis

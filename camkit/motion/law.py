@@ -9,8 +9,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import numbers
 from ..quantities import Declared
+from ..quantities.kinds import numbers
 
 ROUNDING = 1e-9
 """How far outside [0, 1] a ``u`` may lie and still be taken for the end that was meant."""

@@ -23,8 +23,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
 from ..quantities import Declared, Quantity, fails
+from ..quantities.kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
 from ..units import deg
 from .closing import TURN, closed, closing
 from .law import Kinematics

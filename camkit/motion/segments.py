@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import a_number, finite, number, refuse_lengths, shown
 from ..quantities import Choice, Declared, Quantity, fails
+from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
 from ..units import in_unit
 from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kinds import a_number, numbers, shown
+from ..quantities.kinds import a_number, numbers, shown
 from .law import Kinematics, Law
 from .program import MotionProgram
 

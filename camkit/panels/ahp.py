@@ -12,8 +12,8 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import SAATY_SCALE, Judgements, ahp, typed_judgement
-from ..kinds import refuse_arguments
-from ..markup import Html, escaped, html, table
+from ..quantities.kinds import refuse_arguments
+from ..quantities.markup import Html, escaped, html, table
 from ..views.front import weight_bars
 from .kit.controls import banner, show_message, small_html, tables_html
 from .kit.panel import Panel

@@ -13,9 +13,9 @@ import numpy as np
 from PIL import Image
 
 from ..decision import JudgementRange, Judgements
-from ..kinds import refuse_arguments
-from ..markup import Html, attribute, html, joined, table
 from ..quantities import Measure, words
+from ..quantities.kinds import refuse_arguments
+from ..quantities.markup import Html, attribute, html, joined, table
 from ..render.decision import (
     MARKS,
     ShownDecision,

@@ -9,9 +9,9 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..kinds import a_number, refuse_arguments, refuse_empty
-from ..markup import html, joined
 from ..quantities import Measure, Quantity, value_of, with_quantities, words
+from ..quantities.kinds import a_number, refuse_arguments, refuse_empty
+from ..quantities.markup import html, joined
 from ..render.contours import ShownPlane, objective_plane
 from ..study.design_map import DesignMap
 from ..study.study import Study, WeightedSum, made_study

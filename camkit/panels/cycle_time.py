@@ -7,8 +7,8 @@ from typing import Any
 
 import ipywidgets as w
 
-from ..kinds import a_number, refuse_arguments
 from ..quantities import Measure, Quantity
+from ..quantities.kinds import a_number, refuse_arguments
 from ..search.cycle_time import IntervalStep, cycle_time_steps
 from ..search.protocol import Step
 from ..study.study import Study, made_study

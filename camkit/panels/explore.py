@@ -10,8 +10,6 @@ import numpy as np
 
 from ..cam.undercut import undercut_in_words
 from ..files import designs, profiles
-from ..kinds import refuse_arguments, shown
-from ..markup import html, table
 from ..quantities import (
     Analysable,
     Choice,
@@ -24,6 +22,8 @@ from ..quantities import (
     with_quantities,
     words,
 )
+from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.markup import html, table
 from ..render.picture import below, positions_of, small_png, strip
 from ..study.study import keeps, refuse_limits
 from ..study.tolerances import ANGLES

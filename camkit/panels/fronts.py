@@ -9,8 +9,8 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..kinds import refuse_arguments
-from ..markup import Html, escaped, table
+from ..quantities.kinds import refuse_arguments
+from ..quantities.markup import Html, escaped, table
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
 from ..search.protocol import Step

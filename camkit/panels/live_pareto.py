@@ -11,9 +11,9 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import CHOOSERS
-from ..kinds import refuse_arguments, refuse_empty
-from ..markup import html, joined
 from ..quantities import Paths, Quantity, value_of, with_quantities, words
+from ..quantities.kinds import refuse_arguments, refuse_empty
+from ..quantities.markup import html, joined
 from ..search.fast_front import quick_front
 from ..search.front import Front
 from ..search.protocol import search

@@ -8,9 +8,9 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..kinds import refuse_arguments, shown
-from ..markup import escaped
 from ..quantities import Measure
+from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.markup import escaped
 from ..search.minimise import METHODS
 from ..search.minimum import Minimum
 from ..search.protocol import Evaluated, Step, search

@@ -15,9 +15,9 @@ import numpy as np
 
 from ..decision import CHOOSERS, Judgements
 from ..files import Session, designs, sessions
-from ..kinds import kind_words, refuse_arguments, refuse_empty, whole
-from ..markup import Html, escaped, html, joined
 from ..quantities import Measure, Paths, Quantity, words
+from ..quantities.kinds import kind_words, refuse_arguments, refuse_empty, whole
+from ..quantities.markup import Html, escaped, html, joined
 from ..search.checkpoint import fingerprint, resume, why
 from ..search.front import Front, front_of, reference_point
 from ..search.protocol import Step, search

@@ -7,7 +7,7 @@ from typing import Any
 
 import ipywidgets as w
 
-from ..kinds import refuse_arguments
+from ..quantities.kinds import refuse_arguments
 from .explore import Explorer
 from .kit.controls import banner, show_message
 from .kit.panel import IMPOSSIBLE, Panel

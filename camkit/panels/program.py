@@ -8,9 +8,9 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..kinds import refuse_arguments
-from ..markup import Html, html, joined, table
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
+from ..quantities.kinds import refuse_arguments
+from ..quantities.markup import Html, html, joined, table
 from ..units import deg, factor, in_unit
 from ..views.laws import PROGRAM_VIEWS, ShownProgram
 from .kit.controls import banner, show_message, tables_html

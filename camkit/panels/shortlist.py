@@ -8,7 +8,7 @@ from typing import Any
 import ipywidgets as w
 
 from ..decision import SideBySide, side_by_side
-from ..kinds import refuse_arguments
+from ..quantities.kinds import refuse_arguments
 from ..render.draw import colour
 from ..study.study import Study
 from ..views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid

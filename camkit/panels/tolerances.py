@@ -9,9 +9,9 @@ from typing import Any, Protocol, runtime_checkable
 import ipywidgets as w
 import numpy as np
 
-from ..kinds import refuse_arguments
-from ..markup import Html, table
 from ..quantities import Quantity, value_of, words
+from ..quantities.kinds import refuse_arguments
+from ..quantities.markup import Html, table
 from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance

@@ -7,7 +7,7 @@ from typing import Any
 
 import ipywidgets as w
 
-from ..kinds import refuse_arguments
+from ..quantities.kinds import refuse_arguments
 from .kit.number import NumberBox
 
 KINDS = (

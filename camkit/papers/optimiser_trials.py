@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import binomtest, mannwhitneyu
 
 from ..data import load
-from ..kinds import listed, one_number, refuse_arguments, refuse_empty
+from ..quantities.kinds import listed, one_number, refuse_arguments, refuse_empty
 from .published import Table
 
 

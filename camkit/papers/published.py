@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..kinds import refuse_kinds
-from ..markup import html, table
+from ..quantities.kinds import refuse_kinds
+from ..quantities.markup import html, table
 
 
 @dataclass(frozen=True)

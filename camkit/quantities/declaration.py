@@ -14,8 +14,8 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
-from ..kinds import number, refuse_kinds, shown, whole
 from ..units import factor, in_unit
+from .kinds import number, refuse_kinds, shown, whole
 
 OURS = __name__.partition(".")[0]
 BEYOND = 1000

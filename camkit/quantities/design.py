@@ -7,9 +7,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..kinds import refuse_kinds, refuse_lengths
-from ..markup import Html, html, table
 from .declaration import Choice, Declared, Quantity, declarations, words
+from .kinds import refuse_kinds, refuse_lengths
+from .markup import Html, html, table
 from .measure import Measure
 from .tree import declared_in, value_of
 

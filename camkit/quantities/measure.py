@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..kinds import applied, refuse_kinds, shown
 from ..units import factor, in_unit
+from .kinds import applied, refuse_kinds, shown
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kinds import shown
 from .declaration import Choice, Declared, Quantity
+from .kinds import shown
 
 NEAR, FEW = 3, 12
 """So many paths near a wrong one are named, and as many as there are where they are few."""

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
-from ..kinds import numbers, refuse_kinds, shown
 from ..quantities import words
+from ..quantities.kinds import numbers, refuse_kinds, shown
 from ..study.design_map import DesignMap
 from ..units import factor
 from .artists import BLUE, INK, WARNING, area, frame, line, new, plain, text

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from ..kinds import refuse_arguments
 from ..quantities import words
+from ..quantities.kinds import refuse_arguments
 from ..study.design_map import DesignMap
 from ..study.study import KEPT
 from ..units import factor

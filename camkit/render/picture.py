@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..kinds import a_number, applied, refuse_arguments
+from ..quantities.kinds import a_number, applied, refuse_arguments
 from ..study.study import refuse_limits
 from ..units import deg
 from ..views.defaults import default_views

@@ -8,9 +8,9 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from ..kinds import refuse_arguments
 from ..machines.shaft import UniversalJointShaft
 from ..quantities import quantities_of, value_of
+from ..quantities.kinds import refuse_arguments
 from ..units import mm, rpm
 from ..views.shaft import section, utilisation
 from .artists import (

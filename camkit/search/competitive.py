@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from pymoo.core.population import Population
 
-from ..kinds import one_number
 from ..quantities import counted
+from ..quantities.kinds import one_number
 from .evolution import OneObjective
 
 

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_arguments
 from ..quantities import Paths, Quantity
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..units import deg
 from .minimise import minimise_steps

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, refuse_arguments
 from ..quantities import counted
+from ..quantities.kinds import numbers, refuse_arguments
 from ..study.study import Study
 from .front import Front
 from .minimise import minimise_steps

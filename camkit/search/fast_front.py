@@ -19,8 +19,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from ..decision.choosers import normalised
-from ..kinds import refuse_arguments
 from ..quantities import counted
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Evaluation, Study
 from .checkpoint import versions
 from .front import Front, dominated

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from ..kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..quantities import counted
+from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..study.study import Evaluation, Study
 
 

@@ -15,8 +15,8 @@ import numpy as np
 from scipy.optimize import differential_evolution
 from scipy.stats import qmc
 
-from ..kinds import refuse_arguments, whole
 from ..quantities import counted
+from ..quantities.kinds import refuse_arguments, whole
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
 from .minimum import SAME, Found, Minimum, described

@@ -12,7 +12,7 @@ import numpy as np
 from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.population import Population
 
-from ..kinds import refuse_arguments, whole
+from ..quantities.kinds import refuse_arguments, whole
 from ..study.study import Evaluation, Study
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, resume, versions, why
 from .evolution import OnGrid, StudyProblem

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import numbers, refuse_arguments, shown
+from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.residuals import SumOfResiduals
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph

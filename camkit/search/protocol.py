@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kinds import refuse_arguments
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Evaluation, Study
 from .front import Front, front_of
 from .minimum import Minimum

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from pymoo.core.population import Population
 
-from ..kinds import numbers, one_number, refuse_arguments
 from ..quantities import counted
+from ..quantities.kinds import numbers, one_number, refuse_arguments
 from .evolution import OneObjective
 
 

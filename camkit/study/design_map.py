@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize
 
-from ..kinds import numbers, refuse_kinds, shown
 from ..quantities import Measure, counted
+from ..quantities.kinds import numbers, refuse_kinds, shown
 from .study import Evaluation, Study
 
 STEP = 1e-6

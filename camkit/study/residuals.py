@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import applied
 from ..quantities import Measure, PeakMeasure
+from ..quantities.kinds import applied
 from .study import WeightedSum
 
 

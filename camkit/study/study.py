@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
 from ..quantities import Measure, Paths, Quantity, can_be_analysed, counted, unremarked, words
+from ..quantities.kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
 
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""

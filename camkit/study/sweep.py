@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_kinds
 from ..quantities import Measure, counted
+from ..quantities.kinds import refuse_kinds
 from .study import Evaluation, Study
 
 

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
-from ..kinds import number, numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..quantities import Measure, Paths, Quantity, counted, value_of, words
+from ..quantities.kinds import number, numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor, mm
 from .study import Evaluation, Study
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Disc
-from ..kinds import refuse_empty, refuse_kinds
 from ..quantities import PeakMeasure
+from ..quantities.kinds import refuse_empty, refuse_kinds
 from ..units import deg, factor, mm
 from .cam import bodies, position
 from .picture import Axes, Line, Mark, Picture, Text, picture

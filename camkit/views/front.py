@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..decision import Judgements
-from ..kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
+from ..quantities.kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
 from ..units import factor
 from .picture import Axes, Line, Mark, Picture, Points, Text, picture
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kinds import refuse_arguments, refuse_empty
+from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..units import deg, factor, mm
 from .cam import ANGLE, MOTION, cam_torque, mechanism, pressure_angle
 from .picture import Axes, Line, Mark, Picture, Points, Text, gaps, picture

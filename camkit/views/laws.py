@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_kinds
 from ..motion import Kinematics, Law, MotionProgram, residual_vibration
+from ..quantities.kinds import refuse_kinds
 from ..units import deg, factor
 from .cam import MOTION
 from .picture import Axes, Line, Picture, Points, View, picture

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_arguments, refuse_empty
+from ..quantities.kinds import refuse_arguments, refuse_empty
 from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View, picture
 
 TARGETS = (0.01, 0.001)

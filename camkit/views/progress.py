@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kinds import refuse_arguments, refuse_empty
 from ..quantities import Measure
+from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..units import deg, factor, in_unit
 from .high_speed import two_lines
 from .picture import Axes, Band, Line, Picture, Points, picture

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..geometry import circle
-from ..kinds import refuse_arguments
 from ..quantities import Measure, Quantity, declarations, words
+from ..quantities.kinds import refuse_arguments
 from ..units import factor, mm, percent
 from .picture import Axes, Band, Circle, Line, Mark, Picture, Polygon, Text, View, picture
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_arguments
 from ..quantities import words
+from ..quantities.kinds import refuse_arguments
 from ..study.study import Study, made_study
 from ..study.sweep import Sweep
 from .picture import Axes, Band, Line, Picture, Polygon, Text, View, picture

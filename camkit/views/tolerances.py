@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kinds import refuse_arguments
 from ..quantities import Measure, words
+from ..quantities.kinds import refuse_arguments
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
 from .front import shown_objectives

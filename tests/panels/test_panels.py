@@ -53,7 +53,7 @@ from camkit.render.picture import picture
 from camkit.render.shaft import SHAFT_VIEWS
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
-from camkit.typed import typed_number, typed_whole
+from camkit.units.typed import typed_number, typed_whole
 from camkit.views import CAM_VIEWS, contact_force, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.defaults import default_views

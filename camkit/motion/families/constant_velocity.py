@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy import cos, inf, pi, sin
 
-from ...kinds import a_number, shown
 from ...quantities import choice, quantity
+from ...quantities.kinds import a_number, shown
 from ..law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")

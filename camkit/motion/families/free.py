@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
-from ...kinds import a_number, listed, refuse_lengths
 from ...quantities import Quantity, numbered, row
+from ...quantities.kinds import a_number, listed, refuse_lengths
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
 from .polynomial import Poly345

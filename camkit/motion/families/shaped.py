@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ...kinds import refuse_kinds, refuse_lengths
 from ...quantities import Choice, choice, numbered, row
+from ...quantities.kinds import refuse_kinds, refuse_lengths
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
 from .free import COEFFICIENT, Degree9

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ...kinds import a_number, shown
 from ...quantities import Choice, quantity
+from ...quantities.kinds import a_number, shown
 from ..law import Kinematics, Law, Peaks
 from .harmonic import Cycloidal
 from .plain import LAWS

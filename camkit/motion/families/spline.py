@@ -15,8 +15,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from ...kinds import a_number, listed, numbers, refuse_lengths, shown
 from ...quantities import Quantity, numbered, row
+from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
 from ..extremes import law_peaks
 from ..law import Kinematics, Law, Peaks
 from .free import given_at

@@ -13,8 +13,8 @@ import ipywidgets as w
 import traitlets
 
 from ...files.json_file import MOST_BYTES
-from ...markup import Html, attribute, escaped, html, joined
 from ...quantities import Choice, Quantity, words
+from ...quantities.markup import Html, attribute, escaped, html, joined
 from ...units import in_unit
 from .number import NumberBox, staying
 

@@ -9,7 +9,7 @@ from typing import Any
 import anywidget
 import traitlets
 
-from ...typed import typed_number, typed_whole
+from ...units.typed import typed_number, typed_whole
 
 
 def staying(what: str, tell: Callable[[str], None], verb: str = "stays") -> Callable[[str], None]:

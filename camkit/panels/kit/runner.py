@@ -10,8 +10,8 @@ from typing import Any
 
 import ipywidgets as w
 
-from ...markup import Html, html
 from ...quantities import words
+from ...quantities.markup import Html, html
 from ...search.protocol import Step
 from ...study.study import Study
 from .controls import banner, show_message
