@@ -56,7 +56,7 @@ def test_the_maths_imports_numpy_and_scipy_only() -> None:
     python("-c", ONLY_NUMPY_AND_SCIPY, *maths(), cwd=REPOSITORY)
 
 
-GROUND = {"units", "quantities", "geometry", "contact", "data"}
+GROUND = {"units", "quantities", "geometry", "contact", "extrema", "data"}
 WINGS = {*("motion", "cam", "linkage", "machines", "study", "search", "decision"), *("files", "papers", "views"),
          *("render", "panels")}  # fmt: skip
 

@@ -127,7 +127,7 @@ GIVEN = {
 }
 """What the constructors that have no defaults are given."""
 
-NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Peak", "Law", "Segment"}
+NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
 PUBLIC = [getattr(camkit, name) for name in camkit.__all__ if name not in NOT_MADE_BY_HAND]
 CLASSES = [c for c in PUBLIC if inspect.isclass(c) and dataclasses.is_dataclass(c)]
 CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in dataclasses.fields(kind) if f.init]

@@ -14,13 +14,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from .. import extrema
+from ..extrema import Extreme
 from ..geometry import Body, offset_curvature, rotated
 from ..motion import Kinematics
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
 from ..quantities.kinds import columns
-from . import bodies, groove, peaks, statics
-from .peaks import Extreme
+from . import bodies, groove, statics
 
 JUMP = 1e-6
 """A jump of position or speed below this share of the largest one is rounding."""
@@ -298,12 +299,12 @@ def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
     """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
     shown, resolution = analysis.resolved, analysis.resolution
     if analysis.rough:
-        return peaks.roughly_highest(resolution.angle, f(shown), resolution.inner)
+        return extrema.roughly_highest(resolution.angle, f(shown), resolution.inner)
 
     def value(angle: Any) -> Any:
         return f(shown if angle is resolution.angle else analysis.at(angle))
 
-    return peaks.highest(value, resolution.angle, resolution.inner)
+    return extrema.highest(value, resolution.angle, resolution.inner)
 
 
 def lowest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:

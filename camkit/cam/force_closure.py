@@ -2,7 +2,7 @@
 
 Every function takes any cam's analysis.  Jump and preload are those of a rigid follower without friction:
 the inner flank pushes with ``Q / lever``, ``Q = J omega^2 w + (what resists besides)``, and cannot pull.  The
-extremes are those of the whole curve, whatever cam angles the analysis has (see `peaks`).
+extremes are those of the whole curve, whatever cam angles the analysis has (see `camkit.extrema`).
 
 Speeds are in rad/s.  Only a high-speed cam knows its speed as a share of the rated one, at which its load is given:
 there speeds are such shares, and 1.2 is 20 % above the rated speed.

@@ -14,8 +14,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
-from ..cam.peaks import raised, with_tops
 from ..contact import contact_modulus, line_contact
+from ..extrema import raised, with_tops
 from ..motion import Kinematics
 from ..motion.resolution import STEPS, Resolution, between, resolve
 from ..quantities import members

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..cam.force_closure import jump_speed, preload_needed
 from ..cam.measures import radius_of
-from ..cam.peaks import Extreme
 from ..contact import LineContact, line_contact
+from ..extrema import Extreme
 from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics
 from ..units import deg, mm

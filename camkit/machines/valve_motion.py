@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..motion import Kinematics, Law, Peaks, Poly345
-from ..motion.extremes import law_peaks
+from ..motion.law import law_peaks
 
 BLEND = 1 / 3
 """Share of a ramp over which the follower gains the seating velocity; the rest of it is straight."""

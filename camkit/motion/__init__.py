@@ -13,7 +13,7 @@ from .families.spline import SplineLaw, TableLaw
 from .law import Kinematics, Law, Peaks
 from .program import MotionProgram, motion_in, program_between
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
-from .transitions import Peak, ProgramPeaks, Transition
+from .transitions import ProgramPeaks, Transition
 from .vibration import period_ratio, residual_vibration
 
 __all__ = [
@@ -35,7 +35,6 @@ __all__ = [
     "ModifiedTrapezoid",
     "MotionProgram",
     "Parabolic",
-    "Peak",
     "Peaks",
     "Poly345",
     "Poly4567",

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..extrema import highest_between
 from ..quantities import Declared
 from ..quantities.kinds import numbers
 
@@ -69,6 +70,17 @@ class Law(Declared, ABC):
         ``inf`` where a lower derivative jumps, at the ends as well for the laws that run from dwell to
         dwell.  Laws made to be joined to a moving neighbour (half laws, free ends) count [0, 1] only.
         """
+
+
+def law_peaks(law: Law) -> Peaks:
+    """``Cv, Ca, Cj`` of a law that has no closed form for them: numbers, or ``(p, 1)`` for a population."""
+    found = (highest_between(derivative_size(law, k), (0.0, *law.kinks, 1.0)).value for k in (1, 2, 3))
+    return Peaks(*(value[..., None] if np.ndim(value) else value for value in found))
+
+
+def derivative_size(motion: Callable[[Any], Kinematics], k: int) -> Callable[[Any], Any]:
+    """The size of the derivative of order ``k``, as a function."""
+    return lambda u: abs(motion(u)[k])
 
 
 def _inside(u: ArrayLike) -> Any:

@@ -8,14 +8,13 @@ Source: Norton, Cam Design and Manufacturing Handbook (the fundamental law of ca
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..extrema import Extreme, highest_between
 from ..units import in_unit
-from .extremes import derivative, largest
-from .law import Kinematics
+from .law import Kinematics, derivative_size
 
 if TYPE_CHECKING:
     from .program import MotionProgram
@@ -65,19 +64,12 @@ class Transition:
         return f"{place} the {NAMES[self.order]} jumps by {size:.4g} {UNITS[self.order]}: {MEANINGS[self.order]}"
 
 
-class Peak(NamedTuple):
-    """The largest size of a derivative (m or rad, per rad^k) and a cam angle (rad) where it occurs."""
-
-    value: Any
-    cam_angle: Any
-
-
 class ProgramPeaks(NamedTuple):
-    """The peaks of |v|, |a| and |j| of a program; ``inf`` where a lower derivative jumps."""
+    """The peaks of |v|, |a| and |j| of a program (m or rad, per rad^k); ``inf`` where a lower derivative jumps."""
 
-    velocity: Peak
-    acceleration: Peak
-    jerk: Peak
+    velocity: Extreme
+    acceleration: Extreme
+    jerk: Extreme
 
 
 def find_transitions(program: MotionProgram) -> list[Transition]:
@@ -130,12 +122,12 @@ def _scales(program: MotionProgram) -> list[Any]:
 
 
 def _inner(program: MotionProgram, k: int) -> list[tuple[Any, Any]]:
-    """The peaks of derivative ``k`` within the smooth pieces of each segment, with their cam angles."""
+    """The peaks of derivative ``k`` within each segment, with their cam angles."""
     found = []
     for start, segment in zip(program.starts, program.segments, strict=False):
-        for low, high in pairwise((0.0, *segment.kinks, 1.0)):
-            value, u = largest(derivative(segment.motion, k), low, high)
-            found.append((value, start + u * segment.angle))
+        top = highest_between(derivative_size(segment.motion, k), (0.0, *segment.kinks, 1.0))
+        value, u = (x[..., None] for x in top)
+        found.append((value, start + u * segment.angle))
     return found
 
 
@@ -149,10 +141,10 @@ def _infinite(program: MotionProgram, k: int) -> list[tuple[Any, Any]]:
     return found
 
 
-def _highest(found: list[tuple[Any, Any]]) -> Peak:
+def _highest(found: list[tuple[Any, Any]]) -> Extreme:
     """The largest of some ``(value, angle)``, row by row: numbers, or arrays of shape ``(p,)``."""
     rows = np.broadcast_shapes(*(np.shape(x)[:-1] for pair in found for x in pair))
     values, angles = ([np.broadcast_to(pair[side], (*rows, 1))[..., 0] for pair in found] for side in (0, 1))
     best = np.argmax(values, axis=0)[None]
     pick = [np.take_along_axis(np.stack(side), best, axis=0)[0] for side in (values, angles)]
-    return Peak(*(x if rows else float(x) for x in pick))
+    return Extreme(*(x if rows else float(x) for x in pick))

@@ -16,8 +16,7 @@ from numpy.polynomial.legendre import legder, legval
 
 from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, refuse_lengths
-from ..extremes import law_peaks
-from ..law import Kinematics, Law, Peaks
+from ..law import Kinematics, Law, Peaks, law_peaks
 from .polynomial import Poly345
 
 LETTERS, NAMES = ("s", "v", "a", "j"), ("position", "velocity", "acceleration", "jerk")

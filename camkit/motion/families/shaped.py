@@ -11,8 +11,7 @@ from typing import Any
 
 from ...quantities import Choice, choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
-from ..extremes import law_peaks
-from ..law import Kinematics, Law, Peaks
+from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import COEFFICIENT, Degree9
 from .plain import LAWS
 from .polynomial import Poly345

@@ -17,8 +17,7 @@ from scipy.sparse.linalg import spsolve
 
 from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
-from ..extremes import law_peaks
-from ..law import Kinematics, Law, Peaks
+from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import given_at
 
 MOST_KNOTS = 300

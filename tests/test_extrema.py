@@ -24,10 +24,10 @@ from camkit.cam.measures import (
     undercut_margin,
 )
 from camkit.cam.oscillating_flat import OscillatingFlatCam
-from camkit.cam.peaks import highest, raised
 from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
+from camkit.extrema import highest, highest_between, raised
 from camkit.machines import high_speed_study, valve_study
 from camkit.machines.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, lever_wear
 from camkit.machines.high_speed_cam import HighSpeedCam
@@ -49,6 +49,7 @@ from camkit.motion import (
     SplineLaw,
 )
 from camkit.motion.families.shaped import FAMILIES
+from camkit.motion.law import law_peaks
 from camkit.units import N, deg, kg, mm, rpm
 
 PAIR = ContactPair()
@@ -232,6 +233,24 @@ def test_corners_and_needles_are_zoomed_in_on(shape):
     found = highest(lambda angle: shape(angle - at), x, inner)
     best = shape(at - at) if shape(1.0) < shape(0.0) and shape(-1.0) < shape(0.0) else shape(0 - at)
     assert_allclose(found.value, best[:, 0], rtol=1e-6, atol=1e-5)
+
+
+@pytest.mark.parametrize("law", [*LAWS, Skewed(Cycloidal(), 0.4)], ids=str)
+def test_peaks_of_a_law_are_those_of_its_closed_form(law):
+    for stated, found in zip(law.peaks(), law_peaks(law), strict=True):
+        assert np.isinf(stated) or found == pytest.approx(stated, rel=1e-10)
+
+
+def test_pieces_are_searched_between_ends_of_their_own():
+    """A tooth that jumps down at each end, and a population whose ends differ."""
+    found = highest_between(lambda x: x % 1, (0.0, 1.0, 2.0, 2.9))
+    assert found.value == pytest.approx(1, abs=1e-10)
+    assert found.cam_angle == pytest.approx(1, abs=1e-10)
+    end = np.array([[0.3], [0.5], [0.9]])
+    many = highest_between(lambda x: x * (1 - x), (0.0, end, 1.0))
+    assert_allclose(many.value, [0.25] * 3, rtol=1e-12)
+    assert_allclose(many.cam_angle, [0.5] * 3, rtol=1e-9)
+    assert_allclose(highest_between(lambda x: x * (1 - x), (0.0, end)).cam_angle, [0.3, 0.5, 0.5], rtol=1e-9)
 
 
 # ---------------------------------------------------------------- high-speed cams

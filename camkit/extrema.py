@@ -1,23 +1,25 @@
-"""The largest value of a curve over a cam, wherever it stands: how the measures of cams find their peaks.
+"""The largest value of a curve, wherever between its samples it stands: the one peak finder.
 
-A program is looked at where its motion has something to say (see `camkit.motion.resolution`), whatever cam angles an
-analysis was asked for.  Every local maximum between those angles is raised to the top of the parabola through its
-neighbours; around the highest the curve is looked at once more, and if its top is not found there, by zooming in.
+A curve is known at samples that are even within each of its smooth pieces: of a law between its kinks, of a cam where
+its motion has something to say (see `camkit.motion.resolution`), whatever cam angles an analysis was asked for.
+Every local maximum among them is raised to the top of the parabola through its neighbours; around the highest the
+curve is evaluated once more, and if its top is not found there, by zooming in.
 
-A curve of which a search sees every point has all its maxima raised, and looked at closely where the parabola is not
+A curve of which a search sees every point has all its maxima raised, and evaluated closely where the parabola is not
 sure of them (see `with_tops`): the largest is within 0.1 %.  Linkages and joints are measured at the positions that an
 analysis was asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-CLOSER, LOOKS = 1 / 16, 5
-"""How near to the top of a parabola the curve is looked at again, in steps, and at how many angles."""
+CLOSER, AROUND = 1 / 16, 5
+"""How near to the top of a parabola the curve is evaluated again, in steps, and at how many angles."""
 ZOOM, ZOOMS = 17, 3
 """Where the top is not found there: at how many angles between its neighbours, and how often, each time closer."""
 SMOOTH, SHARP = 4.0, 0.02
@@ -29,10 +31,12 @@ NEEDLE = 100.0
 """How high a needle may be, over how much it bends."""
 LEVEL = 1e-14
 """Values that differ by less than this share of their size are the same."""
+EDGE, STEPS = 1e-11, 400
+"""How far inside its ends a piece is sampled (a share: a kink speaks for the neighbour), and in how many steps."""
 
 
 class Extreme(NamedTuple):
-    """An extreme value over the cam and the cam angle (rad) at which it stands: numbers, or ``(p,)``."""
+    """An extreme value of a curve and the cam angle (rad) at which it stands: numbers, or ``(p,)``."""
 
     value: Any
     cam_angle: Any
@@ -64,7 +68,7 @@ def _maxima(values: Any, inner: Any) -> Any:
 
 
 def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
-    """The largest value of ``f(cam_angle)``, by looking at the cam angles ``angle`` and then more closely.
+    """The largest value of ``f(cam_angle)``, sampled at the cam angles ``angle`` and then more closely.
 
     ``inner`` says which of them have a neighbour at the same step, without a jump in between, on both sides.
 
@@ -81,10 +85,10 @@ def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
     centre, near = _at(angle, best), CLOSER * (high - low) / 2
     around = _at(values, before), _at(values, best), _at(values, after)
     centre = centre + np.where(inner[best], _summit(*around)[0], 0.0) * (high - low) / 2
-    value, place, bend, edge = _looked(f, np.maximum(centre - near, low), np.minimum(centre + near, high), low, high)
+    value, place, bend, edge = _around(f, np.maximum(centre - near, low), np.minimum(centre + near, high), low, high)
     with np.errstate(invalid="ignore"):
         bent = 2 * around[1] - around[0] - around[2]
-        smooth = (bend <= SMOOTH * (2 * CLOSER / (LOOKS - 1)) ** 2 * bent) & (bent <= SHARP * abs(value))
+        smooth = (bend <= SMOOTH * (2 * CLOSER / (AROUND - 1)) ** 2 * bent) & (bent <= SHARP * abs(value))
     level = bend <= LEVEL * abs(value)
     found = edge | level | inner[best] & smooth | ~np.isfinite(value)
     if not found.all():
@@ -93,10 +97,23 @@ def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
     return Extreme(value[..., 0], place[..., 0])
 
 
-def with_tops(values: Any, inner: Any, look: Callable[[Any, Any], Any], but: Any = False) -> Any:
+def highest_between(f: Callable[[Any], Any], ends: Sequence[Any]) -> Extreme:
+    """The largest value of ``f``, which is smooth between each two of ``ends``: numbers in order, or ``(p, 1)``.
+
+    >>> found = highest_between(lambda x: abs(x * (1 - x)), (0.0, 0.8))
+    >>> print(f"{found.value:.9f} at {found.cam_angle:.6f}")
+    0.250000000 at 0.500000
+    """
+    share = np.linspace(EDGE, 1 - EDGE, STEPS + 1)
+    pieces = np.broadcast_arrays(*(low + (high - low) * share for low, high in pairwise(ends)))
+    inner = np.tile((share > share[0]) & (share < share[-1]), len(pieces))
+    return highest(f, np.concatenate(pieces, axis=-1), inner)
+
+
+def with_tops(values: Any, inner: Any, sample: Callable[[Any, Any], Any], but: Any = False) -> Any:
     """A curve's ``values`` at even steps, each local maximum raised to its top: to 0.1 % where it may be the largest.
 
-    That of the quartic through five of them.  Where this is in doubt ``look(at, x)`` says how high the curve is ``x``
+    That of the quartic through five of them.  Where this is in doubt ``sample(at, x)`` says how high the curve is ``x``
     steps, ``(k, m)``, beside the places ``at``, indices of the flat array; not so in the rows ``but``.
 
     >>> x = np.linspace(0, 9, 46)
@@ -116,14 +133,16 @@ def with_tops(values: Any, inner: Any, look: Callable[[Any, Any], Any], but: Any
     doubt = (room > 0) & (high[at] + room >= reach) & ~vain
     if doubt.any():
         at, side = at[doubt], side[doubt]
-        high[at] = np.maximum(_zoomed_top(look, at, np.minimum(side - 1, 0), np.maximum(side + 1, 0), ZOOMS), flat[at])
+        high[at] = np.maximum(
+            _zoomed_top(sample, at, np.minimum(side - 1, 0), np.maximum(side + 1, 0), ZOOMS), flat[at]
+        )
     return tops
 
 
-def _zoomed_top(look: Callable[[Any, Any], Any], at: Any, low: Any, high: Any, zooms: int) -> Any:
+def _zoomed_top(sample: Callable[[Any, Any], Any], at: Any, low: Any, high: Any, zooms: int) -> Any:
     """How high a curve is between ``low`` and ``high`` steps beside each of the places ``at``."""
     x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, ZOOM)
-    values, row = look(at, x), np.arange(len(at))
+    values, row = sample(at, x), np.arange(len(at))
     best = values.argmax(-1)
     middle = np.clip(best, 1, ZOOM - 2)
     top, room = _quartic_tops(values.reshape(-1), row * ZOOM + middle, np.arange(ZOOM) % (ZOOM - 1) > 0)
@@ -133,7 +152,7 @@ def _zoomed_top(look: Callable[[Any, Any], Any], at: Any, low: Any, high: Any, z
     more = np.where(edge, steep > NEAR * abs(known), room > 0)
     if more.any() and zooms > 1:
         low, high = (x[row, np.clip(best + k, 0, ZOOM - 1)][more] for k in (-1, 1))
-        top[more] = np.maximum(_zoomed_top(look, at[more], low, high, zooms - 1), known[more])
+        top[more] = np.maximum(_zoomed_top(sample, at[more], low, high, zooms - 1), known[more])
     return top
 
 
@@ -191,15 +210,15 @@ def roughly_highest(angle: Any, values: Any, inner: Any) -> Extreme:
     return Extreme(value[..., 0], _at(angle, best)[..., 0])
 
 
-def _looked(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) -> tuple[Any, Any, Any, Any]:
+def _around(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) -> tuple[Any, Any, Any, Any]:
     """The highest of a few angles from ``begin`` to ``end``, where it is, how much it bends, and if it is at an end.
 
     It bends by ``inf`` if it seems to lie beyond them; ``low`` and ``high`` are ends, beyond which there is nothing.
     """
-    step = (end - begin) / (LOOKS - 1)
-    angle, values = np.broadcast_arrays(begin + step * np.arange(LOOKS), f(begin + step * np.arange(LOOKS)))
+    step = (end - begin) / (AROUND - 1)
+    angle, values = np.broadcast_arrays(begin + step * np.arange(AROUND), f(begin + step * np.arange(AROUND)))
     best = np.argmax(values, axis=-1, keepdims=True)
-    middle = np.clip(best, 1, LOOKS - 2)
+    middle = np.clip(best, 1, AROUND - 2)
     left, mid, right = (_at(values, middle + k) for k in (-1, 0, 1))
     share, more = _summit(left, mid, right)
     inside = best == middle
@@ -208,12 +227,12 @@ def _looked(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) 
     with np.errstate(invalid="ignore"):
         level = values.min(-1, keepdims=True) >= value - LEVEL * abs(value)
         bend = np.where(level, 0.0, np.where(inside, 2 * mid - left - right, np.inf))
-    edge = ((best == 0) & (begin <= low)) | ((best == LOOKS - 1) & (end >= high))
+    edge = ((best == 0) & (begin <= low)) | ((best == AROUND - 1) & (end >= high))
     return value, place, bend, edge
 
 
 def _zoomed(f: Callable[[Any], Any], low: Any, high: Any) -> tuple[Any, Any]:
-    """The highest between two angles: each time it is looked at again between the best angle's neighbours."""
+    """The highest between two angles: each time it is evaluated again between the best angle's neighbours."""
     for _ in range(ZOOMS):
         angle = low + (high - low) * np.linspace(0, 1, ZOOM)
         angle, values = np.broadcast_arrays(angle, f(angle))
