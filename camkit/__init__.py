@@ -60,7 +60,7 @@ from .study.residuals import SumOfResiduals
 from .study.study import Study, weighted
 from .study.sweep import Sweep
 from .study.tolerances import AnalysisCurve, Tolerances
-from .units import GPa, MPa, N, cm, deg, kg, kN, kW, m, mm, rad, rpm
+from .units import GPa, MPa, N, cm, deg, inch, kg, kN, kW, lbf, m, mm, psi, rad, rpm, um
 
 __version__ = "0.1.0"
 
@@ -152,7 +152,11 @@ __all__ = [
     "line_contact",
     "high_speed_study",
     "judgement_ranges",
+    "inch",
     "kN",
+    "lbf",
+    "psi",
+    "um",
     "kW",
     "kg",
     "knee",

@@ -5,26 +5,23 @@ from math import pi
 
 import numpy as np
 import pytest
+import scipy.constants as codata
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import camkit
-from camkit.units import FACTORS, factor, in_unit
+from camkit.units import convert, factor, in_unit
+from camkit.units.typed import typed_number
 
-PREFIX = {"u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
-SI = {
-    "m": 1,
-    "rad": 1,
-    "s": 1,
-    "kg": 1,
-    "N": 1,
-    "Pa": 1,
-    "W": 1,
-    "deg": pi / 180,
-    "rpm": 2 * pi / 60,
-    "%": 0.01,
-    "1": 1,
-}
+PREFIX = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1, "k": 1e3, "M": 1e6, "G": 1e9}
+SI = {"m": 1, "g": 1e-3, "s": 1, "rad": 1, "N": 1, "Pa": 1, "W": 1, "J": 1, "Hz": 1, "1": 1}
+SI |= {"deg": pi / 180, "rpm": 2 * pi / 60, "%": 0.01, "min": 60, "in": 0.0254, "psi": 6894.757293168361}
+UNITS = [
+    *("", "%", "m", "cm", "mm", "um", "in", "mm/rad", "mm/rad^3", "1/rad", "1/rad^2", "1/m", "1/mm", "mm^2"),
+    *("rad", "deg", "deg/m", "s", "rpm", "rad/s", "deg/s", "m/s", "m/s^2", "rad/s^2", "kg", "kg/m^3", "kg m^2"),
+    *("N", "kN", "N/m", "N/mm", "N^0.5 mm^-0.5", "N^1.5 mm^-0.5", "N m", "N mm", "N m/rad", "Pa", "MPa", "GPa", "W", "kW"),
+    *("kJ", "mm^3", "mJ", "g", "Hz", "min", "1/min", "N^1.5 cm^-0.5", "kW min", "psi", "in^2", "m^4", "dm^3", "mm/min"),
+]  # fmt: skip
 typed = st.decimals(-1000000, 1000000, allow_nan=False, places=6).map(float)
 
 
@@ -39,24 +36,98 @@ def worth(unit):
     return total
 
 
-@pytest.mark.parametrize("unit", FACTORS)
+@pytest.mark.parametrize("unit", UNITS)
 def test_every_unit_is_the_product_of_its_parts(unit):
     assert factor(unit) == pytest.approx(worth(unit), rel=1e-14)
 
 
-@pytest.mark.parametrize("name", ["mm", "cm", "m", "deg", "rad", "rpm", "N", "MPa", "GPa", "kW", "kg"])
+@pytest.mark.parametrize(("unit", "si"), [
+    ("in", codata.inch), ("inch", codata.inch), ("ft", codata.foot), ("lbf", codata.lbf), ("psi", codata.psi),
+    ("um", codata.micron), ("min", codata.minute), ("deg", codata.degree), ("lbf in", codata.lbf * codata.inch),
+    ("lbf/in", codata.lbf / codata.inch), ("kW min", 6e4), ("J/(kg m)", 1.0), ("N*mm", 1e-3), ("kN·m", 1e3),
+])  # fmt: skip
+def test_units_by_definition_agree_with_codata(unit, si):
+    assert factor(unit) == pytest.approx(si, rel=1e-15)
+
+
+@pytest.mark.parametrize(("same", "other"), [
+    ("kN*m", "kN m"), ("N/mm^2", "MPa"), ("N/(mm mm)", "MPa"), ("J", "N m"), ("W", "N m/s"), ("µm", "um"),
+    ("N m^-2", "Pa"),
+    ("1/mm", "mm^-1"), ("psi", "lbf/in^2"), ("Hz", "1/s"), ("°", "deg"), ("mm * mm", "mm^2"), ("1", ""),
+])  # fmt: skip
+def test_one_unit_may_be_written_in_several_ways(same, other):
+    assert convert(1.0, same, other) == pytest.approx(1.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("unit", [
+    "furlong", "J/kg m", "m/s/s", "N**2", "m^", "m^99", "m^1e9", "2 mm", "/s", "/", "N/", "(N m", "N/(", "N/()",
+    "kdeg", "mpsi",
+    " ", "mm ^2", "m" * 99, "<b>", "kN m " * 50, "^2", "m^2^2", "mm]", "1 mm",
+])  # fmt: skip
+def test_what_is_no_product_of_powers_is_refused_in_a_sentence(unit):
+    with pytest.raises(ValueError, match=r"^the unit '.*' is not known; it must be a product of powers") as refusal:
+        factor(unit)
+    assert len(str(refusal.value)) < 220
+
+
+@pytest.mark.parametrize(("unit", "into"), [
+    ("kg", "mm"), ("N", "kg"), ("rpm", "Hz"), ("deg", "%"), ("N m", "N"), ("mm/rad", "mm"), ("s", ""), ("MPa", "N/mm"),
+])  # fmt: skip
+def test_what_measures_something_else_is_not_converted(unit, into):
+    with pytest.raises(ValueError, match=f"^{unit} cannot be converted into {into or 'a plain number'}$"):
+        convert(1.0, unit, into)
+
+
+def test_a_measure_and_a_quantity_may_have_any_unit():
+    energy = camkit.Measure("energy", "kN*mm", lambda analysis: 2.5)
+    assert energy.text(energy(None)) == "2.5 kN*mm"
+    stiff = camkit.quantities.Quantity("k", 40, 10, 90, "lbf/in", "stiffness")
+    assert stiff.text(7005.0739) == "40 lbf/in"  # 1 lbf/in is 175.126835 N/m
+
+
+@pytest.mark.parametrize(("text", "unit", "meant"), [
+    ("2 in", "mm", 50.8), ("2in", "mm", 50.8), ("60,5mm", "mm", 60.5), ("1e3 um", "mm", 1.0),
+    ("0,5 rad", "deg", 90 / pi),
+    ("1e-3 m", "mm", 1.0), ("12", "mm", 12.0), ("50 %", "", 0.5), ("-3 °", "deg", -3.0), ("60 rpm", "rad/s", 2 * pi),
+    ("100 psi", "MPa", 0.6894757293168361), ("10 lbf/in", "N/mm", 1.7512683524647636), ("2 kN*m", "N m", 2000.0),
+])  # fmt: skip
+def test_a_number_may_be_typed_with_its_unit(text, unit, meant):
+    assert typed_number(text, unit) == pytest.approx(meant, rel=2e-15)
+
+
+@pytest.mark.parametrize(("text", "said"), [
+    ("2 kg", "kg cannot be converted into mm"),
+    ("12abc", "the unit 'abc' is not known; it must be"),
+    ("1e", "the unit 'e' is not known; it must be"),
+    ("1/2", "'1/2' is no number"),
+    ("1/2 in", "'1/2 in' is no number"),
+    ("1 2 in", "'1 2 in' is no number"),
+    ("1,234 mm", "'1,234 mm' may be 1.234 or 1234; write"),
+    ("in", "'in' is no number"),
+    ("1e999 in", "'1e999 in' is too large"),
+    ("1e308 km", "'1e308 km' is too large"),
+    ("5 %", "% cannot be converted into mm"),
+])  # fmt: skip
+def test_a_number_with_another_unit_is_refused(text, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        typed_number(text, "mm")
+
+
+@pytest.mark.parametrize(
+    "name", ["mm", "cm", "m", "deg", "rad", "rpm", "N", "MPa", "GPa", "kW", "kg", "um", "inch", "lbf", "psi"]
+)
 def test_units_are_plain_numbers_to_multiply_by(name):
     assert getattr(camkit, name) == factor(name)
     assert type(getattr(camkit, name)) is float
 
 
-@given(typed, st.sampled_from(list(FACTORS)))
+@given(typed, st.sampled_from(UNITS))
 @settings(deadline=None)
 def test_a_typed_number_comes_back_to_the_last_digit(value, unit):
     assert in_unit(value * factor(unit), unit) == value
 
 
-@given(st.floats(1e-30, 1e12) | st.floats(-1e12, -1e-30), st.sampled_from(list(FACTORS)))
+@given(st.floats(1e-30, 1e12) | st.floats(-1e12, -1e-30), st.sampled_from(UNITS))
 @settings(deadline=None)
 def test_any_number_comes_back_to_fifteen_digits(value, unit):
     exact = Fraction(value) / Fraction(factor(unit))

@@ -53,7 +53,8 @@ class Bounds:
         narrow = w.Layout(width="84px")
         self.free = w.Checkbox(value=free, indent=False, layout=w.Layout(width="22px"), tooltip="free to change")
         self.low, self.high = (
-            NumberBox(0.0, staying(f"bounds of the {words(name)}", refused, "stay"), layout=narrow) for _ in range(2)
+            NumberBox(0.0, staying(f"bounds of the {words(name)}", refused, "stay"), declared.unit, layout=narrow)
+            for _ in range(2)
         )
         self._refused = refused
         self._show(bounds)

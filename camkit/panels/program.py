@@ -30,14 +30,10 @@ GRID = 0.5
 class LengthBox(NumberBox):
     """A box for an angle or a lift of at most `MOST` units."""
 
-    def __init__(self, value: float, refused: Callable[[str], None], unit: str, **options: Any) -> None:
-        self._unit = unit
-        super().__init__(value, refused, **options)
-
     def _read(self, text: str) -> float:
         value = super()._read(text)
         if abs(value) > MOST:
-            raise ValueError(f"{value:g} {self._unit} was typed; it must be at most {MOST:g} {self._unit}")
+            raise ValueError(f"{value:g} {self.unit} was typed; it must be at most {MOST:g} {self.unit}")
         return value
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import sys
 import warnings
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
@@ -142,7 +143,8 @@ class Quantity:
         """A `UnitRemark` if ``value`` (SI) is one number that looks as if its unit had been left out."""
         if _silent.get() or isinstance(value, np.ndarray) or not self.unit_left_out(value):
             return
-        meant = "/100" if self.unit == "%" else "*" + self.unit.replace(" ", "*").replace("^", "**")
+        factors = re.sub(r"\bin\b", "inch", self.unit.replace(" ", "*").replace("^", "**"))
+        meant = "/100" if self.unit == "%" else f"*{factors}"
         said = f"the {words(name)} is {self.text(value)}, numbers being in SI units; did you mean {value:g}{meant}?"
         warnings.warn(UnitRemark(said), stacklevel=_level())
 

@@ -1,21 +1,24 @@
-"""Units are plain numbers to multiply by: ``50 * mm``, ``22 * deg``, ``1800 * rpm``.
+"""Units are plain numbers to multiply by: ``50 * mm``, ``22 * deg``, ``1800 * rpm``, ``2 * inch``.
 
 Inside camkit everything is SI and radians.  A unit appears in two places only: where a user types a
-number, and where a number is shown.
+number, and where a number is shown.  There its name may be any product of powers:
 
 >>> round(50 * mm, 3), round(180 * deg, 6)
 (0.05, 3.141593)
->>> in_unit(0.05, "mm")
-50.0
+>>> in_unit(0.05, "mm"), in_unit(4.2e-3, "cm^2"), factor("kN*m"), convert(2, "in", "mm")
+(50.0, 42.0, 1000.0, 50.8)
 """
 
+import re
+from functools import lru_cache
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 m = 1.0
 cm = 1e-2
 mm = 1e-3
 um = 1e-6
+inch = 0.0254  # international yard and pound agreement, 1959: exact
 rad = 1.0
 deg = pi / 180
 s = 1.0
@@ -23,68 +26,61 @@ rpm = 2 * pi / 60
 kg = 1.0
 N = 1.0
 kN = 1e3
+lbf = 4.4482216152605  # 0.45359237 kg at 9.80665 m/s^2: exact
 Pa = 1.0
 MPa = 1e6
 GPa = 1e9
+psi = lbf / inch**2
 W = 1.0
 kW = 1e3
 percent = 1e-2
 
-FACTORS = {
-    "": 1.0,
-    "%": percent,
-    "m": m,
-    "cm": cm,
-    "mm": mm,
-    "um": um,
-    "mm/rad": mm,
-    "mm/rad^2": mm,
-    "mm/rad^3": mm,
-    "1/rad": 1 / rad,
-    "1/rad^2": 1 / rad**2,
-    "1/m": 1 / m,
-    "1/mm": 1 / mm,
-    "mm^2": mm**2,
-    "rad": rad,
-    "deg": deg,
-    "deg/m": deg / m,
-    "s": s,
-    "rpm": rpm,
-    "rad/s": rad / s,
-    "deg/s": deg / s,
-    "m/s": m / s,
-    "m/s^2": m / s**2,
-    "rad/s^2": rad / s**2,
-    "kg": kg,
-    "kg/m^3": kg / m**3,
-    "kg m^2": kg * m**2,
-    "N": N,
-    "kN": kN,
-    "N/m": N / m,
-    "N/mm": N / mm,
-    "N^0.5 mm^-0.5": (N / mm) ** 0.5,
-    "N^1.5 mm^-0.5": N**1.5 / mm**0.5,
-    "N^0.5 cm^-0.5": (N / cm) ** 0.5,
-    "N^1.5 cm^-0.5": N**1.5 / cm**0.5,
-    "N m": N * m,
-    "N mm": N * mm,
-    "N m/rad": N * m / rad,
-    "Pa": Pa,
-    "MPa": MPa,
-    "GPa": GPa,
-    "W": W,
-    "kW": kW,
+
+class _Unit(NamedTuple):
+    """What a unit is worth in SI, and the powers of length, mass, time and angle that it is made of."""
+
+    factor: float
+    dimension: tuple[float, float, float, float]
+
+
+_PREFIXES = {"n": 1e-9, "u": um, "µ": um, "μ": um, "m": mm, "c": cm, "d": 0.1, "k": 1e3, "M": 1e6, "G": 1e9}
+_SI = {
+    "m": _Unit(m, (1, 0, 0, 0)),
+    "g": _Unit(1e-3 * kg, (0, 1, 0, 0)),
+    "s": _Unit(s, (0, 0, 1, 0)),
+    "rad": _Unit(rad, (0, 0, 0, 1)),
+    "N": _Unit(N, (1, 1, -2, 0)),
+    "J": _Unit(N * m, (2, 1, -2, 0)),
+    "W": _Unit(W, (2, 1, -3, 0)),
+    "Pa": _Unit(Pa, (-1, 1, -2, 0)),
+    "Hz": _Unit(1 / s, (0, 0, -1, 0)),
 }
-"""The factor from a unit's printed name to SI."""
+"""Units that take a prefix."""
+_OTHERS = {
+    "%": _Unit(percent, (0, 0, 0, 0)),
+    "deg": _Unit(deg, (0, 0, 0, 1)),
+    "°": _Unit(deg, (0, 0, 0, 1)),
+    "rpm": _Unit(rpm, (0, 0, -1, 1)),
+    "min": _Unit(60 * s, (0, 0, 1, 0)),
+    "in": _Unit(inch, (1, 0, 0, 0)),
+    "inch": _Unit(inch, (1, 0, 0, 0)),
+    "ft": _Unit(12 * inch, (1, 0, 0, 0)),
+    "lbf": _Unit(lbf, (1, 1, -2, 0)),
+    "psi": _Unit(psi, (-1, 1, -2, 0)),
+}
+_NAMES = ", ".join((*_SI, *(name for name in _OTHERS if name not in ("in", "°"))))
+
+_LONGEST = 40
+_POWER = re.compile(r"([A-Za-zµμ%°]+)(?:\^([+-]?[0-9](?:\.[0-9]{1,2})?))?")
+_BETWEEN = re.compile(r"\s*[*·]\s*|\s+")
 
 
 def factor(unit: str) -> float:
-    """The SI value of one ``unit``; a ``ValueError`` names the units there are."""
-    if not isinstance(unit, str):
-        raise ValueError(f"the unit must be a text; there are {', '.join(filter(None, FACTORS))}")
-    if unit not in FACTORS:
-        raise ValueError(f"the unit {unit!r} is not known; there are {', '.join(filter(None, FACTORS))}")
-    return FACTORS[unit]
+    """The SI value of one ``unit``: a product of powers such as ``mm^2``, ``N m/rad`` or ``J/(kg m)``.
+
+    Raises ``ValueError`` in a sentence for what is no such product.
+    """
+    return _unit(unit).factor
 
 
 def in_unit(value: Any, unit: str) -> Any:
@@ -95,3 +91,60 @@ def in_unit(value: Any, unit: str) -> Any:
     except (TypeError, OverflowError):
         raise ValueError(f"what is to be shown in {unit} is no number that a computer can hold") from None
     return float(f"{shown:.15g}") if isinstance(shown, float) else shown
+
+
+def convert(value: float, unit: str, into: str) -> float:
+    """``value``, which is given in ``unit``, expressed in ``into``.
+
+    Raises ``ValueError`` in a sentence where the two measure different things.  An angle is a thing of its own: ``rpm``
+    goes into ``deg/s``, not into ``Hz``.
+    """
+    given, wanted = _unit(unit), _unit(into)
+    if given.dimension != wanted.dimension:
+        raise ValueError(f"{unit} cannot be converted into {into or 'a plain number'}")
+    return in_unit(float(value) * given.factor, into)
+
+
+def _unit(unit: str) -> _Unit:
+    if not isinstance(unit, str):
+        raise ValueError(f"the unit must be a text, a product of powers of {_NAMES}")
+    found = _parsed(unit) if len(unit) <= _LONGEST else None
+    if found is None:
+        told = unit if len(unit) <= _LONGEST else f"{unit[:_LONGEST]}..."
+        raise ValueError(f"the unit {told!r} is not known; it must be a product of powers, as in N/mm^2, of {_NAMES}")
+    return found
+
+
+@lru_cache(512)
+def _parsed(unit: str) -> _Unit | None:
+    """What ``unit`` is; ``None`` for what is no product of powers, or ambiguous as ``J/kg m`` is."""
+    above, divided, below = unit.partition("/")
+    first = [] if unit == "" or above.strip() == "1" else _powers(above)
+    second = _powers(below[1:-1]) if below[:1] + below[-1:] == "()" else _powers(below) if divided else []
+    if first is None or second is None or (len(second) > 1 and below[0] != "("):
+        return None
+    every = [*first, *((one, -power) for one, power in second)]
+    product = 1.0
+    for one, power in every:
+        product *= one.factor**power
+    length, mass, time, angle = (sum(one.dimension[k] * power for one, power in every) for k in range(4))
+    return _Unit(product, (length, mass, time, angle))
+
+
+def _powers(product: str) -> list[tuple[_Unit, float]] | None:
+    """The units of a product without a division, and their powers."""
+    found = []
+    for part in _BETWEEN.split(product.strip()):
+        matched = _POWER.fullmatch(part)
+        one = _named(matched[1]) if matched else None
+        if matched is None or one is None:
+            return None
+        found.append((one, float(matched[2] or 1)))
+    return found
+
+
+def _named(name: str) -> _Unit | None:
+    known = _SI.get(name) or _OTHERS.get(name)
+    if known is None and name[0] in _PREFIXES and name[1:] in _SI:
+        return _Unit(_PREFIXES[name[0]] * _SI[name[1:]].factor, _SI[name[1:]].dimension)
+    return known

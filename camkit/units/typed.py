@@ -1,7 +1,7 @@
 """Numbers as people type them: read as they are meant, or refused, and never as another number.
 
->>> typed_number("48,09"), typed_number(" -1e3 ")
-(48.09, -1000.0)
+>>> typed_number("48,09"), typed_number(" -1e3 "), typed_number("2 in", "mm")
+(48.09, -1000.0, 50.8)
 >>> typed_number("1,234")
 Traceback (most recent call last):
     ...
@@ -12,21 +12,35 @@ from __future__ import annotations
 
 import re
 
+from . import convert
+
 LONGEST = 40
 """So many characters at most are read as a number."""
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
+_WITH_UNIT = re.compile(rf"({_NUMBER.pattern})\s*(?P<unit>[A-Za-zµμ%°].*)")
+"""A number, and from a letter on its unit."""
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}")
 _MINUS = str.maketrans("−–－", "---")
 
 
-def typed_number(text: str) -> float:
-    """The number that ``text`` says, with a decimal point or a decimal comma.
+def typed_number(text: str, unit: str | None = None) -> float:
+    """The number that ``text`` says, with a decimal point or a decimal comma; in ``unit`` where it may have a unit.
 
-    Raises ``ValueError`` in a sentence for everything else: units, fractions, separated thousands, nothing at all.
+    Raises ``ValueError`` in a sentence for everything else: fractions, separated thousands, nothing at all, units that
+    are not known or measure something else.
     """
     plain = text.strip().translate(_MINUS)
     if not plain:
         raise ValueError("an empty box is no number")
+    if unit is not None and len(plain) <= LONGEST and not _NUMBER.fullmatch(plain):
+        with_unit = _WITH_UNIT.fullmatch(plain)
+        if with_unit:
+            return _sized(convert(_plain_number(with_unit[1], text), with_unit["unit"], unit), text)
+    return _plain_number(plain, text)
+
+
+def _plain_number(plain: str, text: str) -> float:
+    """The number ``plain``, which was typed as ``text`` or a part of it."""
     if len(plain) > LONGEST or not _NUMBER.fullmatch(plain):
         raise ValueError(f"{_short(text)} is no number; 48.09, 48,09 and 1e3 are")
     if _THOUSANDS.fullmatch(plain):
@@ -35,8 +49,14 @@ def typed_number(text: str) -> float:
             f"write {plain.replace(',', '.')} or {plain.replace(',', '')}"
         )
     value = float(plain.replace(",", "."))
-    if abs(value) == float("inf") or (not value and re.search("[1-9]", plain.lower().partition("e")[0])):
-        raise ValueError(f"{_short(text)} is too {'large' if value else 'small'} for a computer")
+    if not value and re.search("[1-9]", plain.lower().partition("e")[0]):
+        raise ValueError(f"{_short(text)} is too small for a computer")
+    return _sized(value, text)
+
+
+def _sized(value: float, text: str) -> float:
+    if abs(value) == float("inf"):
+        raise ValueError(f"{_short(text)} is too large for a computer")
     return value
 
 

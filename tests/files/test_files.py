@@ -59,7 +59,7 @@ from camkit.papers.problems import KnownProblem
 from camkit.quantities import Design, Quantity, declarations
 from camkit.search.front import front_of
 from camkit.study.study import WeightedSum, weighted
-from camkit.units import FACTORS, deg, mm
+from camkit.units import deg, factor, mm
 from camkit.views import pressure_angle
 
 FILES = Path(__file__).parents[1] / "data" / "files"
@@ -177,14 +177,17 @@ def test_every_design_comes_back(kind):
     assert from_json(to_json(kind())) == kind()
 
 
-@given(st.sampled_from(sorted(FACTORS)), st.floats(1e-9, 1e9))
+@given(
+    st.sampled_from(["mm", "deg", "rpm", "%", "kN m", "N^0.5 mm^-0.5", "in", "psi", "mm/rad^2", "MPa"]),
+    st.floats(1e-9, 1e9),
+)
 @settings(max_examples=300, deadline=None)
 def test_a_number_in_its_unit_is_the_number_that_gives_it_back(unit, value):
     """To the last bit where there is such a number, else to the last but one."""
-    again = exact_in_unit(value, unit) * FACTORS[unit]
-    near = [value / FACTORS[unit] * (1 + k * 2**-53) for k in range(-3, 4)]
+    again = exact_in_unit(value, unit) * factor(unit)
+    near = [value / factor(unit) * (1 + k * 2**-53) for k in range(-3, 4)]
     assert again == value or (
-        math.isclose(again, value, rel_tol=1e-14) and value not in [v * FACTORS[unit] for v in near]
+        math.isclose(again, value, rel_tol=1e-14) and value not in [v * factor(unit) for v in near]
     )
 
 

@@ -118,6 +118,15 @@ def test_a_box_keeps_its_last_number():
     assert box.text == "2"
 
 
+def test_a_box_with_a_unit_takes_what_goes_into_it():
+    told = []
+    box = NumberBox(1.5, told.append, "mm")
+    box.text = "2 in"
+    assert (box.value, box.text, told) == (50.8, "50.8", [""])
+    box.text = "2 kg"
+    assert (box.value, box.text, told[1:]) == (50.8, "50.8", ["kg cannot be converted into mm"])
+
+
 def test_a_box_for_a_count_refuses_what_a_program_may_set_only_in_range():
     told = []
     box = WholeBox(10, 4, 1000, told.append)

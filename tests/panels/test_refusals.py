@@ -241,7 +241,7 @@ def test_an_unknown_reference_is_refused_with_those_there_are():
 
 
 def test_an_unknown_unit_is_refused_with_the_units_there_are():
-    with pytest.raises(ValueError, match=r"^the unit 'furlong' is not known; there are %, m, cm, mm, .*, W, kW"):
+    with pytest.raises(ValueError, match=r"^the unit 'furlong' is not known; it must be .*, of m, g, .*, lbf, psi"):
         factor("furlong")
 
 

@@ -103,7 +103,12 @@ class NumberRow:
         )
         self.slider.value = on_grid(self.slider, shown)
         self.box = NumberBox(
-            _six_digits(shown), self._refused, step=step, meaning=declared.meaning, layout=w.Layout(width="5.9em")
+            _six_digits(shown),
+            self._refused,
+            declared.unit,
+            step=step,
+            meaning=declared.meaning,
+            layout=w.Layout(width="5.9em"),
         )
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
         unit = w.HTML(small_html(declared.unit), layout=w.Layout(flex="0 0 4.2em"))

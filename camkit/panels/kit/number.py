@@ -25,7 +25,7 @@ class NumberBox(anywidget.AnyWidget):
     """A box for a number; ``value`` is the last one that could be read, and ``text`` what the page shows.
 
     ``refused(sentence)`` is called for a text that is none, with an empty sentence before each number that is taken.
-    The arrow keys go up and down by ``step``.
+    The arrow keys go up and down by ``step``.  A number may be typed with a unit that goes into ``unit``.
     """
 
     _esm = Path(__file__).with_name("number.js").read_text(encoding="utf-8")
@@ -38,9 +38,9 @@ class NumberBox(anywidget.AnyWidget):
     disabled = traitlets.Bool(False).tag(sync=True)
     value: Any = traitlets.Float(0.0)
 
-    def __init__(self, value: float, refused: Callable[[str], None], **options: Any) -> None:
+    def __init__(self, value: float, refused: Callable[[str], None], unit: str | None = None, **options: Any) -> None:
         super().__init__(**options)
-        self.refused, self._told = refused, ""
+        self.refused, self.unit, self._told = refused, unit, ""
         self.value = value
         self._show()
         self.observe(lambda _: self._show(), "value")
@@ -65,7 +65,7 @@ class NumberBox(anywidget.AnyWidget):
             self._show()
 
     def _read(self, text: str) -> float:
-        return typed_number(text)
+        return typed_number(text, self.unit)
 
 
 class WholeBox(NumberBox):
