@@ -19,8 +19,8 @@ SI |= {"deg": pi / 180, "rpm": 2 * pi / 60, "%": 0.01, "min": 60, "in": 0.0254, 
 UNITS = [
     *("", "%", "m", "cm", "mm", "um", "in", "mm/rad", "mm/rad^3", "1/rad", "1/rad^2", "1/m", "1/mm", "mm^2"),
     *("rad", "deg", "deg/m", "s", "rpm", "rad/s", "deg/s", "m/s", "m/s^2", "rad/s^2", "kg", "kg/m^3", "kg m^2"),
-    *("N", "kN", "N/m", "N/mm", "N^0.5 mm^-0.5", "N^1.5 mm^-0.5", "N m", "N mm", "N m/rad", "Pa", "MPa", "GPa", "W", "kW"),
-    *("kJ", "mm^3", "mJ", "g", "Hz", "min", "1/min", "N^1.5 cm^-0.5", "kW min", "psi", "in^2", "m^4", "dm^3", "mm/min"),
+    *("N", "kN", "N/m", "N/mm", "N^0.5 mm^-0.5", "N^1.5 mm^-0.5", "N m", "N mm", "N m/rad", "Pa", "MPa", "W", "kW"),
+    *("GPa", "kJ", "mJ", "g", "Hz", "min", "1/min", "N^1.5 cm^-0.5", "kW min", "psi", "in^2", "m^4", "mm^3", "mm/min"),
 ]  # fmt: skip
 typed = st.decimals(-1000000, 1000000, allow_nan=False, places=6).map(float)
 
