@@ -48,7 +48,7 @@ from camkit.motion import (
     Skewed,
     SplineLaw,
 )
-from camkit.motion.families.shaped import FAMILIES
+from camkit.motion.families.shaped import FAMILIES, ShapedLaw
 from camkit.motion.law import law_peaks
 from camkit.units import N, deg, kg, mm, rpm
 
@@ -405,7 +405,8 @@ CASES = (
 @pytest.mark.parametrize("law", FREE)
 def test_peaks_of_high_speed_cams_with_free_laws(family, law):
     for k, (load, speed, spring, share) in enumerate(CASES):
-        cam = HighSpeedCam(family=family, load=load, speed=speed, spring_factor=spring, rise_law=FREE[law])
+        laws = {"rise_law": ShapedLaw(FREE[law], family=family), "return_law": ShapedLaw(family=family)}
+        cam = HighSpeedCam(load=load, speed=speed, spring_factor=spring, **laws)
         study = high_speed_study.high_speed_study(cam, free_laws=True, free_spring=False)
         study = study.replace(start=cam)
         checked(study, random_designs(study, 10 * list(FREE).index(law) + k, 4, share), HighSpeedCam.measures)
@@ -414,7 +415,8 @@ def test_peaks_of_high_speed_cams_with_free_laws(family, law):
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 @pytest.mark.parametrize("law", FREE)
 def test_peaks_of_cams_with_a_lever_and_free_laws(family, law):
-    study = cam_lever_study(CamLever(rise_law=FREE[law], family=family, shaft_speed=80 * rpm))
+    laws = {"rise_law": ShapedLaw(FREE[law], family=family), "return_law": ShapedLaw(family=family)}
+    study = cam_lever_study(CamLever(shaft_speed=80 * rpm, **laws))
     checked(study, random_designs(study, list(FREE).index(law), 5), CamLever.measures)
 
 

@@ -22,6 +22,19 @@ RENAMED: dict[tuple[str, str], str] = {
     ("DoorHandleCam", "door_torque_table"): "lift_load.torque_table",
     ("DoorHandleCam", "relief_arm_mass"): "relief_load.mass",
     ("DoorHandleCam", "flap_torque"): "-relief_load.torque",
+    **{
+        (cam, before): now
+        for cam in ("HighSpeedCam", "CamLever")
+        for before, now in {
+            "rise_law": "rise_law.base",
+            "return_law": "return_law.base",
+            "family": "rise_law.family, return_law.family",
+            **{f"{law}_c{i}": f"{law}_law.c{i}" for law in ("rise", "return") for i in range(4)},
+            "contact_width": "contact.width",
+            "cam_modulus": "contact.cam_modulus",
+            "roller_modulus": "contact.follower_modulus",
+        }.items()
+    },
 }
 """``{(where, earlier name): name of today}``.
 
@@ -29,8 +42,9 @@ RENAMED: dict[tuple[str, str], str] = {
 for a measure, ``"rule"`` or ``"mode"`` for an entry of a search's menus.  Names stand without their units, but for a
 new name whose number has another unit today; a minus before it stands for a number of the other sign.  What was a
 field of its own and stands deeper in the design today has a path for its new name, such as ``"load.spring_rate"``; the
-order of a file's entries then is the order in which they are put in, so a law comes before its coefficients.  What is
-renamed twice has a row for each of its earlier names.
+order of a file's entries then is the order in which they are put in, so a law comes before its coefficients.  What was
+one and is several today has their paths with commas between.  What is renamed twice has a row for each of its earlier
+names.
 """
 
 MANY = 4
@@ -88,7 +102,8 @@ class Renaming:
         kind = entry.get("kind")
         kind = kind if isinstance(kind, str) and kind in self.kinds else self.name("kind", kind)
         earlier = any(self._is_earlier(str(kind), k) for k in entry)
-        inner = dict(self._field(str(kind), k, v, earlier) for k, v in entry.items() if k != "kind")
+        fields = (self._field(str(kind), k, v, earlier) for k, v in entry.items() if k != "kind")
+        inner = {path: value for names, value in fields for path in names.split(", ")}
         return {"kind": kind, **inner} if "kind" in entry else inner
 
     def _is_earlier(self, kind: str, name: str) -> bool:
@@ -97,7 +112,7 @@ class Renaming:
         return (kind, before) in self.table and not self.table[kind, before].startswith(f"{before}.")
 
     def _field(self, kind: str, name: str, entry: Any, earlier: bool) -> tuple[str, Any]:
-        """A field of today; a name that is also one of today's is renamed only among ``earlier`` ones."""
+        """A field of today, or several; a name that is also one of today's is renamed only among ``earlier`` ones."""
         if not earlier:
             return name, self.design(entry)
         return self.name(kind, name), _multiplied(self.design(entry), self.times(kind, name))

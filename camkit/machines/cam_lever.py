@@ -10,7 +10,7 @@ a constant force of 123 N and 50 rpm, which give the paper's first row: F_sigma 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -19,26 +19,14 @@ import numpy as np
 from ..cam import bodies
 from ..cam.loads import Table, refuse_table, tabulated
 from ..geometry import Body, Outline, rotated
-from ..quantities import Measure, declarations, fails, quantity
+from ..quantities import Measure, fails, quantity
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis, number
 from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
-from .high_speed_study import (
-    CLEAR,
-    laws_free,
-    max_pressure_angle,
-    min_lead,
-    min_radius,
-    overrun,
-    peak,
-    peak_force,
-    peak_pressure,
-    peak_torque,
-    undercut_margin,
-)
+from .high_speed_study import CLEAR, COMMON, laws_free, min_lead, min_radius, overrun, peak, undercut_margin
 
 
 @dataclass(frozen=True)
@@ -119,7 +107,7 @@ class CamLever(FreeLawCam):
     @cached_property
     def cam(self) -> HighSpeedCam:
         """The cam that swings the lever."""
-        shared = {name: getattr(self, name) for name in declarations(FreeLawCam)}
+        shared = {f.name: getattr(self, f.name) for f in fields(FreeLawCam)}
         return HighSpeedCam(
             **shared,
             load=SliderLoad(self.lever, self.weight, self.force, self.inertia_speed2),
@@ -216,12 +204,7 @@ reach = Measure("arm and roller l + r", "mm", lambda a: number(a.cam.arm_length 
 CAM_LEVER_MEASURES = (
     lever_stress,
     lever_wear,
-    peak_pressure,
-    peak_force,
-    peak_torque,
-    max_pressure_angle,
-    undercut_margin,
-    min_radius,
+    *COMMON,
     reach,
     closing_share,
     overrun,
@@ -257,6 +240,7 @@ def cam_lever_study(
     """
     refuse_arguments(cam_lever_study, locals())
     start = start or CamLever()
+    start = start.shaped() if free_laws else start
     return Study(
         start=start,
         free=LEVER_SIZES | {"max_radius": (80 * mm, max_radius)} | (laws_free(start) if free_laws else {}),

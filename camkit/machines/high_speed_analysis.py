@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
-from ..contact import contact_modulus, line_contact
+from ..contact import line_contact
 from ..extrema import raised, with_tops
 from ..motion import Kinematics
 from ..motion.resolution import STEPS, Resolution, between, resolve
@@ -115,8 +115,8 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         return self._pressure(self.normal_force, 1 / self.reduced_radius)
 
     def _pressure(self, force: Any, curvature: Any) -> np.ndarray:
-        modulus = contact_modulus(self.cam.cam_modulus, self.cam.roller_modulus)
-        return line_contact(force / self.cam.contact_width, curvature, modulus).pressure
+        pair = self.cam.contact
+        return line_contact(force / pair.width, curvature, pair.modulus).pressure
 
 
 def inverse_root(ease: Any) -> Any:

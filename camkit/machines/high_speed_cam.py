@@ -11,19 +11,18 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.  The geometry is that
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from ..cam.directions import ROTATIONS
+from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
 from ..geometry import angle_opposite
-from ..motion import LAWS, Dwell, Law, MotionProgram, Poly345, Return, Rise
-from ..motion.families.shaped import DEGREE9, FAMILIES, ShapedLaw
+from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
-from ..quantities.kinds import shown
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_load import ConstantTorque, InertialSpringLoad
@@ -40,41 +39,24 @@ def joined(*stretches: Any) -> Any:
 
 @dataclass(frozen=True)
 class FreeLawCam(Design):
-    """What every high-speed cam has: sizes, two motion laws, and four coefficients that shape each of them.
+    """What every high-speed cam has: sizes, two motion laws, and what touches.
 
-    The coefficients are added to the laws in the sense of ``family`` (see `ShapedLaw`): on the 3-4-5 polynomial
-    they make the paper's polynomials of degree 9, or splines.
+    Each law is a 3-4-5 polynomial that four coefficients shape, which make the paper's polynomials of degree 9 or
+    splines of it (see `ShapedLaw`), or any other law.
     """
 
     arm_length: float = quantity("l", 165, 40, 290, "mm", "arm: pivot to roller centre")
     roller_radius: float = quantity("r", 30, 20, 200, "mm", "roller")
     max_radius: float = quantity("r_k2", 130, 60, 140, "mm", "largest radius of the profile")
-    rise_law: Any = choice("a", Poly345(), LAWS, "law by which the arm swings away")
-    return_law: Any = choice("a'", Poly345(), LAWS, "law by which the arm swings back")
-    family: Any = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the laws")
-    rise_c0: float = quantity("c_0", 0, -0.6, 0.6, "", "shapes the law away", above=None)
-    rise_c1: float = quantity("c_1", 0, -0.6, 0.6, "", "shapes the law away", above=None)
-    rise_c2: float = quantity("c_2", 0, -0.6, 0.6, "", "shapes the law away", above=None)
-    rise_c3: float = quantity("c_3", 0, -0.6, 0.6, "", "shapes the law away", above=None)
-    return_c0: float = quantity("d_0", 0, -0.6, 0.6, "", "shapes the law back", above=None)
-    return_c1: float = quantity("d_1", 0, -0.6, 0.6, "", "shapes the law back", above=None)
-    return_c2: float = quantity("d_2", 0, -0.6, 0.6, "", "shapes the law back", above=None)
-    return_c3: float = quantity("d_3", 0, -0.6, 0.6, "", "shapes the law back", above=None)
-    contact_width: float = quantity("b", 20, 5, 60, "mm", "length of the line on which cam and roller touch")
-    cam_modulus: float = quantity("E_1", 210, 90, 220, "GPa", "elastic modulus of the cam")
-    roller_modulus: float = quantity("E_2", 210, 90, 320, "GPa", "elastic modulus of the roller")
+    rise_law: Any = choice("a", ShapedLaw(), LAW_MENU, "law by which the arm swings away")
+    return_law: Any = choice("a'", ShapedLaw(), LAW_MENU, "law by which the arm swings back", c="d")
+    contact: ContactPair = field(default_factory=lambda: ContactPair(width=20 * mm))
+    """The materials of cam and roller and the length of the line on which they touch."""
 
-    def _law(self, way: str) -> Law:
-        base = getattr(self, f"{way}_law")
-        if not isinstance(base, Law):
-            raise ValueError(f"the {way} law is {shown(base)}; it must be a motion law such as Degree9((0, 0, 0, 0))")
-        c = tuple(getattr(self, f"{way}_c{i}") for i in range(4))
-        return base if all(np.ndim(ci) == 0 and ci == 0 for ci in c) else ShapedLaw(base, c, self.family)
-
-    @cached_property
-    def laws(self) -> tuple[Law, Law]:
-        """The laws of rise and return with what the coefficients add to them."""
-        return self._law("rise"), self._law("return")
+    def shaped(self) -> Self:
+        """The same cam with laws that coefficients shape, at 0 where there were none."""
+        rise, back = (law if isinstance(law, ShapedLaw) else ShapedLaw(law) for law in (self.rise_law, self.return_law))
+        return self.replace(rise_law=rise, return_law=back)
 
 
 @dataclass(frozen=True)
@@ -86,7 +68,7 @@ class HighSpeedCam(FreeLawCam):
     ``load`` is an `InertialSpringLoad`, a `ConstantTorque` or anything else with a ``name`` and their method
     ``resisting_torque``.
 
-    >>> cam = HighSpeedCam(165 * mm, 30 * mm, 130 * mm, Poly345(), Poly345())
+    >>> cam = HighSpeedCam(165 * mm, 30 * mm, 130 * mm)
     >>> analysis = cam.analyse()
     >>> print(f"{analysis.rise.stress_coefficient.max():.4f}, {analysis.fall.wear_coefficient.max():.2f}")
     2.4780, 410.00
@@ -112,7 +94,6 @@ class HighSpeedCam(FreeLawCam):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.laws  # noqa: B018 - refuses what is no law
         self._refuse_intervals()
         self._refuse_sizes()
 
@@ -171,9 +152,9 @@ class HighSpeedCam(FreeLawCam):
     @cached_property
     def motion(self) -> MotionProgram:
         """The arm's travel over a turn of the cam: rise, dwell, return, dwell."""
-        away, back = self.laws
-        moves = (Rise(self.rise_angle, self.swing, away), Return(self.return_angle, self.swing, back))
-        return MotionProgram((moves[0], Dwell(self.dwell_angle), moves[1], Dwell(self.dwell_angle)))
+        away = Rise(self.rise_angle, self.swing, self.rise_law)
+        back = Return(self.return_angle, self.swing, self.return_law)
+        return MotionProgram((away, Dwell(self.dwell_angle), back, Dwell(self.dwell_angle)))
 
     def angles(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Cam angles of the whole turn, of the rise and of the return, ``n`` even ones in either of these."""

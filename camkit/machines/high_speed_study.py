@@ -10,7 +10,7 @@ from operator import attrgetter
 from typing import Any
 
 from ..cam.force_closure import jump_speed
-from ..quantities import Measure, PeakMeasure
+from ..quantities import Measure, Paths, PeakMeasure
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Space, Study
 from ..units import mm
@@ -51,15 +51,12 @@ min_radius = Measure("smallest radius r_k1", "mm", lambda a: a.min_radius)
 gap = Measure("gap from roller to pivot", "mm", lambda a: number(a.cam.arm_length - a.cam.roller_radius))
 spring_factor = Measure("closing spring K", "", lambda a: a.spring_factor)
 
+COMMON = (peak_pressure, peak_force, peak_torque, max_pressure_angle, undercut_margin, min_radius)
+"""What the tables of all these cams show."""
 HIGH_SPEED_MEASURES = (
     peak_stress,
     peak_wear,
-    peak_pressure,
-    peak_force,
-    peak_torque,
-    max_pressure_angle,
-    undercut_margin,
-    min_radius,
+    *COMMON,
     gap,
     spring_factor,
     spring_use,
@@ -76,7 +73,8 @@ GEOMETRY = {
     "max_radius": (60 * mm, 140 * mm),
 }
 """The paper's three free sizes; ``l >= 40``, ``r >= 20`` and ``r_k2 <= 140 mm`` are its limits, the others are wide."""
-COEFFICIENTS = tuple(f"{way}_c{i}" for way in ("rise", "return") for i in range(4))
+COEFFICIENTS = tuple(f"{way}_law.c{i}" for way in ("rise", "return") for i in range(4))
+"""Paths of what shapes both laws."""
 WEAK, STRONG = 0.2, 12.0
 """Between these the closing spring ``K`` is free."""
 CLEAR = 1e-3
@@ -84,8 +82,8 @@ CLEAR = 1e-3
 
 
 def laws_free(start: FreeLawCam) -> dict[str, tuple[float, float]]:
-    """The eight coefficients, as far as their family lets them go."""
-    return dict.fromkeys(COEFFICIENTS, (-start.family.wide, start.family.wide))
+    """The eight coefficients of shaped laws, as far as their families let them go."""
+    return {path: (c.low, c.high) for path, c in Paths(start, COEFFICIENTS).declared.items()}
 
 
 def high_speed_study(
@@ -113,6 +111,7 @@ def high_speed_study(
     """
     refuse_arguments(high_speed_study, locals())
     start = start or HighSpeedCam()
+    start = start.shaped() if free_laws else start
     free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}
     least: dict[Measure, float] = {min_radius: 30 * mm, undercut_margin: CLEAR, min_force: 0.0}

@@ -16,7 +16,6 @@ from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial
 from .families.harmonic import Cycloidal
 from .families.plain import HALF_LAWS, LAWS
-from .families.polynomial import Poly345
 from .families.shaped import ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw
@@ -24,7 +23,7 @@ from .law import Kinematics, Law
 
 LAW_MENU: tuple[Law, ...] = (
     *LAWS,
-    ShapedLaw(Poly345(), (0.0,) * 4),
+    ShapedLaw(),
     FreePolynomial(),
     SplineLaw((0.25, 0.5, 0.75), (0.1, 0.5, 0.9)),
     ConstantVelocity(),

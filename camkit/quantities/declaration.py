@@ -249,10 +249,13 @@ def quantity(
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
-def choice(symbol: str, default: Any, options: Sequence[Any] | Mapping[str, Any], meaning: str) -> Any:
-    """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names."""
+def choice(symbol: str, default: Any, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: Any) -> Any:
+    """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names.
+
+    ``says`` what the options leave to their owner, such as the letter of numbers in a row, by the name of their field.
+    """
     options = options if isinstance(options, Mapping) else tuple(options)
-    return field(default=default, metadata={"declared": Choice(symbol, default, options, meaning)})
+    return field(default=default, metadata={"declared": Choice(symbol, default, options, meaning), "says": says})
 
 
 def row(declared: Callable[[int], tuple[str, Quantity]], **default: Any) -> Any:

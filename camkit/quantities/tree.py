@@ -2,15 +2,16 @@
 
 ``motion.rise.law.c0`` is the coefficient c0 of the law of the segment ``rise`` of the design's ``motion``.  A part
 names its own quantities, whoever holds it; where their unit is the owner's business (the lift of a segment is a length
-or an angle), the owner's field says so in its metadata ``says``.
+or an angle), or the letter of numbers in a row, the owner's field says so in its metadata ``says``.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
+from functools import cache
 from types import MethodType
 from typing import Any, NamedTuple
 
@@ -36,7 +37,13 @@ class Leaf(NamedTuple):
         return held if self.at is None else held[self.at]
 
 
-def _leaves(part: Any, said: Mapping[str, Quantity]) -> dict[str, Leaf]:
+@cache
+def _lettered(declared: Quantity, letter: str | None) -> Quantity:
+    """One number of a row, with another letter in its symbol."""
+    return replace(declared, symbol=f"{letter}_{declared.symbol.partition('_')[2]}") if letter else declared
+
+
+def _leaves(part: Any, said: Mapping[str, Any]) -> dict[str, Leaf]:
     """The quantities and choices of one part by name; ``said``: what its owners say of fields that leave it to them."""
     found, own = {}, part.declares()
     for f in dataclasses.fields(part):
@@ -46,17 +53,18 @@ def _leaves(part: Any, said: Mapping[str, Quantity]) -> dict[str, Leaf]:
         elif "row" in f.metadata:
             named = own.get(f.name) or f.metadata["row"]
             values = enumerate(getattr(part, f.name))
-            found |= {n: Leaf(q, f.name, i) for i, (n, q) in ((i, named(i)) for i, v in values if v is not None)}
+            rows = ((i, *named(i)) for i, v in values if v is not None)
+            found |= {name: Leaf(_lettered(q, said.get(f.name)), f.name, i) for i, name, q in rows}
     return found
 
 
-def _said(part: Any, branch: str, said: Mapping[str, Quantity]) -> Mapping[str, Quantity]:
+def _said(part: Any, branch: str, said: Mapping[str, Any]) -> Mapping[str, Any]:
     """What the owners of a branch say."""
     more = (f.metadata.get("says", {}) for f in dataclasses.fields(part) if f.name == branch)
     return {**said, **next(more, {})}
 
 
-def _walk(part: Any, said: Mapping[str, Quantity]) -> Iterator[tuple[str, Leaf]]:
+def _walk(part: Any, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
     """All below one part, in the order of its fields, with their paths from it."""
     leaves, branches, hidden = _leaves(part, said), part.branches(), part.following()
     own = [f.name for f in dataclasses.fields(part)]

@@ -16,10 +16,12 @@ from camkit.machines.cam_lever import CamLever, lever_stress
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
+from camkit.motion import ShapedLaw
 from camkit.search.minimise import minimise
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = HighSpeedCam()
+SHAPED = ShapedLaw(c=(0.0, -0.15, 0.0, 0.0))
 LIMITS = high_speed_study().at_least or {}
 
 
@@ -49,7 +51,7 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
     shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
     # a panel inside a panel: the outer one, with the buttons, comes first
-    yield Workbook(page, panels.filter(has_text="return c3").first, optimise.first, shorten.first)
+    yield Workbook(page, panels.filter(has_text="return law c3").first, optimise.first, shorten.first)
     page.close()
     server.end_kernels()
 
@@ -87,13 +89,13 @@ def test_a_slider_changes_the_roller_and_all_that_follows(book: Workbook) -> Non
 
 
 def test_coefficients_and_the_load_case_from_the_menu(book: Workbook) -> None:
-    box = book.row(book.bench, "rise c1").get_by_role("spinbutton")
+    box = book.row(book.bench, "rise law c1").get_by_role("spinbutton")
     box.fill("-0.15")
     box.press("Enter")
-    shows(book, START.replace(rise_c1=-0.15))
+    shows(book, START.replace(rise_law=SHAPED))
     menu = book.bench.locator("select").filter(has_text="constant torque")
     menu.select_option(label="constant torque")
-    shows(book, START.replace(rise_c1=-0.15, load=ConstantTorque()))
+    shows(book, START.replace(rise_law=SHAPED, load=ConstantTorque()))
 
 
 def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> None:

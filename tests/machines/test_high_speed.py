@@ -18,6 +18,7 @@ from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_st
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque, InertialSpringLoad
 from camkit.machines.high_speed_study import (
+    COEFFICIENTS,
     HIGH_SPEED_MEASURES,
     high_speed_study,
     lift_off,
@@ -32,6 +33,7 @@ from camkit.machines.high_speed_study import (
 from camkit.motion import LAWS, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.families.shaped import KNOTS, SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import lever_problems, problems, table, table_3, trade_off_studies, with_printed_sizes
+from camkit.quantities import quantities_of, with_quantities
 from camkit.search.minimise import minimise
 from camkit.units import GPa, cm, deg, mm, rpm
 
@@ -312,7 +314,7 @@ def test_a_load_without_inertia_never_lifts_the_roller():
     analysis = FIRST.replace(load=TORQUE).analyse()
     assert jump_speed(analysis) == np.inf
     assert preload_needed(analysis, 2.0) == 0
-    pressure = contact_along(analysis, ContactPair(FIRST.contact_width)).pressure
+    pressure = contact_along(analysis, FIRST.contact).pressure
     assert_allclose(pressure, analysis.hertz_pressure, rtol=1e-12)
 
 
@@ -325,7 +327,7 @@ def test_a_press_that_turns_faster_lifts_its_slider():
     assert PRESS.replace(shaft_speed=1.01 * jumps).analyse().loses_contact
     lowest = PRESS.replace(shaft_speed=1.2 * jumps).analyse(4001).resisting_torque.min()
     assert preload_needed(PRESS.analyse(), 1.2 * jumps) == pytest.approx(-lowest, rel=1e-4)
-    contact = contact_along(PRESS.analyse(), ContactPair(PRESS.contact_width)).pressure
+    contact = contact_along(PRESS.analyse(), PRESS.contact).pressure
     assert_allclose(contact, PRESS.analyse().hertz_pressure, rtol=1e-12)
 
 
@@ -339,7 +341,7 @@ def test_inertia_grows_with_speed_squared_and_neither_spring_nor_constant_torque
 
 
 def test_hertz_pressure_is_proportional_to_the_stress_coefficient():
-    analysis = FREE.replace(contact_width=25 * mm, cam_modulus=180 * GPa).analyse(91)
+    analysis = FREE.replace(contact=ContactPair(25 * mm, 180 * GPa)).analyse(91)
     scale = np.sqrt(contact_modulus(180 * GPa, 210 * GPa) / (np.pi * 25 * mm))
     assert_allclose(analysis.rise.hertz_pressure, scale * analysis.rise.stress_coefficient / mm**0.5, rtol=1e-12)
     assert peak_pressure(analysis) == pytest.approx(scale * peak_stress(analysis), rel=1e-12)
@@ -367,10 +369,17 @@ def test_401_angles_give_what_4001_give_also_near_undercut(margin, measure):
 
 
 def test_coefficients_make_the_laws_of_degree_9():
-    c = {f"rise_c{i}": x for i, x in enumerate(LAW.c)} | {f"return_c{i}": x for i, x in enumerate(OTHER_LAW.c)}
-    plain = FREE.replace(rise_law=Poly345(), return_law=Poly345(), **c)
-    for a, b in zip(plain.analyse(91).intervals, FREE.analyse(91).intervals, strict=True):
+    shaped = with_quantities(
+        FREE.replace(rise_law=ShapedLaw(), return_law=ShapedLaw()),
+        dict(zip(COEFFICIENTS, (*LAW.c, *OTHER_LAW.c), strict=True)),
+    )
+    for a, b in zip(shaped.analyse(91).intervals, FREE.analyse(91).intervals, strict=True):
         assert_allclose(a.stress_coefficient, b.stress_coefficient, rtol=1e-9)
+
+
+def test_the_coefficients_have_the_letters_of_the_paper():
+    symbols = [quantities_of(HighSpeedCam())[path].symbol for path in COEFFICIENTS]
+    assert symbols == [f"{c}_{i}" for c in "cd" for i in range(4)]
 
 
 def test_coefficients_add_to_whatever_law_there_is():
@@ -387,8 +396,7 @@ def test_splines_are_the_other_family():
     assert shaped.continuity == 2
     assert shaped.kinks == KNOTS
     one = FIRST.replace(rise_law=through).analyse(91).rise.wear_coefficient
-    fields = {f"rise_c{i}": x for i, x in enumerate(c)}
-    assert_allclose(FIRST.replace(family=SPLINE, **fields).analyse(91).rise.wear_coefficient, one, rtol=1e-9)
+    assert_allclose(FIRST.replace(rise_law=shaped).analyse(91).rise.wear_coefficient, one, rtol=1e-9)
 
 
 @pytest.mark.parametrize("law", [law for law in LAWS if law.continuity >= 2], ids=lambda law: law.name)
@@ -438,7 +446,7 @@ def test_members_that_cannot_be_built_are_nan_and_disturb_nobody():
 def test_flags():
     c = np.array([[0.0], [-0.5], [0.5], [0.0]])
     r = np.array([[30.0], [30], [30], [112]]) * mm
-    analysis = FIRST.replace(roller_radius=r, rise_c0=c).analyse(401)
+    analysis = FIRST.replace(roller_radius=r, rise_law=ShapedLaw(c=(c, 0.0, 0.0, 0.0))).analyse(401)
     travel = analysis.rise.motion.s / FIRST.swing
     margin = 1 - r * analysis.moving.resolved.curvature
     assert analysis.flags["the roller undercuts the profile"].tolist() == (margin.min(-1) < 0).tolist()
@@ -450,7 +458,10 @@ def test_flags():
     assert analysis.passes_end.tolist() == [False, False, True, False]
     assert np.isinf(analysis.spring_factor).tolist() == analysis.passes_start.tolist()
     assert not np.isfinite(peak_stress(analysis)[1])
-    fine = FIRST.replace(roller_radius=r, rise_c0=c).analyse(20_001).rise.motion.s / FIRST.swing
+    fine = (
+        FIRST.replace(roller_radius=r, rise_law=ShapedLaw(c=(c, 0.0, 0.0, 0.0))).analyse(20_001).rise.motion.s
+        / FIRST.swing
+    )
     beyond = np.maximum(-fine.min(-1), fine.max(-1) - 1)
     assert_allclose(overrun(analysis), np.where(beyond > 1e-9, beyond, 0), atol=1e-7)
     assert (min_lead(analysis) < 0).tolist() == (analysis.passes_start | analysis.passes_end).tolist()
@@ -485,7 +496,7 @@ def test_a_weak_spring_loses_contact():
         ({"return_angle": -90 * deg}, r"the return angle phi_2 .* is -90 deg"),
         ({"speed": 0.0}, r"the speed n .* is 0 %"),
         ({"spring_factor": -1.0}, r"the spring factor K .* is -1; it must be a finite number of at least 0"),
-        ({"contact_width": 0.0}, r"the contact width b .* is 0 mm"),
+        ({"contact": 10 * mm}, r"the contact is 0.01; it must be a ContactPair"),
         ({"load": 10.0}, r"the load is 10; it must be one of inertia and closing spring, constant torque"),
         ({"rise_angle": 0.0}, r"the rise angle phi_1 .* is 0 deg; it must be a finite number above 0 deg"),
         ({"return_angle": 280 * deg}, r"swings over 370 deg of the cam; there are 360 deg"),
@@ -499,7 +510,6 @@ def test_a_weak_spring_loses_contact():
         ),
         ({"rise_law": "cycloidal"}, r"the rise law is 'cycloidal'; it must be one of"),
         ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be one of"),
-        ({"rise_c0": "much"}, r"the rise c0 c_0 is 'much'"),
         ({"rotation": 0}, r"the rotation is 0; it must be one of 1 \(counter-clockwise\), -1 \(clockwise\)"),
     ],
 )
@@ -528,14 +538,18 @@ def test_too_few_angles_are_refused_in_a_sentence():
 
 def test_a_law_that_swings_the_arm_through_the_line_of_centres_is_refused():
     with pytest.raises(ValueError, match=r"the arm swings from -\d+.* deg from the line of centres"):
-        FIRST.replace(rise_c0=-3.0).analyse()
+        FIRST.replace(rise_law=ShapedLaw(c=(-3.0, 0.0, 0.0, 0.0))).analyse()
 
 
 # ---------------------------------------------------------------- with the rest of the package
 
 
 def test_saved_and_loaded_it_is_the_same_cam():
-    for design in (FIRST.replace(load=ConstantTorque(12), family=SPLINE), FREE, CamLever(rise_law=ModifiedSine())):
+    for design in (
+        FIRST.replace(load=ConstantTorque(12), rise_law=ShapedLaw(family=SPLINE)),
+        FREE,
+        CamLever(rise_law=ModifiedSine()),
+    ):
         assert from_json(to_json(design)) == design
 
 
@@ -683,7 +697,7 @@ def test_a_gain_is_the_share_that_is_left_of_the_print():
 def test_printed_sizes_leave_the_laws_alone_free():
     study = with_printed_sizes("table 1, wear with F_sigma at most 2")
     assert (study.start.arm_length, study.start.roller_radius) == (184 * mm, 106 * mm)
-    assert set(study.free) == {f"{way}_c{i}" for way in ("rise", "return") for i in range(4)} | {"spring_factor"}
+    assert set(study.free) == {*COEFFICIENTS, "spring_factor"}
     assert [m.name for m in study.minimise] == [peak_wear.name]
     assert study.at_most[peak_stress] == pytest.approx(2 / mm**0.5)
     torque = with_printed_sizes("table 2, wear")

@@ -17,6 +17,7 @@ from camkit.machines.high_speed_study import (
     peak_stress,
     peak_wear,
 )
+from camkit.motion import ShapedLaw
 from camkit.panels.cycle_time import cycle_time_panel
 from camkit.panels.optimise import optimise_panel
 from camkit.render.artists import _find
@@ -204,7 +205,7 @@ def test_it_starts_from_the_sliders_and_takes_what_is_chosen(app):
 
 
 def test_an_arm_that_passes_its_start_can_be_optimised():
-    app = app_of(HighSpeedCam(rise_c0=-0.6))
+    app = app_of(HighSpeedCam(rise_law=ShapedLaw(c=(-0.6, 0.0, 0.0, 0.0))))
     panel = optimise_panel(app, lambda start, method: high_speed_study(start, free_laws=True, angles=101))
     panel.run()
     panel.wait(PATIENCE)

@@ -9,6 +9,7 @@ from camkit.machines.cam_lever import CamLever, cam_lever_study, lever_stress, l
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_study import peak_pressure, peak_stress, peak_wear
+from camkit.motion import ShapedLaw
 from camkit.render.artists import INK, WARNING, _find, moving
 from camkit.render.picture import draw, layout
 from camkit.search.minimise import minimise
@@ -31,8 +32,14 @@ from camkit.views.sketch import high_speed_sketch
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)
 JUMPING = HighSpeedCam(spring_factor=1.0)
-PASSING = HighSpeedCam(rise_c0=-0.4)
-UNEVEN = HighSpeedCam(rise_angle=70 * deg, return_angle=130 * deg, rise_c1=0.1, return_c0=-0.2, load=ConstantTorque())
+PASSING = HighSpeedCam(rise_law=ShapedLaw(c=(-0.4, 0.0, 0.0, 0.0)))
+UNEVEN = HighSpeedCam(
+    rise_angle=70 * deg,
+    return_angle=130 * deg,
+    rise_law=ShapedLaw(c=(0.0, 0.1, 0.0, 0.0)),
+    return_law=ShapedLaw(c=(-0.2, 0.0, 0.0, 0.0)),
+    load=ConstantTorque(),
+)
 TABLE = ((0.0, 30.0), (12 * mm, 60.0), (18 * mm, 420.0))
 
 

@@ -20,7 +20,7 @@ from camkit.machines.high_speed_study import (
     peak_wear,
     undercut_margin,
 )
-from camkit.motion.families.shaped import SPLINE
+from camkit.motion.families.shaped import SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import STRESS_CAP, lever_problems, problems, with_printed_sizes
 from camkit.papers.problems import KNOWN_PROBLEMS
 from camkit.quantities import Design, PeakMeasure, quantity
@@ -384,11 +384,14 @@ def test_ten_starts_with_eleven_variables_agree():
     assert best.f * mm**0.5 == pytest.approx(1.1826, abs=1e-4)
 
 
+SPLINES = ShapedLaw(family=SPLINE)
+
+
 @pytest.mark.parametrize(
     ("study", "unit", "least"),
     [
-        (high_speed_study(HighSpeedCam(family=SPLINE), free_laws=True), mm, 1.2069),
-        (cam_lever_study(CamLever(family=SPLINE)), cm, 7.5947),
+        (high_speed_study(HighSpeedCam(rise_law=SPLINES, return_law=SPLINES), free_laws=True), mm, 1.2069),
+        (cam_lever_study(CamLever(rise_law=SPLINES, return_law=SPLINES)), cm, 7.5947),
     ],
     ids=["cam", "lever"],
 )
@@ -405,7 +408,7 @@ def test_an_arm_that_passes_its_start_is_led_back(c0, angles):
 
     Where that descent leads nowhere, others follow.
     """
-    study = high_speed_study(HighSpeedCam(rise_c0=c0), free_laws=True, angles=angles)
+    study = high_speed_study(HighSpeedCam(rise_law=ShapedLaw(c=(c0, 0.0, 0.0, 0.0))), free_laws=True, angles=angles)
     assert np.isinf(study.start.replace(spring_factor=0.0).analyse().spring_factor)
     assert study.start.spring_factor == study.free["spring_factor"][1]
     best = minimise(study)

@@ -6,10 +6,12 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (polynomials of degree
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
-from ...quantities import Choice, choice, numbered, row
+import numpy as np
+
+from ...quantities import choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import COEFFICIENT, Degree9
@@ -56,8 +58,8 @@ class ShapedLaw(Law):
     True
     """
 
-    base: Law = field(metadata={"declared": Choice("a", Poly345(), LAWS, "law that the coefficients shape")})
-    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT))
+    base: Law = choice("a", Poly345(), LAWS, "law that the coefficients shape")
+    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT), default=(0.0,) * 4)
     family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
 
     name = "shaped"
@@ -73,16 +75,23 @@ class ShapedLaw(Law):
         return {"c": numbered("c", replace(COEFFICIENT, low=-wide, high=wide))}
 
     @property
+    def _plain(self) -> bool:
+        """Whether no coefficient adds anything to the law."""
+        return all(np.ndim(c) == 0 and c == 0 for c in self.c)
+
+    @property
     def continuity(self) -> int:
-        return min(self.base.continuity, 2)
+        return self.base.continuity if self._plain else min(self.base.continuity, 2)
 
     @property
     def kinks(self) -> tuple[Any, ...]:
-        return tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
+        return self.base.kinks if self._plain else tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
 
     def at(self, u: Any) -> Kinematics:
+        if self._plain:
+            return self.base.at(u)
         parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * 4).at(u)
         return Kinematics(*(base + shaped - plain for base, shaped, plain in zip(*parts, strict=True)))
 
     def peaks(self) -> Peaks:
-        return law_peaks(self)
+        return self.base.peaks() if self._plain else law_peaks(self)
