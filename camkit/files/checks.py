@@ -28,11 +28,18 @@ def listed(entry: Any, name: str) -> list[Any]:
     return entry
 
 
+def one_number(entry: Any, name: str) -> float:
+    """``entry`` if it is a number."""
+    if not is_number(entry):
+        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where a number belongs")
+    return float(entry)
+
+
 def all_numbers(entry: Any, name: str, count: int) -> list[float]:
-    """``entry`` as numbers, if it is a list of so many."""
+    """``entry`` if it is a list of so many numbers."""
     if not isinstance(entry, list) or len(entry) != count or not all(map(is_number, entry)):
-        said = "a number belongs" if count == 1 else f"{count} numbers belong"
-        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where {said}")
+        wanted = f"{count} numbers belong"
+        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where {wanted}")
     return [float(number) for number in entry]
 
 

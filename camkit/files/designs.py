@@ -8,7 +8,7 @@ lacks what a later camkit has added, is read with a remark (`read_json`).
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,17 +47,20 @@ def write(thing: Any, path: str | Path) -> None:
 
 
 def _path(path: Any) -> Path:
-    if not isinstance(path, (str, os.PathLike)) or not Path(path).name:
-        raise ValueError(
-            f"the path of the file is {kinds.shown(path)}; it must be a text such as 'design.json', or a Path"
-        )
-    return Path(path)
+    """The path of a file that the system can name."""
+    try:
+        name = os.fspath(path)
+        if Path(name).name and b"\0" not in os.fsencode(name):
+            return Path(name)
+    except (TypeError, UnicodeError):
+        pass
+    raise ValueError(f"the path of the file is {kinds.shown(path)}; it must be a text such as 'design.json', or a Path")
 
 
 def read(
     path: str | Path,
     kind: type | None = None,
-    measures: Iterable[Measure] = (),
+    measures: Sequence[Measure] = (),
     tell: Callable[[str], Any] = print,
 ) -> Any:
     """Read a design, a front or a `Session` from a JSON file; ``tell`` is called with each remark.
@@ -65,9 +68,8 @@ def read(
     ``kind`` and ``measures`` are those of `read_json`.
     """
     path = _path(path)
-    if not (kind is None or isinstance(kind, type)) or not callable(tell):
-        given = f"{kinds.shown(kind)} and {kinds.shown(tell)}"
-        raise ValueError(f"the kind and who is told are {given}; they must be a class, or None, and a function")
+    if not callable(tell):
+        raise ValueError(f"the argument tell is {kinds.shown(tell)}; it must be a function")
     with path.open("rb") as file:
         found = read_json(file.read(MOST_BYTES + 1), kind, measures)
     for remark in found.remarks:
@@ -103,12 +105,12 @@ def _content(thing: Any) -> dict[str, Any]:
     raise ValueError(f"this is {kinds.shown(thing)}; a design, a front or a Session can be saved")
 
 
-def from_json(file: str | bytes, kind: type | None = None, measures: Iterable[Measure] = ()) -> Any:
+def from_json(file: str | bytes, kind: type | None = None, measures: Sequence[Measure] = ()) -> Any:
     """The design, front or `Session` that `to_json` wrote; `read_json` says as well what is to be remarked about it."""
     return read_json(file, kind, measures).thing
 
 
-def read_json(file: str | bytes, kind: type | None = None, measures: Iterable[Measure] = ()) -> Read:
+def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Measure] = ()) -> Read:
     """What a file holds, and remarks: it was edited or damaged, or lacks a field, which then took its default.
 
     ``kind`` refuses anything else; where a `Session` is wanted, a front is one.  ``measures`` are those of one's own
@@ -123,6 +125,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Iterable[Me
     an entry that is not of the kind that belongs there, an absurd count, or a number that cannot be built.
     """
     text = text_of(file)
+    kinds.refuse_arguments(read_json, locals() | {"file": text})
     content = content_of(text)
     digest = content.pop("digest", None)
     if content["schema"] != SCHEMA:
@@ -134,9 +137,6 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Iterable[Me
         raise ValueError("the file is damaged: beside its schema it must hold one design, one session or one front")
     reading = Reading()
     try:
-        content = {
-            k: (reading.renaming.design if k == "design" else reading.renaming.study)(v) for k, v in content.items()
-        }
         thing = _thing(held[0], content[held[0]], reading, kind, measures)
     except (TypeError, AttributeError, LookupError, ArithmeticError):
         raise ValueError("the file is damaged: an entry is not of the kind that belongs there") from None
@@ -145,7 +145,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Iterable[Me
     return Read(thing, remarks)
 
 
-def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures: Iterable[Measure]) -> Any:
+def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> Any:
     if held == "design":
         return reading.thing(mapping(entry, held), kind or object)
     session = session_of(entries(entry, held, reading), reading, measures)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -21,7 +21,7 @@ from ..quantities import Choice, Design, Quantity, declarations, declared_in, un
 from ..quantities.kinds import kind_words
 from ..units import factor, in_unit
 from .json_file import shown
-from .renamed import Renaming
+from .renamed import Given, Renaming, is_earlier
 
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
@@ -129,7 +129,7 @@ class Reading:
 
     missing: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
-    renaming: Renaming = field(default_factory=lambda: Renaming(kinds()))
+    renaming: Renaming = field(default_factory=Renaming)
     held: Counter[str] = field(default_factory=Counter)
     """How many entries one design has so far in lists that take long to work out."""
 
@@ -142,54 +142,71 @@ class Reading:
             return tuple(self.thing(value) for value in entry)
         if not isinstance(entry, dict):
             return entry
-        known, name = kinds() | {k.__name__: k for k in _classes(hint)}, entry.get("kind")
-        if not isinstance(name, str) or name not in known:
-            raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
-        kind = known[name]
-        deeper = {k: v for k, v in entry.items() if "." in k.partition(" [")[0]}
-        values = self._fields(kind, {k: v for k, v in entry.items() if k != "kind" and k not in deeper}, deeper)
+        kind = self._kind(entry, hint)
+        inner = {k: v for k, v in entry.items() if k != "kind"}
+        given = self.renaming.entries(kind.__name__ if is_earlier(kind.__name__, inner) else "", inner)
+        deeper = {k: g for k, g in given.items() if g.name != k and "." in k.partition(" [")[0]}
+        _refuse_both(entry, deeper)
+        values = self._fields(kind, {k: g for k, g in given.items() if k not in deeper}, deeper)
         try:
             with unremarked():  # a file's numbers have their units
                 return self._with(kind(**values), deeper)
         except (TypeError, AttributeError, IndexError, ArithmeticError):
             raise ValueError(f"the file is damaged: no {kind_words(kind)} can be built of what it says") from None
 
-    def _with(self, thing: Any, entries: Mapping[str, Any]) -> Any:
+    def _kind(self, entry: Mapping[str, Any], hint: Any) -> type:
+        """The class that an entry names: a known one, or one that its field is annotated with."""
+        known, name = kinds() | {k.__name__: k for k in _classes(hint)}, entry.get("kind")
+        if not isinstance(name, str):
+            said = (
+                f"{shown(name)} for 'kind', where a name belongs"
+                if "kind" in entry
+                else f"{shown(entry)} without a kind"
+            )
+            raise ValueError(f"the file is damaged: it says {said}")
+        now = name if name in known else self.renaming.name("kind", name)
+        if now not in known:
+            raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
+        return known[now]
+
+    def _with(self, thing: Any, entries: Mapping[str, Given]) -> Any:
         """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
-        for k, entry in entries.items():
+        for k, given in entries.items():
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
             if k in found:
                 path, declared = found[k]
-                thing = with_quantities(thing, {path: self._declared(entry, k, declared)})
+                value = self._declared(given, declared)
+                try:
+                    thing = with_quantities(thing, {path: value})
+                except ValueError as refusal:
+                    raise ValueError(f"the file says {shown(given.value)} for {given.name!r}: {refusal}") from None
             else:
-                thing = self._plain(thing, k, k, entry)
+                thing = self._plain(thing, k, given)
         return thing
 
-    def _plain(self, thing: Any, path: str, name: str, entry: Any) -> Any:
+    def _plain(self, thing: Any, path: str, given: Given) -> Any:
         """``thing`` with a field at ``path`` that is neither a quantity nor a choice, such as a table."""
         branch, _, below = path.partition(".")
         if below and branch in thing.branches():
-            return thing.changed({branch: self._plain(thing.branches()[branch], below, name, entry)})
+            return thing.changed({branch: self._plain(thing.branches()[branch], below, given)})
         plain = {f.name: f for f in fields(thing) if f.init and not f.metadata}
         if path not in plain:
-            raise ValueError(f"the file has {shown(name)}, which {kind_words(type(thing), article=True)} does not have")
+            raise _unknown(given.name, type(thing))
         kind: type = type(thing)
-        return thing.changed({path: self._field(entry, name, plain[path], None, _hints(kind)[path])})
+        return thing.changed({path: self._field(given, plain[path], None, _hints(kind)[path])})
 
-    def _fields(self, kind: type, entries: Mapping[str, Any], deeper: Iterable[str]) -> dict[str, Any]:
+    def _fields(self, kind: type, entries: Mapping[str, Given], deeper: Iterable[str]) -> dict[str, Any]:
         declared = _declarations(kind)
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
-            raise ValueError(f"the file has {shown(wrong)}, which {kind_words(kind, article=True)} does not have")
+            raise _unknown(entries[wrong].name, kind)
         for lacking in [n for n, f in named.items() if n not in entries and not (f.name == "name" and f.kw_only)]:
             if not any(path.startswith(f"{lacking}.") for path in deeper):
                 self.lacks(lacking, kind_words(kind), named[lacking])
         hints = _hints(kind)
         return {
-            named[k].name: self._field(
-                entry, k, named[k], declared.get(named[k].name), hints.get(named[k].name, object)
-            )
-            for k, entry in entries.items()
+            named[k].name: self._field(given, named[k], declared.get(named[k].name), hints.get(named[k].name, object))
+            for k, given in entries.items()
         }
 
     def lacks(self, name: str, kind: str, of: Field[Any]) -> None:
@@ -198,22 +215,22 @@ class Reading:
             raise ValueError(f"the file lacks {name!r} of the {kind}")
         self.missing.append(f"{name!r} of the {kind}")
 
-    def _field(self, entry: Any, name: str, of: Field[Any], declared: Any, hint: Any) -> Any:
+    def _field(self, given: Given, of: Field[Any], declared: Any, hint: Any) -> Any:
         if isinstance(declared, (Quantity, Choice)):
-            return self._declared(entry, name, declared)
-        value = self.thing(entry, hint, of.metadata.get("most", MOST_ROWS))
-        if "in_all" in of.metadata and isinstance(entry, list):
-            self._count(len(entry), *of.metadata["in_all"])
+            return self._declared(given, declared)
+        value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
+        if "in_all" in of.metadata and isinstance(given.value, list):
+            self._count(len(given.value), *of.metadata["in_all"])
         if not fits(value, hint):
-            raise ValueError(f"the file says {shown(entry)} for {name!r}; {_wanted(hint)} belongs there")
+            raise ValueError(f"the file says {shown(given.value)} for {given.name!r}; {_wanted(hint)} belongs there")
         return value
 
-    def _declared(self, entry: Any, name: str, declared: Quantity | Choice) -> Any:
+    def _declared(self, given: Given, declared: Quantity | Choice) -> Any:
         if isinstance(declared, Choice):
-            return self._choice(entry, name, declared)
-        if not is_number(entry):
-            raise ValueError(f"the file says {shown(entry)} for {name!r}; it must be {declared.possible}")
-        return entry * declared.factor
+            return self._choice(given.value, given.name, declared)
+        if not is_number(given.value):
+            raise ValueError(f"the file says {shown(given.value)} for {given.name!r}; it must be {declared.possible}")
+        return given.value * given.times * declared.factor + 0.0
 
     def _count(self, entries: int, what: str, most: int) -> None:
         """``entries`` more in lists of which a design can have ``most`` together, however many lists there are."""
@@ -230,6 +247,26 @@ class Reading:
         if value is None or not declared.allows(value):
             raise ValueError(f"the file says {shown(entry)} for {name!r}; there are {declared.offered}")
         return value
+
+
+def _unknown(name: str, kind: type) -> ValueError:
+    return ValueError(f"the file has {shown(name)}, which {kind_words(kind, article=True)} does not have")
+
+
+def _refuse_both(entry: Mapping[str, Any], deeper: Mapping[str, Given]) -> None:
+    """What stands both under an earlier name and, deeper in the file, where it stands today."""
+    for path, given in deeper.items():
+        plain, bracket, unit = path.partition(" [")
+        *branches, last = plain.split(".")
+        if _says(entry, [*branches, last + bracket + unit]):
+            raise ValueError(f"the file has {shown(given.name)} and {shown(path)}, which are one and the same")
+
+
+def _says(entry: Any, steps: Sequence[str]) -> bool:
+    """Whether a file says what stands at the end of ``steps``; of a program it says everything."""
+    if not steps or not isinstance(entry, dict):
+        return not steps
+    return "segments" in entry or (steps[0] in entry and _says(entry[steps[0]], steps[1:]))
 
 
 def is_number(value: Any) -> bool:

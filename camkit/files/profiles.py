@@ -38,7 +38,7 @@ def table_csv(columns: Mapping[str, Sequence[Any]]) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(map(csv_cell, columns))
-    words = ([csv_cell(v) if isinstance(v, str) else f"{v:.6f}" for v in column] for column in columns.values())
+    words = ([csv_cell(v) if isinstance(v, str) else f"{v:z.6f}" for v in column] for column in columns.values())
     writer.writerows(zip(*words, strict=True))
     return out.getvalue()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from ..study.study import Study
 from .checks import count, listed, mapping, message, plain
 from .entries import MOST_ROWS, Reading, entry_of, is_number
 from .json_file import shown
+from .renamed import Renaming
 from .studies import rows, study_entry, study_of, x_of
 
 SETTINGS: dict[str, type] = {"population": int, "generations": int, "seed": int, "mode": str, "rule": str}
@@ -117,7 +118,7 @@ def entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
     return DEFAULTS | given
 
 
-def session_of(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure]) -> Session:
+def session_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Measure]) -> Session:
     """The session that `session_entry` wrote, or a front alone; the objectives of its front are computed anew."""
     study = study_of(entry, reading, measures)
     reading.held.clear()  # another design
@@ -128,13 +129,15 @@ def session_of(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Me
     judgements = {
         plain(n): _judged(n, m, methods.get(n)) for n, m in mapping(entry["judgements"], "judgements").items()
     }
-    search = {name: _setting(name, value) for name, value in mapping(entry["search"], "search").items()}
+    search = {
+        name: _setting(name, value, reading.renaming) for name, value in mapping(entry["search"], "search").items()
+    }
     front = _front(study, entry, reading)
     return Session(study, design, judgements, search, front)
 
 
 def _front(study: Study, entry: Mapping[str, Any], reading: Reading) -> Front:
-    x, record, said = x_of(entry["front"], study), _record(entry["record"]), message(entry.get("message", ""))
+    x, record, said = x_of(entry, study, reading), _record(entry["record"]), message(entry.get("message", ""))
     if not len(x):
         return empty_front(study, said, record)
     front = front_of(study.evaluate(x), study)
@@ -153,12 +156,12 @@ def left_out(told: int, kept: int) -> list[str]:
     return [f"{told - kept} of its {told} designs miss a limit or are dominated and were left out"]
 
 
-def _setting(name: str, value: Any) -> Any:
+def _setting(name: str, value: Any, renaming: Renaming) -> Any:
     if name in COUNTS and name in SETTINGS:
         return count(name, value, *COUNTS[name])
     if name not in SETTINGS or not isinstance(value, SETTINGS[name]):
         raise ValueError(f"the file says {shown(value)} for {shown(name)}, which is no setting of a search")
-    return plain(value)
+    return renaming.name(name, plain(value))
 
 
 def _judged(name: str, entry: Any, method: Any = None) -> Judgements:

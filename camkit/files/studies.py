@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ..quantities import Design, Measure, quantities_of, words
+from ..quantities import Design, Measure, quantities_of
 from ..quantities.kinds import kind_words
-from ..study.study import Study, WeightedSum, weighted
+from ..study.study import Study, WeightedSum, refuse_bounds, weighted
 from ..units import factor
-from .checks import all_numbers, count, listed, mapping, plain
+from .checks import all_numbers, count, listed, mapping, one_number, plain
 from .entries import Reading, entry_of, exact_in_unit, is_number, key
 from .json_file import shown
+from .renamed import Given, Renaming
+
+Find = Callable[[str], Measure]
 
 MOST_ANGLES = 20_001
 """Cam angles of an analysis."""
@@ -52,56 +56,77 @@ def rows(study: Study, x: Any) -> list[list[float]]:
     return [[exact_in_unit(v, unit) for unit, v in zip(units, row, strict=True)] for row in x]
 
 
-def study_of(entry: Mapping[str, Any], reading: Reading, measures: Iterable[Measure]) -> Study:
+def study_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Measure]) -> Study:
     """The study that `study_entry` wrote; ``measures`` are those of one's own that it may have."""
     start = reading.thing(entry["start"])
     if not isinstance(start, Design):
         raise ValueError("the file is damaged: the start of its study is no design")
-    declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
     named = _declared_measures(start)
     signs = {k: m.sign for k, m in named.items()}
-    made = [_made(k, how, start) for k, how in mapping(entry["made"], "made").items()]
+    made = [
+        _made(k, given, start)
+        for k, given in reading.renaming.entries("measure", mapping(entry["made"], "made")).items()
+    ]
     named |= {_key(m): m if m.sign == signs.get(_key(m), 1) else -m for m in (*made, *measures)}
-    named |= {m.name: m for m in (_sum(each, named) for each in listed(entry["sums"], "sums"))}
-    free = {}
-    for k, bounds in mapping(entry["free"], "free").items():
-        if k not in declared:
-            raise ValueError(f"the file frees {shown(k)}, which {kind_words(type(start), article=True)} does not have")
-        name, quantity = declared[k]
-        free[name] = tuple(quantity.factor * b for b in all_numbers(bounds, k, 2))
+    find = partial(_found, named, reading.renaming)
+    named |= {m.name: m for m in (_sum(each, find) for each in listed(entry["sums"], "sums"))}
     limits: dict[str, Any] = {
-        name: {_found(k, named): all_numbers([v], k, 1)[0] * factor(_found(k, named).unit) for k, v in limited.items()}
-        for name, limited in ((n, mapping(entry[n], n)) for n in ("at_most", "at_least"))
+        name: {m: limit * factor(m.unit) for m, limit in _by_measure(entry[name], name, find).items()}
+        for name in ("at_most", "at_least")
     }
-    minimise = tuple(_objective(each, named) for each in listed(entry["minimise"], "minimise"))
+    minimise = tuple(_objective(each, find) for each in listed(entry["minimise"], "minimise"))
+    free = {path: _bounds(start, path, *freed) for path, freed in _free(entry, start, reading).items()}
     return Study(start, free, minimise, angles=count("angles", entry["angles"], 2, MOST_ANGLES), **limits)
 
 
-def x_of(rows: Any, study: Study) -> np.ndarray:
+def _free(entry: Mapping[str, Any], start: Any, reading: Reading) -> dict[str, tuple[Given, float]]:
+    """What a file frees, by its path of today, and what the file's numbers are multiplied by to be SI."""
+    declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
+    found = {}
+    for k, given in reading.renaming.entries(type(start).__name__, mapping(entry["free"], "free")).items():
+        if k not in declared:
+            mechanism = kind_words(type(start), article=True)
+            raise ValueError(f"the file frees {shown(given.name)}, which {mechanism} does not have")
+        path, quantity = declared[k]
+        found[path] = given, given.times * quantity.factor
+    return found
+
+
+def _bounds(start: Any, path: str, given: Given, scale: float) -> tuple[float, float]:
+    first, second = (b * scale + 0.0 for b in all_numbers(given.value, given.name, 2))
+    bounds = (first, second) if scale > 0 else (second, first)
+    try:
+        refuse_bounds(quantities_of(start), {path: bounds})
+    except ValueError as refusal:
+        raise ValueError(f"the file says {shown(given.value)} for {given.name!r}: {refusal}") from None
+    return bounds
+
+
+def x_of(entry: Mapping[str, Any], study: Study, reading: Reading) -> np.ndarray:
     """The free values of a front, SI."""
-    n, rows = len(study.free), listed(rows, "front")
+    n, rows = len(study.free), listed(entry["front"], "front")
     if not all(isinstance(row, list) and len(row) == n and all(map(is_number, row)) for row in rows):
         raise ValueError(f"the file is damaged: its front does not have {n} values for each design")
     if len(rows) * study.angles > MOST_POINTS:
         raise ValueError(
             f"the file has {len(rows)} designs at {study.angles} angles each; there can be {MOST_POINTS} points in all"
         )
-    x = np.array(rows, dtype=float).reshape(-1, n) * [q.factor for q in study.declared.values()]
-    _refuse_outside(x, study)
+    free = list(_free(entry, study.start, reading).values())
+    x = np.array(rows, dtype=float).reshape(-1, n) * [scale for _, scale in free] + 0.0
+    for i, j in _outside(x, study)[:1]:
+        given = free[j][0]
+        raise ValueError(
+            f"the front of the file has a design outside the bounds of its study: design {i + 1} has {rows[i][j]} for "
+            f"{given.name!r}; the bounds are {given.value[0]} and {given.value[1]}"
+        )
     return x
 
 
-def _refuse_outside(x: np.ndarray, study: Study) -> None:
-    """Every design of a front lies between the bounds of its study, but for rounding."""
+def _outside(x: np.ndarray, study: Study) -> np.ndarray:
+    """Row and column of what is not between the bounds of its study, but for rounding."""
     low, high = study.bounds
     rounding = SAME_BOUND * np.maximum(abs(low), abs(high))
-    for i, j in np.argwhere((x < low - rounding) | (x > high + rounding))[:1]:
-        name = list(study.free)[j]
-        say = study.declared[name].text
-        raise ValueError(
-            f"the front of the file has a design outside the bounds of its study: the {words(name)} of design {i + 1} "
-            f"is {say(x[i, j])}; the bounds are {say(low[j])} and {say(high[j])}"
-        )
+    return np.argwhere((x < low - rounding) | (x > high + rounding))
 
 
 def _key(measure: Measure) -> str:
@@ -112,16 +137,16 @@ def _declared_measures(start: Any) -> dict[str, Measure]:
     return {_key(m): m for m in type(start).measures}
 
 
-def _made(k: str, entry: Any, start: Any) -> Measure:
+def _made(k: str, entry: Given, start: Any) -> Measure:
     """A measure that one of the mechanism's makers makes of numbers and words."""
-    name, *given = listed(entry, k) or [None]
+    name, *given = listed(entry.value, entry.name) or [None]
     how = type(start).makers.get(name) if isinstance(name, str) else None
     try:
         measure = how(*(_given(value) for value in given)) if how else None
     except (TypeError, ValueError):
         measure = None
     if measure is None or _key(measure) != k:
-        raise ValueError(f"the file is damaged: what it says of {shown(k)} does not make this measure")
+        raise ValueError(f"the file is damaged: what it says of {shown(entry.name)} does not make this measure")
     return measure
 
 
@@ -163,28 +188,39 @@ def _objective_entry(measure: Measure, known: Mapping[str, Measure]) -> Any:
     return {"name": measure.name, "weights": parts, "reference": reference, "sign": measure.sign}
 
 
-def _found(k: str, named: Mapping[str, Measure]) -> Measure:
+def _found(named: Mapping[str, Measure], renaming: Renaming, k: str) -> Measure:
     """The measure of a key."""
-    if k in named:
-        return named[k]
-    if k[:1] == "-" and k[1:] in named:
-        return -named[k[1:]]
+    now = renaming.name("measure", k)
+    if now in named:
+        return named[now]
+    if k[:1] == "-" and renaming.name("measure", k[1:]) in named:
+        return -named[renaming.name("measure", k[1:])]
     raise ValueError(
         f"the study has the measure {shown(k)}, which its mechanism does not have; if it is your own, hand it over as "
         "read(path, measures=(...))"
     )
 
 
-def _objective(entry: Any, named: Mapping[str, Measure]) -> Measure:
+def _by_measure(entry: Any, name: str, find: Find) -> dict[Measure, float]:
+    """Numbers by the measure that their key names."""
+    found: dict[Measure, float] = {}
+    for k, value in mapping(entry, name).items():
+        if find(k) in found:
+            raise ValueError(f"the file has the {find(k).name} twice in {name!r}, the second time as {shown(k)}")
+        found[find(k)] = one_number(value, k)
+    return found
+
+
+def _objective(entry: Any, find: Find) -> Measure:
     if isinstance(entry, dict):
-        return _sum(entry, named)
+        return _sum(entry, find)
     if not isinstance(entry, str):
         raise ValueError(f"the file says {shown(entry)} where the name of a measure belongs")
-    found = _found(entry.removeprefix("-"), named)
+    found = find(entry.removeprefix("-"))
     return found if (found.sign < 0) == entry.startswith("-") else -found
 
 
-def _sum(entry: Any, named: Mapping[str, Measure]) -> WeightedSum:
+def _sum(entry: Any, find: Find) -> WeightedSum:
     """A weighted sum."""
     entry = {"sign": 1} | mapping(entry, "weighted sum")
     if (
@@ -193,9 +229,7 @@ def _sum(entry: Any, named: Mapping[str, Measure]) -> WeightedSum:
         or entry["sign"] is True
     ):
         raise ValueError("the file is damaged: its weighted sum is not as camkit writes it")
-    parts = {_found(k, named): v for k, v in mapping(entry["weights"], "weights").items()}
-    weights = all_numbers(list(parts.values()), "weights", len(parts))
+    parts = _by_measure(entry["weights"], "weights", find)
     reference = all_numbers(entry["reference"], "reference", len(parts))
     si = [r * factor(m.unit) for m, r in zip(parts, reference, strict=True)]
-    total = weighted(plain(entry["name"]), dict(zip(parts, weights, strict=True)), si)
-    return replace(total, sign=int(entry["sign"]))
+    return replace(weighted(plain(entry["name"]), parts, si), sign=int(entry["sign"]))

@@ -369,7 +369,7 @@ def test_a_front_outside_the_bounds_of_its_study_is_refused(front, end):
     content["front"]["front"][3][0] = bounds[end] / factor
     read_json(json.dumps(content))  # on the bound
     content["front"]["front"][3][0] = (bounds[end] + (end - 0.5) * 1e-3) / factor
-    refused = "^the front of the file has a design outside the bounds of its study: the .* of design 4 is .*; the"
+    refused = "^the front of the file has a design outside the bounds of its study: design 4 has .* for '.*'; the"
     for kind in (None, Session):
         with pytest.raises(ValueError, match=refused):
             read_json(json.dumps(content), kind)
@@ -510,7 +510,7 @@ def test_a_study_that_lacks_an_entry_takes_its_default_with_a_remark(name):
 HOSTILE = {
     "evil_study.json": r"^the file has the name 'effort<img src=x.*'; a name has up to 100 letters, digits, spaces",
     "motion_is_number.json": r"^the file says 0 for 'motion'; a motion program belongs there$",
-    "empty_row_table.json": r"^the file says \[\[\]\] for 'lift_load.torque_table'; a list of pairs of numbers belongs",
+    "empty_row_table.json": r"^the file says \[\[\]\] for 'door_torque_table'; a list of pairs of numbers belongs",
     "angles_study.json": r"^the file says 1000000000 for 'angles'; it must be a whole number of at least 2",
 }
 
@@ -578,7 +578,11 @@ ABSURD = {
     "a name of two lines": (work_with("search", "rule", to="weighted\nsum"), "the file has the name"),
     "a script as a version": (work_with("record", "versions", "numpy", to="<b>"), "the file has the name '<b>'"),
     "a class of Python": (design_with("kind", to="Path"), "the file names a 'Path'"),
-    "a list as a kind": (design_with("kind", to=["x"]), r"the file names a \['x'\]"),
+    "a list as a kind": (design_with("kind", to=["x"]), r"it says \['x'\] for 'kind', where a name belongs"),
+    "a law without a kind": (design_with("motion_law", to={}), "it says {} without a kind"),
+    "a load of no kind": (
+        design_with("load", "kind", of="program", to=None), "it says None for 'kind', where a name belongs"
+    ),
     "a load as a law": (
         design_with("motion_law", to={"kind": "ArmLoad"}), "for 'motion_law'; there are simple"
     ),
@@ -730,6 +734,31 @@ def test_a_file_of_another_kind_is_told_apart(data, sentence, tmp_path):
     if not sentence.startswith("the file is damaged"):
         assert str(refused.value) == sentence
     assert str(refused.value).startswith(sentence[:19])
+
+
+@pytest.mark.parametrize("path", ["a\0b.json", "\ud800.json", Path("a\0b"), b"x.json", "/"])
+def test_a_path_that_no_system_can_name_is_refused(path):
+    for act in (partial(read, path), partial(write, DoorHandleCam(), path)):
+        with pytest.raises(ValueError, match=r"^the path of the file is .*; it must be a text such as 'design.json'"):
+            act()
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"measures": ["x"]}, r"the argument measures is \['x'\]; it must be a tuple of which each is a Measure"),
+        ({"measures": 5}, "the argument measures is 5; it must be a tuple of which each is a Measure"),
+        ({"kind": 5}, "the argument kind is 5; it must be a type or None"),
+    ],
+)
+def test_a_wrong_argument_is_told_apart_from_a_bad_file(given, sentence, tmp_path):
+    path = tmp_path / "study.json"
+    path.write_text(GOOD["session"])
+    for act in (partial(read, path), partial(read_json, GOOD["session"]), partial(from_json, GOOD["session"])):
+        with pytest.raises(ValueError, match=f"^{sentence}$"):
+            act(**given)
+    with pytest.raises(ValueError, match=r"^the argument tell is 5; it must be a function$"):
+        read(path, tell=5)
 
 
 @pytest.mark.parametrize("given", [None, 5, {}, 10**10, [1], 2.5])

@@ -22,6 +22,7 @@ from camkit import (
 )
 from camkit.cam.flank import flanks
 from camkit.cam.undercut import undercut_in_words
+from camkit.files.profiles import table_csv
 from camkit.machines.valve_train import ROLLER
 from camkit.motion import Cycloidal, Dwell, FreePolynomial, MotionProgram, Poly345, Return, Rise
 from camkit.units import deg, mm
@@ -43,6 +44,12 @@ def test_the_table_holds_the_analysis(design):
     for name in ("pitch", "profile", "outer_profile"):
         for axis, values in zip("xy", getattr(analysis, name), strict=True):
             assert_allclose(column[f"{name}_{axis}_mm"], values / mm, rtol=0, atol=0.5e-6 + 1e-12)
+
+
+def test_a_number_that_is_zero_has_no_sign():
+    assert table_csv({"x": [-0.0, np.float64(-1e-9), -1e-6, 0]}) == "x\n0.000000\n0.000000\n-0.000001\n0.000000\n"
+    for column in ValveCam().analyse(361).lift_table.values():
+        assert "-0.000000" not in table_csv({"x": column})
 
 
 @pytest.mark.parametrize("cam", [WHOLE_DOOR, TranslatingRollerCam(groove=False), ValveCam()])
