@@ -422,7 +422,7 @@ def test_peaks_of_cams_with_a_lever_and_free_laws(family, law):
 
 def checked(study, x, measures):
     """Each of some designs, and all of them as one population."""
-    many = study.analyse(x)
+    many = study.analysis(x)
     for i, row in enumerate(x):
         try:
             one = study.design(row).analyse(5)

@@ -9,6 +9,7 @@ import re
 import warnings
 from decimal import Decimal
 from fractions import Fraction
+from functools import reduce
 
 import numpy as np
 import pytest
@@ -49,6 +50,10 @@ from camkit.machines.shaft import shaft_study
 from camkit.quantities import Choice, Quantity
 from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.front import dominated, front_of
+
+ITSELF: list = []
+ITSELF.append(ITSELF)
+NESTED = reduce(lambda inner, _: [inner], range(40), 1.0)
 
 BAD = {
     "nan": np.nan,
@@ -93,12 +98,22 @@ BAD = {
     "array of objects": np.array([[None], [1]], dtype=object),
     "array of nan": np.full((2, 1), np.nan),
     "array of inf": np.full((2, 1), np.inf),
+    "masked": np.ma.masked,
+    "masked column": np.ma.array([[0.03], [0.04]], mask=[[False], [True]]),
+    "matrix": np.ones((2, 1)).view(np.matrix),
+    "list in itself": ITSELF,
+    "lists in lists": NESTED,
+    "class of designs": TranslatingRollerCam,
+    "population": TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]])),
+    "another design": camkit.TranslatingFlatCam(),
 }
 
 LAW = Cycloidal()
 PROGRAM = MotionProgram((Rise(2.0, 0.02, LAW), Dwell(1.0), Return(2.0, 0.02, LAW)))
+
 HEIGHT = Measure("height", "mm", lambda analysis: analysis.pitch_radius.max(-1))
 STUDY = Study(TranslatingRollerCam(), ["base_radius"], [HEIGHT], at_most={HEIGHT: 0.06}, angles=31)
+BAD["study"] = STUDY
 
 GIVEN = {
     Rise: (2.0, 0.02, LAW),

@@ -67,6 +67,8 @@ RUBBISH = {
     for name in (
         *("nan", "-1", "2.5", "1e160", "10**400", "True", "None", "text", "no list", "list"),
         *("tuple of text", "mapping", "object", "class", "function", "shape (2, 3)", "array of objects"),
+        *("array of text",),
+        *("masked", "matrix", "list in itself", "lists in lists", "class of designs", "population", "study"),
     )
 }  # fmt: skip
 

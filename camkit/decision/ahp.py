@@ -220,7 +220,7 @@ def _entries(judgements: Any) -> np.ndarray:
         given = np.array(judgements, dtype=object)
     except ValueError:
         raise ValueError(wrong) from None
-    if not given.ndim:
+    if given.ndim not in (1, 2):
         raise ValueError(wrong)
     if not given.size:
         raise ValueError("there are no judgements; those of a single criterion are [[1]]")

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure, can_be_analysed, declared_in, value_of, words
-from ..quantities.kinds import refuse_arguments, shown
+from ..quantities import Measure, declared_in, refuse_design, value_of, words
+from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, markdown, table
 from ..study.study import Study, keeps
 
@@ -115,8 +115,7 @@ def side_by_side(
     """
     refuse_arguments(side_by_side, locals())
     for name, design in designs.items():
-        if not can_be_analysed(design):
-            raise ValueError(f"{name} is {shown(design)}; it must be a design that can be analysed, such as a cam")
+        refuse_design(design, str(name))
     if analyses is not None and len(analyses) != len(designs):
         raise ValueError(f"there are {len(analyses)} analyses of {len(designs)} designs; there must be one of each")
     kinds = sorted({type(design).__name__ for design in designs.values()})

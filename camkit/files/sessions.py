@@ -62,6 +62,7 @@ class Session:
 
     def __post_init__(self) -> None:
         refuse_kinds(self, ("front",) if self.front is None else ())
+        self.study.x_of(self.design)  # refuses what is no design of the study
         if self.front is None:
             object.__setattr__(self, "front", empty_front(self.study))
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ..quantities import Measure, PeakMeasure
-from ..quantities.kinds import a_number, numbers, refuse_arguments
+from ..quantities.kinds import numbers, one_number, refuse_arguments
 from ..study.residuals import SumOfResiduals
 from ..units import deg
 from .space import Box
@@ -23,13 +24,19 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
     The crank's come first, then the rocker's.  The paper's weights ``1 / f_j*`` divide by nothing where a position
     is perfect; without ``weights`` each counts 1.
     """
-    a_number(target, "the pressure angle that is aimed at")
+    one_number(target, "the pressure angle that is aimed at", holds=math.isfinite)
     w = numbers(1.0 if weights is None else weights, "the weights of the positions")
+    if w.ndim > 1:
+        raise ValueError(f"the weights of the positions have the shape {w.shape}; they must be one for each position")
     if not (np.isfinite(w).all() and (w >= 0).all()):
         raise ValueError("the weights of the positions must be finite, none negative")
 
     def of(analysis: Any) -> np.ndarray:
         both = (analysis.crank_pressure_angle, analysis.rocker_pressure_angle)
+        if w.size not in (1, np.shape(both[0])[-1]):
+            raise ValueError(
+                f"there are {w.size} weights for {np.shape(both[0])[-1]} positions; there must be one for each"
+            )
         return np.concatenate([w * (angle - target) for angle in both], axis=-1)
 
     return of

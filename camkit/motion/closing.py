@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import fails
+from ..quantities.kinds import refuse_unequal
 from .segments import Dwell, Move, Return, Segment, degrees, kind_of
 
 TURN = 2 * np.pi
@@ -39,7 +40,7 @@ def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Any]:
 
 def _angle_left(segments: Sequence[Segment], i: int) -> Any:
     """What the others leave of the turn."""
-    others = sum(segment.angle for k, segment in enumerate(segments) if k != i)
+    others = _of_the_others(segments, i, "angle")
     if fails(others < TURN):
         raise ValueError(
             f"the other segments take {degrees(others)} of the turn; they must leave some for the "
@@ -50,7 +51,7 @@ def _angle_left(segments: Sequence[Segment], i: int) -> Any:
 
 def _lift_left(segments: Sequence[Segment], i: int) -> Any:
     """What the segment has to move for the turn to end where it began."""
-    others = sum(segment.change for k, segment in enumerate(segments) if k != i)
+    others = _of_the_others(segments, i, "change")
     lift = others if isinstance(segments[i], Return) else -others
     if fails(lift >= 0):
         kind = kind_of(segments[i])
@@ -59,3 +60,10 @@ def _lift_left(segments: Sequence[Segment], i: int) -> Any:
             f"at least 0: the lifts before it are too {'small' if kind == 'return' else 'large'}"
         )
     return lift
+
+
+def _of_the_others(segments: Sequence[Segment], i: int, name: str) -> Any:
+    """The angles or changes of all segments but one, added."""
+    others = {f"segment {k}": getattr(segment, name) for k, segment in enumerate(segments, 1) if k != i + 1}
+    refuse_unequal(others, "program")
+    return sum(others.values())

@@ -17,12 +17,13 @@ from ..quantities import (
     Paths,
     Quantity,
     declared_in,
+    refuse_design,
     unremarked,
     value_of,
     with_quantities,
     words,
 )
-from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import html, table
 from ..render.picture import below, positions_of, small_png, strip
 from ..study.study import keeps, refuse_limits
@@ -75,6 +76,7 @@ class Explorer(Panel):
         elevation: float | None = None,
     ) -> None:
         refuse_arguments(Explorer.__init__, locals())
+        refuse_design(design, "the design of the panel")
         refuse_limits(at_most or {}, at_least or {})
         self.start: Any = design
         self.design: Any = design
@@ -90,7 +92,7 @@ class Explorer(Panel):
         self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
         self._banner, self._undercut = banner(), banner()
         self._impossible = ""
-        self._free = Paths(design, free).declared if free else None
+        self._free = Paths(design, free).declared if free is not None and len(free) else None
         self.controls: dict[str, NumberRow | Menu] = {}
         self._grid = w.Box()
         self._grid.add_class("camkit-grid")
@@ -188,9 +190,8 @@ class Explorer(Panel):
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value; ``ValueError`` for what is no design of this kind."""
-        kind = type(self.start)
-        if not isinstance(design, kind):
-            raise ValueError(f"the design is {shown(design)}; it must be a {kind.__name__}, as this panel shows")
+        refuse_design(design, "the design")
+        Paths(self.start, ()).values(design)  # refuses another kind
         self._set_controls(design)
         self._try(lambda: design)
 

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 
 from ..units import factor, in_unit
-from .kinds import number, refuse_kinds, shown, whole
+from .kinds import columns, number, one_number, refuse_fields, refuse_kinds, shown, whole
 
 OURS = __name__.partition(".")[0]
 BEYOND = 1000
@@ -113,6 +113,8 @@ class Quantity:
 
     def allows(self, value: Any) -> Any:
         """Whether ``value`` (SI) can be built, element by element."""
+        if (value := number(value)) is None:
+            return False
         ok = abs(value) <= self._most
         if self.at_least is not None:
             return ok & (value >= self.at_least * self.factor)
@@ -122,7 +124,7 @@ class Quantity:
 
     def text(self, value: float) -> str:
         """``value`` (SI) as a person reads it."""
-        return f"{in_unit(value, self.unit):.6g} {self.unit}".rstrip()
+        return f"{in_unit(one_number(value, f'the number {self.symbol}'), self.unit):.6g} {self.unit}".rstrip()
 
     def unit_left_out(self, value: float) -> bool:
         """Whether ``value`` (SI) is as round as people type, far out of the range, and within it if in the unit."""
@@ -274,7 +276,10 @@ def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quanti
 
 def declarations(design: Any) -> dict[str, Quantity | Choice]:
     """The declared fields of a design or a design class, in order; not those of what it holds (`declared_in`)."""
-    return dict(_declared(design if isinstance(design, type) else type(design)))
+    kind = design if isinstance(design, type) else type(design)
+    if not dataclasses.is_dataclass(kind):
+        raise ValueError(f"the design is {shown(design)}; it must be a design, such as a cam, or a class of designs")
+    return dict(_declared(kind))
 
 
 @cache
@@ -293,9 +298,18 @@ class Analysable(Protocol):
         ...
 
 
-def can_be_analysed(design: Any) -> bool:
-    """Whether this is a design, and no class of designs or something else."""
-    return isinstance(design, Analysable) and not isinstance(design, type)
+def refuse_design(design: Any, what: str) -> None:
+    """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
+    if not isinstance(design, Analysable) or isinstance(design, type):
+        raise ValueError(f"{what} is {shown(design)}; it must be a design that can be analysed, such as a cam")
+    refuse_population(design, what)
+
+
+def refuse_population(thing: Any, what: str) -> None:
+    """``ValueError`` in a sentence for a population of designs, or what holds one, such as its analysis."""
+    for part in (thing, *getattr(thing, "__dict__", {}).values()):
+        if isinstance(part, Declared) and columns(part):
+            raise ValueError(f"{what} is a population, a {type(part).__name__} with columns; it must be one design")
 
 
 def fails(ok: Any) -> bool:
@@ -365,12 +379,7 @@ class Declared:
 
     def replace(self, **changes: Any) -> Any:
         """The same design with some fields changed (and checked again)."""
-        unknown = set(changes) - {f.name for f in dataclasses.fields(self)}  # type: ignore[arg-type]
-        if unknown:
-            raise ValueError(
-                f"{type(self).__name__} has no {', '.join(sorted(unknown))}; "
-                f"it has {', '.join(f.name for f in dataclasses.fields(self))}"  # type: ignore[arg-type]
-            )
+        refuse_fields(self, changes)
         with unremarked():
             changed = dataclasses.replace(self, **changes)  # type: ignore[type-var]
         for name, declared in declarations(self).items():

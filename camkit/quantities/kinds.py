@@ -20,6 +20,8 @@ import numpy as np
 
 LONGEST = 60
 """A value whose text is longer is named by its type."""
+DEEPEST = 8
+"""No table of numbers has more dimensions."""
 
 
 def number(value: Any) -> Any:
@@ -31,7 +33,7 @@ def number(value: Any) -> Any:
     if type(value) is float:
         return value
     if isinstance(value, np.ndarray):
-        real, fits = value.dtype.kind in "iuf", value.shape == () or value.shape[1:] == (1,)
+        real, fits = plain(value) and value.dtype.kind in "iuf", value.shape == () or value.shape[1:] == (1,)
         return value.astype(float, copy=False)[()] if real and fits else None
     if isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
         try:
@@ -39,6 +41,11 @@ def number(value: Any) -> Any:
         except OverflowError:
             return np.copysign(np.inf, 1 if value > 0 else -1)
     return None
+
+
+def plain(array: np.ndarray) -> bool:
+    """Whether an array is an array and nothing more: the masked ones and matrices of numpy reckon in their own way."""
+    return not isinstance(array, (np.ma.MaskedArray, np.matrix))
 
 
 def finite(value: Any) -> Any:
@@ -82,12 +89,15 @@ def one_number(
 
 
 def numbers(value: Any, what: str) -> np.ndarray:
-    """``value`` as an array of floats of any shape; ``ValueError`` for what holds anything but real numbers."""
+    """``value`` as an array of floats of any shape; ``ValueError`` for what holds anything but real numbers.
+
+    Of what is nested more than `DEEPEST` times too: numpy's functions take no more dimensions than 32.
+    """
     if isinstance(value, float):
         return np.asarray(value)
     try:
-        array = np.asarray(value)
-        if array.dtype.kind not in "iuf" and array.size:
+        array = np.asanyarray(value)
+        if not plain(array) or array.ndim > DEEPEST or (array.dtype.kind not in "iuf" and array.size):
             raise TypeError
         return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
@@ -129,6 +139,8 @@ def shown(value: Any) -> str:
     """
     if isinstance(value, np.generic):
         value = value.item()
+    if isinstance(value, np.ndarray) and not plain(value):
+        return "a matrix" if isinstance(value, np.matrix) else "a masked array"
     if type(value) is float:
         return f"{value:.6g}"
     if isinstance(value, np.ndarray):
@@ -139,7 +151,7 @@ def shown(value: Any) -> str:
         return f"the class {value.__name__}"
     try:
         text = repr(value)
-    except ValueError:  # an integer of thousands of digits, or a list that holds one
+    except (ValueError, RecursionError):  # an integer of thousands of digits, or a list of thousands of lists
         text = " at 0x"
     if len(text) <= LONGEST and "\n" not in text and " at 0x" not in text and "array(" not in text:
         return text
@@ -181,6 +193,13 @@ def refuse_kinds(thing: Any, but: Container[str] = ()) -> None:
         value = getattr(thing, name)
         if name not in but and not kind.holds(value):
             raise ValueError(f"the {name.replace('_', ' ')} is {shown(value)}; it must be {kind.said}")
+
+
+def refuse_fields(thing: Any, changes: Mapping[str, Any]) -> None:
+    """``ValueError`` in a sentence for a change of a field that the dataclass ``thing`` does not have."""
+    names = [f.name for f in dataclasses.fields(thing)]
+    if unknown := sorted(changes.keys() - set(names)):
+        raise ValueError(f"{type(thing).__name__} has no {', '.join(unknown)}; it has {', '.join(names)}")
 
 
 def refuse_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
@@ -241,11 +260,23 @@ def refuse_lengths(thing: Any) -> None:
 
     A column of one member goes with any other.
     """
-    found = ((f.name, _lengths(getattr(thing, f.name))) for f in dataclasses.fields(thing))
+    refuse_unequal({f.name: getattr(thing, f.name) for f in dataclasses.fields(thing)}, type(thing).__name__)
+
+
+def refuse_unequal(held: Mapping[str, Any], what: str) -> None:
+    """The same for what ``what`` holds by name."""
+    found = ((name, _lengths_of(value, name)) for name, value in held.items())
     several = [(name, length) for name, lengths in found for length in lengths if length != 1]
     if len({length for _, length in several}) > 1:
         told = " and ".join(f"{length} in its {name.replace('_', ' ')}" for name, length in several)
-        raise ValueError(f"the {type(thing).__name__} has columns of {told}; they must be equally long")
+        raise ValueError(f"the {what} has columns of {told}; they must be equally long")
+
+
+def _lengths_of(value: Any, name: str) -> set[int]:
+    try:
+        return _lengths(value)
+    except RecursionError:
+        raise ValueError(f"the {name.replace('_', ' ')} holds itself, or lists within lists without end") from None
 
 
 def columns(thing: Any) -> bool:
@@ -265,7 +296,7 @@ def _lengths(value: Any) -> set[int]:
         return {len(value)} if value.ndim == 2 else set()
     if isinstance(value, (tuple, list)):
         return set().union(*map(_lengths, value))
-    if dataclasses.is_dataclass(value):
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return set().union(*(_lengths(getattr(value, f.name)) for f in dataclasses.fields(value)))
     return set()
 
@@ -313,7 +344,7 @@ def _kind(hint: Any) -> Kind | None:
     if origin is tuple:
         return _sequence(_kind(parts[0]) if isinstance(parts[0], type) and parts[0] is not float else None)
     if isinstance(origin, type) and issubclass(origin, Mapping):
-        return _mapping(_kind(parts[1]) if parts[1] is not float else None)
+        return _mapping(_kind(parts[0]), _kind(parts[1]) if parts[1] is not float else None)
     if origin is Sequence:
         return _sequence(_kind(parts[0]) if parts[0] is not float else None)
     if getattr(hint, "_is_protocol", False):
@@ -340,8 +371,12 @@ def _sequence(kind: Kind | None) -> Kind:
     return Kind(holds, "a tuple" if kind is None else f"a tuple of which each is {kind.said}")
 
 
-def _mapping(kind: Kind | None) -> Kind:
+def _mapping(names: Kind | None, values: Kind | None) -> Kind:
     def holds(value: Any) -> bool:
-        return isinstance(value, Mapping) and (kind is None or all(kind.holds(v) for v in value.values()))
+        if not isinstance(value, Mapping):
+            return False
+        each = ((names, value), (values, value.values()))
+        return all(kind is None or all(map(kind.holds, held)) for kind, held in each)
 
-    return Kind(holds, "a mapping such as {name: value}" + (f", each value {kind.said}" if kind else ""))
+    told = (f", each {what} {kind.said}" for what, kind in (("name", names), ("value", values)) if kind)
+    return Kind(holds, "a mapping such as {name: value}" + "".join(told))

@@ -7,8 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ..units import factor, in_unit
-from .kinds import applied, refuse_kinds, shown
+from .kinds import applied, one_number, plain, refuse_kinds, shown
 
 
 @dataclass(frozen=True)
@@ -36,9 +38,19 @@ class Measure:
         if self.sign not in (1, -1):
             raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
 
-    def __call__(self, analysis: Any) -> Any:
+    def given(self, analysis: Any) -> Any:
+        """What the function gives of an analysis, before the sign; ``ValueError`` for anything but real numbers."""
         with applied(f"the {self.name}", analysis):
-            return self.sign * self.function(analysis)
+            value = self.function(analysis)
+        if type(value) is float:
+            return value
+        known = plain(value) if isinstance(value, np.ndarray) else isinstance(value, (int, float, np.generic))
+        if not known or np.asarray(value).dtype.kind not in "fiub":
+            raise ValueError(f"the {self.name} gives {shown(value)}; a measure gives real numbers, one or an array")
+        return value
+
+    def __call__(self, analysis: Any) -> Any:
+        return self.sign * self.given(analysis)
 
     def __neg__(self) -> Measure:
         return dataclasses.replace(self, sign=-self.sign)
@@ -50,8 +62,8 @@ class Measure:
 
     def text(self, value: float) -> str:
         """``value`` (SI) as a person reads it."""
-        shown = in_unit(float(value), self.unit)
-        return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e6 else '.4g'}} {self.unit}".rstrip()
+        read = in_unit(one_number(value, f"the {self.name}", "be one number"), self.unit)
+        return f"{read:{'.0f' if 1e4 <= abs(read) < 1e6 else '.4g'}} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -71,8 +83,12 @@ class PeakMeasure(Measure):
 
     def curve(self, analysis: Any) -> Any:
         """The value at every point, before the sign."""
-        return self.function(analysis)
+        curve = self.given(analysis)
+        if not np.ndim(curve) or not np.shape(curve)[-1]:
+            raise ValueError(
+                f"the {self.name} gives {shown(curve)}; it is the largest value of a curve, its points last"
+            )
+        return curve
 
     def __call__(self, analysis: Any) -> Any:
-        with applied(f"the {self.name}", analysis):
-            return self.sign * self.function(analysis).max(-1)
+        return self.sign * self.curve(analysis).max(-1)

@@ -171,6 +171,9 @@ class Paths:
     """
 
     def __init__(self, design: Any, paths: Iterable[str], kind: type = object) -> None:
+        if isinstance(paths, str) or not isinstance(paths, Iterable):
+            raise ValueError(f"the paths are {shown(paths)}; they must be a tuple of paths")
+        self._kind = type(design)
         every = {p: leaf for p, leaf in _leaves_of(design).items() if isinstance(leaf.declared, kind)}
         self.declared: dict[str, Any] = {}
         self._change, self._leaves = _Change(), []
@@ -182,7 +185,9 @@ class Paths:
             self._leaves.append((path.split(".")[:-1], every[path]))
 
     def values(self, design: Any) -> list[Any]:
-        """The values that ``design`` has."""
+        """The values that ``design`` has; ``ValueError`` for one of another kind, or one that lacks a path."""
+        if not isinstance(design, self._kind):
+            raise ValueError(f"the design is {shown(design)}; it must be a {self._kind.__name__}")
         try:
             return [leaf.value(_part(design, way)) for way, leaf in self._leaves]
         except (AttributeError, LookupError):
@@ -190,7 +195,7 @@ class Paths:
             raise ValueError(f"this {type(design).__name__} is made in another way: it lacks one of {paths}") from None
 
     def put(self, design: Any, values: Sequence[Any]) -> Any:
-        """``design`` with other values, in the order of the paths."""
+        """``design``, of the same make, with other values in the order of the paths."""
         return self._change.put(design, values) if self._leaves else design
 
 

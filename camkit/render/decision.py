@@ -103,7 +103,7 @@ def _numbers(front: Any, measures: Sequence[Measure] | None) -> tuple[tuple[Colu
     further = [
         m for m in (limited if measures is None else measures) if m not in study.minimise and -m not in study.minimise
     ]
-    analysis = study.analyse(front.x) if further else None
+    analysis = study.analysis(front.x) if further else None
     told = [(Column(m.name, m.unit, limited.get(m, 0)), np.broadcast_to(m(analysis), p)) for m in further]
     shown = [*goals, *free, *told]
     return tuple(c for c, _ in shown), np.column_stack([v / factor(c.unit) for c, v in shown])

@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ..quantities import Analysable, refuse_design, refuse_population
 from ..quantities.kinds import a_number, applied, refuse_arguments
 from ..study.study import refuse_limits
 from ..units import deg
@@ -95,13 +96,17 @@ def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: An
     """
     with rc_context(theme_style()):
         for view, ax in zip(views, axes, strict=True):
-            takes = inspect.signature(view).parameters
-            given = {name: value for name, value in asked.items() if name in takes}
+            takes = inspect.signature(view)
+            known = {"ax": ax, **asked}
+            given = {name: value for name, value in known.items() if name in takes.parameters}
+            try:
+                takes.bind(analysis, **given)
+            except TypeError as unfit:
+                raise ValueError(f"the view {_name(view)} cannot show an analysis: {unfit}") from None
             with applied(f"the view {_name(view)}", analysis):
-                if "ax" in takes:
-                    view(analysis, ax, **given)
-                else:
-                    draw_picture(view(analysis, **given), ax)
+                made = view(analysis, **given)
+                if "ax" not in given:
+                    draw_picture(made, ax)
 
 
 def _name(view: View) -> str:
@@ -128,7 +133,10 @@ def picture(
     refuse_limits(limits or {}, {})
     given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
     asked = {name: value for name, value in given.items() if value is not None}
-    analysis = shown.analyse() if hasattr(shown, "analyse") else shown
+    if isinstance(shown, Analysable):
+        refuse_design(shown, "what the picture shows")
+    refuse_population(shown, "what the picture shows")
+    analysis = shown.analyse() if isinstance(shown, Analysable) else shown
     views = views or default_views(analysis)
     figure, axes = layout(views, width, height)
     draw(analysis, axes, views, **asked)

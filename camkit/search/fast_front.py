@@ -116,7 +116,7 @@ def _refuse(study: Study, start: Front | None) -> None:
     if n > MOST_FREE:
         raise ValueError(f"a quick front takes up to {MOST_FREE} free quantities; this study has {n}: take nsga2()")
     if objectives < 2:
-        raise ValueError("a quick front takes two or more objectives; this study has one: take minimise()")
+        raise ValueError("a quick front takes two or more objectives; this study has one: take minimise")
     if start is not None and tuple(start.study.free) != tuple(study.free):
         raise ValueError(
             f"the start has the free quantities {', '.join(start.study.free)}; this study has {', '.join(study.free)}"

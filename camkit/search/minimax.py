@@ -77,7 +77,7 @@ class Epigraph:
     def _blocks(self, u: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
         """The points of each part of the objective and of each limit, for designs ``(p, n)``."""
         self.evaluations += len(u)
-        p, analysis, heads = len(u), self.study.analyse(self.x(u)), []
+        p, analysis, heads = len(u), self.study.analysis(self.x(u)), []
         for factor, part in parts_of(self.study.minimise[0]):
             heads.append(points_of(part, analysis, factor / self.scale, p))
         limits = [

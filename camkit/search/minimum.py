@@ -121,7 +121,7 @@ def _listed(items: list[str]) -> str:
 
 def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
     """Every peak of the objective, every limit and bound that is reached."""
-    analysis = study.analyse(evaluation.x)
+    analysis = study.analysis(evaluation.x)
     objective = [part for _, part in parts_of(study.minimise[0])]
     peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, PeakMeasure)]
     limits = [

@@ -40,7 +40,7 @@ def polish(study: Study, x: Any = None) -> Minimum:
         raise ValueError("the design to polish lies outside the bounds of the study")
     if not np.isfinite(before.f).all():
         raise ValueError("the design to polish cannot be built; start from one that a search has found")
-    spelled = study.replace(minimise=(objective.spelled_out(study.analyse(start[None])),))
+    spelled = study.replace(minimise=(objective.spelled_out(study.analysis(start[None])),))
     problem = Epigraph(spelled, float(before.f[0, 0]) or 1.0, KEPT)
     found = problem.descend(problem.u(start))
     after = study.evaluate(problem.x(found.u))
@@ -55,7 +55,7 @@ def _sum_of_residuals(study: Study) -> SumOfResiduals:
     objective = study.minimise[0]
     if len(study.minimise) > 1 or not isinstance(objective, SumOfResiduals) or objective.sign < 0:
         names = " and ".join(measure.name for measure in study.minimise)
-        raise ValueError(f"the study minimises the {names}; polish takes one sum of residuals: use minimise()")
+        raise ValueError(f"the study minimises the {names}; polish takes one sum of residuals: use minimise")
     return objective
 
 

@@ -142,9 +142,9 @@ class _FollowedStudy(Study):
 
     follow: Callable[[Evaluation], None] | None = None
 
-    def analyse(self, x: Any) -> Any:
+    def analysis(self, x: Any) -> Any:
         """The analysis of the design or population ``x``."""
-        analysis = super().analyse(x)
+        analysis = super().analysis(x)
         assert self.follow is not None
         self.follow(self.judge(np.atleast_2d(x), analysis))
         return analysis

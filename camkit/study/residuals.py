@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Measure, PeakMeasure
-from ..quantities.kinds import applied
 from .study import WeightedSum
 
 
@@ -28,8 +27,7 @@ class SumOfResiduals(Measure):
 
     def sides(self, analysis: Any) -> np.ndarray:
         """Both numbers of which the larger one counts for each residual, ``(..., m, 2)``."""
-        with applied(f"the {self.name}", analysis):
-            r = self.function(analysis)
+        r = self.given(analysis)
         return np.stack([r, 0 * r if self.above_only else -r], axis=-1)
 
     def __call__(self, analysis: Any) -> Any:

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure, Paths, Quantity, can_be_analysed, counted, unremarked, words
-from ..quantities.kinds import finite, listed, number, numbers, one_number, refuse_kinds, shown
+from ..quantities import Measure, Paths, Quantity, counted, refuse_design, unremarked, words
+from ..quantities.kinds import finite, listed, number, numbers, one_number, refuse_fields, refuse_kinds, shown
 
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
@@ -30,6 +30,9 @@ class WeightedSum(Measure):
 
     def with_weights(self, weights: Any) -> WeightedSum:
         """The same sum with other weights."""
+        weights = listed(weights, "the tuple of weights", "measure")
+        if len(weights) != len(self.parts):
+            raise ValueError(f"there are {len(weights)} weights for the {self.name}; it has {len(self.parts)} measures")
         return replace(weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference), sign=self.sign)
 
 
@@ -84,7 +87,8 @@ def _number(value: Any) -> bool:
 def refuse_bounds(declared: Mapping[str, Quantity], space: Mapping[str, Any]) -> None:
     """``ValueError`` in a sentence for bounds that are no two possible numbers, the first below the second."""
     for name, bounds in space.items():
-        if not hasattr(bounds, "__len__") or len(bounds) != 2 or not all(map(_number, bounds)):
+        ordered = isinstance(bounds, (tuple, list)) or np.ndim(bounds) == 1
+        if not ordered or len(bounds) != 2 or not all(map(_number, bounds)):
             raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
         _check_bounds(name, declared[name], *bounds)
 
@@ -129,8 +133,6 @@ def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
 def _numbers(measure: Measure, analysis: Any, p: int) -> Any:
     """A measure of ``p`` designs, ``(p,)``."""
     value = measure(analysis)
-    if np.ma.isMaskedArray(value) or np.asarray(value).dtype.kind not in "fiub":
-        raise ValueError(f"the {measure.name} gives {shown(value)}; a measure gives real numbers")
     try:
         return np.broadcast_to(value, p)
     except ValueError:
@@ -185,10 +187,7 @@ class Study:
     rough: bool = False
 
     def __post_init__(self) -> None:
-        if not can_be_analysed(self.start):
-            raise ValueError(
-                f"a study needs a design that can be analysed, such as a cam; it was given {shown(self.start)}"
-            )
+        refuse_design(self.start, "the start of the study")
         given: Any = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
@@ -231,7 +230,8 @@ class Study:
         return self.x_of(self.start)
 
     def x_of(self, design: Any) -> np.ndarray:
-        """The free values of a design of the same make as the start, ``(n_free,)``, SI."""
+        """The free values of a design of the same kind as the start, ``(n_free,)``, SI."""
+        refuse_design(design, "the design")
         return np.array(self._paths.values(design), dtype=float)
 
     @cached_property
@@ -260,7 +260,7 @@ class Study:
         with unremarked():
             return self._paths.put(self.start, columns)
 
-    def analyse(self, x: Any) -> Any:
+    def analysis(self, x: Any) -> Any:
         """The analysis of the design or population ``x``."""
         analysis = self.design(x).analyse(self.angles)
         return replace(analysis, rough=True) if self.rough and hasattr(analysis, "rough") else analysis
@@ -275,7 +275,7 @@ class Study:
             raise ValueError(f"x has the shape {x.shape}; it must be a table, a row for each design")
         if x.shape[1] != len(self.free):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
-        return self.judge(x, self.analyse(x))
+        return self.judge(x, self.analysis(x))
 
     def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
@@ -303,4 +303,5 @@ class Study:
 
     def replace(self, **changes: Any) -> Study:
         """The same study with some fields changed."""
+        refuse_fields(self, changes)
         return replace(self, **changes)

@@ -168,7 +168,7 @@ class Tolerances:
     @cached_property
     def analysis(self) -> Any:
         """The analysis of all parts."""
-        return self._box.analyse(self.x)
+        return self._box.analysis(self.x)
 
     @cached_property
     def nominal(self) -> Any:
@@ -247,7 +247,7 @@ class Tolerances:
         mixed = np.tile(a, (d, 1, 1))
         mixed[np.arange(d), :, np.arange(d)] = b.T
         f_a, f_b = self.values.reshape(-1, 2, n).transpose(1, 0, 2)
-        f_ab = self._measured(self._box.analyse(mixed.reshape(-1, d)), d * n).reshape(-1, d, n).transpose(1, 0, 2)
+        f_ab = self._measured(self._box.analysis(mixed.reshape(-1, d)), d * n).reshape(-1, d, n).transpose(1, 0, 2)
         finite = np.isfinite(self.values).all(1) & np.isfinite(f_ab).all((0, 2))
         varies = finite & (np.ptp(self.values, axis=1) > 0)
         indices = Indices(*np.where(varies[:, None], np.ones(d), np.full((2, 1, d), np.nan)))

@@ -137,7 +137,7 @@ def test_a_door_that_has_to_open_further_costs_pressure_angle():
     study = rssr_study(min_swing=90 * deg)
     found = polish(study, minimise(study, "de", designs=5000).x)
     assert found.feasible
-    assert swing(study.analyse(found.x)) / deg == pytest.approx(90, abs=1e-5)
+    assert swing(study.analysis(found.x)) / deg == pytest.approx(90, abs=1e-5)
     assert found.f / deg == pytest.approx(271.891492, abs=1e-4)
     assert not study.evaluate(np.array(OPTIMA[0][2]) * mm).feasible
 
@@ -149,12 +149,12 @@ def test_a_forbidden_box_moves_the_optimum():
     """The rocker then turns just in front of the pipe, at y = 90 mm: the optimum with that bound and no pipe."""
     free = polish(rssr_study())
     study = rssr_study(outside=PIPE)
-    assert clearance_from(PIPE)(study.analyse(free.x)) < -9 * mm
+    assert clearance_from(PIPE)(study.analysis(free.x)) < -9 * mm
     in_front = rssr_study(space=PAPER_SPACE | {"rocker_offset": (20 * mm, 90 * mm)})
     for start in (study.x0, 0.9 * free.x):
         found = polish(study, np.clip(start, *study.bounds))
         assert found.feasible
-        assert clearance_from(PIPE)(study.analyse(found.x)) == pytest.approx(0, abs=1e-5 * mm)
+        assert clearance_from(PIPE)(study.analysis(found.x)) == pytest.approx(0, abs=1e-5 * mm)
         assert found.f / deg == pytest.approx(223.137517, abs=1e-4)
         assert found.f == pytest.approx(polish(in_front).f, abs=1e-4 * deg)
         assert found.x / mm == pytest.approx([80, 130.770, 123.863, 126.350, 90], abs=1e-3)

@@ -486,7 +486,7 @@ def test_a_constant_door_torque_leaves_the_arms_no_part_in_the_peak_torque():
     """T times the largest velocity: so says the power balance, and the judgement of the torque weighs nothing."""
     study = lift_curve_study(DoorHandleCam(lift_load=ArmLoad(torque=10, mass=0)))
     x = np.random.default_rng(1).uniform(*study.bounds, (50, 2))
-    torque = LIFT_CURVE[peak_torque](study.analyse(x))
+    torque = LIFT_CURVE[peak_torque](study.analysis(x))
     assert_allclose(torque, torque[0], rtol=1e-12)
     assert_allclose(torque, 10 * 2 * 69 / 150, rtol=1e-3)  # of the cycloidal law: twice the mean velocity
 
@@ -506,7 +506,7 @@ def test_what_the_lift_curve_does_not_depend_on_may_not_be_free_there(name):
 def test_the_whole_cam_is_as_good_as_its_worse_curve():
     study = door_handle_paper_study()
     for x in (study.x0, [48.09 * mm, 0.34, 74.49 * mm]):
-        analysis = study.analyse(x)
+        analysis = study.analysis(x)
         largest = dict.fromkeys((max_pressure_angle, peak_force, peak_torque), max)
         for measure, choose in (
             largest | dict.fromkeys((min_convex_radius, base_radius, undercut_margin), min)
@@ -514,7 +514,7 @@ def test_the_whole_cam_is_as_good_as_its_worse_curve():
             each = [measure(getattr(analysis, name)) for name in BOTH]
             assert WORSE_CURVE[measure](analysis) == choose(each)
     evaluation = study.evaluate(study.x0)
-    assert_allclose(evaluation.f, [[1, -min_convex_radius(study.analyse(study.x0).relief)]])
+    assert_allclose(evaluation.f, [[1, -min_convex_radius(study.analysis(study.x0).relief)]])
     assert not evaluation.feasible.any()
 
 

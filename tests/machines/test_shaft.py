@@ -286,9 +286,9 @@ def test_the_sizes_are_found_once_for_all_tubes_of_a_shaft() -> None:
 def test_a_population_equals_its_members() -> None:
     sizes = np.random.default_rng(1).uniform((108, 87), (140, 103), (20, 2)) * mm
     study = shaft_study(UniversalJointShaft(power=300 * kW))
-    together = study.analyse(sizes)
+    together = study.analysis(sizes)
     for measure in SHAFT_MEASURES:
-        alone = [measure(study.analyse(size)) for size in sizes]
+        alone = [measure(study.analysis(size)) for size in sizes]
         assert measure(together) == pytest.approx(alone, rel=1e-13), measure.name
 
 
@@ -374,7 +374,7 @@ def test_the_study_is_the_papers() -> None:
     ranges = [(q.low, q.high) for q in list(declarations(study.start).values())[:2]]
     assert ranges == [(108, 140), (87, 103)]
     assert study.evaluate(study.x0).feasible.tolist() == [True]
-    assert twist_utilisation(study.analyse(study.x0)) == pytest.approx(0.99688, abs=5e-6)
+    assert twist_utilisation(study.analysis(study.x0)) == pytest.approx(0.99688, abs=5e-6)
 
 
 def test_materials_have_sources_and_change_the_shaft() -> None:

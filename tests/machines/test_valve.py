@@ -535,8 +535,8 @@ def test_no_exponents_meet_the_limit_everywhere():
     study = corrected_valve_study()
     x = grid(35)
     assert not study.evaluate(x).feasible.any()
-    assert min_radius(study.analyse(x)).max() < 2.2 * mm
-    assert (nose_radius(study.analyse(x)) > PAPER_MIN_RADIUS).any()  # what the paper looks at is kept
+    assert min_radius(study.analysis(x)).max() < 2.2 * mm
+    assert (nose_radius(study.analysis(x)) > PAPER_MIN_RADIUS).any()  # what the paper looks at is kept
     kept = corrected_valve_study(ValveCam(base_radius=24.342 * mm)).evaluate([[20, 20]])
     assert kept.feasible.all()
     assert not corrected_valve_study(ValveCam(base_radius=24.340 * mm)).evaluate([[20, 20]]).feasible.any()

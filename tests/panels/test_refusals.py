@@ -5,11 +5,13 @@ The sentences are the contract with the person who typed the number, so they are
 
 import json
 from dataclasses import fields
+from functools import reduce
 
 import numpy as np
 import pytest
 
 from camkit import (
+    RSSR,
     ArmLoad,
     Cycloidal,
     DoorHandleCam,
@@ -19,9 +21,11 @@ from camkit import (
     Measure,
     MotionProgram,
     OscillatingRollerCam,
+    PeakMeasure,
     Return,
     Rise,
     Study,
+    SumOfResiduals,
     ahp,
     door_handle_study,
     lift_curve_study,
@@ -30,22 +34,29 @@ from camkit import (
     picture,
     profile_csv,
     read,
+    side_by_side,
     topsis,
     weighted,
     weighted_sum,
+    with_quantities,
 )
 from camkit.data import load as reference
 from camkit.decision import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
 from camkit.files import Session, from_json, to_json
-from camkit.panels import ahp_panel, choose_panel, explore
-from camkit.quantities import quantities_of
+from camkit.linkage.measures import departure, max_departure
+from camkit.panels import ahp_panel, choose_panel, contour_panel, explore
+from camkit.quantities import Paths, declarations, quantities_of
 from camkit.search.front import Front
 from camkit.units import deg, factor, mm
 from camkit.views import pressure_angle
 
 NAN, INF = float("nan"), float("inf")
 height = Measure("height", "mm", lambda analysis: analysis)
-CAM = DoorHandleCam()
+CAM, ROLLER = DoorHandleCam(), OscillatingRollerCam()
+COLUMNS = DoorHandleCam(lift_arm=np.array([[0.05], [0.06]]))
+ITSELF: list = []
+ITSELF.append(ITSELF)
+NESTED = reduce(lambda inner, _: [inner], range(40), 1.0)
 GOOD = json.loads(to_json(CAM))
 FREE = f"{', '.join(list(quantities_of(CAM))[:12])} and {len(quantities_of(CAM)) - 12} more"
 
@@ -141,11 +152,51 @@ REFUSALS = [
      "the height is to be at least 70000 mm and at most 60000 mm; no design can be both"),
     (lambda: explore(DoorHandleCam, pressure_angle),
      "the argument design is the class DoorHandleCam; it must be a design that can be analysed, such as a cam"),
+    (lambda: explore(COLUMNS),
+     "the design of the panel is a population, a DoorHandleCam with columns; it must be one design"),
+    (lambda: explore(a_study()),
+     "the argument design is a Study; it must be a design that can be analysed, such as a cam"),
+    (lambda: picture(a_study()), "the picture needs one or more views"),
+    (lambda: picture(DoorHandleCam, pressure_angle),
+     "what the picture shows is the class DoorHandleCam; it must be a design that can be analysed, such as a cam"),
+    (lambda: picture(COLUMNS),
+     "what the picture shows is a population, a DoorHandleCam with columns; it must be one design"),
+    (lambda: picture(COLUMNS.analyse(31)),
+     "what the picture shows is a population, a DoorHandleCam with columns; it must be one design"),
+    (lambda: picture(CAM, lambda: None), "the view <lambda> cannot show an analysis: too many positional arguments"),
+    (lambda: picture(CAM, [lambda: None]), "one of the views is a list; it must be a function"),
+    (lambda: side_by_side({"a": a_study()}),
+     "a is a Study; it must be a design that can be analysed, such as a cam"),
+    (lambda: side_by_side({"a": COLUMNS}),
+     "a is a population, a DoorHandleCam with columns; it must be one design"),
     (lambda: explore(CAM, 3), "the argument views is (3,); it must be a tuple of which each is a function"),
     (lambda: picture(3, pressure_angle), "the view pressure angle does not apply to 3, which has no curves"),
     (lambda: picture(CAM, 3), "one of the views is 3; it must be a function"),
     (lambda: choose_panel(3),
      "the argument source is 3; it must be a panel with a front, such as `pareto_panel` gives"),
+    (lambda: a_study().x_of(ROLLER), "the design is an OscillatingRollerCam; it must be a DoorHandleCam"),
+    (lambda: a_study().x_of(DoorHandleCam),
+     "the design is the class DoorHandleCam; it must be a design that can be analysed, such as a cam"),
+    (lambda: a_study().x_of(COLUMNS),
+     "the design is a population, a DoorHandleCam with columns; it must be one design"),
+    (lambda: Session(a_study(), ROLLER), "the design is an OscillatingRollerCam; it must be a DoorHandleCam"),
+    (lambda: Session(a_study(), a_study()),
+     "the design is a Study; it must be a design that can be analysed, such as a cam"),
+    (lambda: Study(a_study(), ("lift_arm",), (height,)),
+     "the start of the study is a Study; it must be a design that can be analysed, such as a cam"),
+    (lambda: Study(COLUMNS, ("lift_arm",), (height,)),
+     "the start of the study is a population, a DoorHandleCam with columns; it must be one design"),
+    (lambda: a_study(free={"lift_arm": np.array(1.0)}),
+     "the bounds of the lift arm are an array of shape (); they must be two numbers"),
+    (lambda: a_study(free={"lift_arm": {0.05, 0.06}}),
+     f"the bounds of the lift arm are { {0.05, 0.06} }; they must be two numbers"),
+    (lambda: a_study(free={"lift_arm": {0.05: 1, 0.06: 2}}),
+     "the bounds of the lift arm are {0.05: 1, 0.06: 2}; they must be two numbers"),
+    (lambda: a_study().replace(nothing=1),
+     "Study has no nothing; it has start, free, minimise, at_most, at_least, angles, rough"),
+    (lambda: door_handle_study().weighing((1, 1)), "there are 2 weights for the effort; it has 3 measures"),
+    (lambda: door_handle_study().weighing({1, 2, 3}),
+     "the tuple of weights is {1, 2, 3}; it must be a tuple, with a place for each measure"),
     (lambda: a_study(at_most={height: NAN}), "the limit of the height is nan; it must be a finite number"),
     (lambda: door_handle_study().evaluate([[1.0, 2.0]]), "x has 2 columns; this study has 3 free quantities"),
     (lambda: lift_curve_study(space={"relief_arm": (70 * mm, 80 * mm)}),
@@ -153,6 +204,29 @@ REFUSALS = [
     (lambda: lift_curve_study(DoorHandleCam(lift_load=ArmLoad(mass=0))),
      "the peak contact force, lift at the reference design is 0; it must be finite and not 0"),
     (lambda: weighted("sum", {height: -2}, (1,)), "the weight of the height is -2; it must be 0 or more"),
+
+    # measures
+    (lambda: Measure("h", "mm", lambda a: None)(3), "the h gives None; a measure gives real numbers, one or an array"),
+    (lambda: Measure("h", "mm", lambda a: {1, 2})(3),
+     "the h gives {1, 2}; a measure gives real numbers, one or an array"),
+    (lambda: (-Measure("h", "mm", lambda a: (i for i in ())))(3),
+     "the h gives a generator; a measure gives real numbers, one or an array"),
+    (lambda: PeakMeasure("h", "mm", lambda a: [1, 2])(3),
+     "the h gives [1, 2]; a measure gives real numbers, one or an array"),
+    (lambda: PeakMeasure("h", "mm", lambda a: 3.0)(3),
+     "the h gives 3; it is the largest value of a curve, its points last"),
+    (lambda: PeakMeasure("h", "mm", lambda a: np.zeros((2, 0)))(3),
+     "the h gives an array of shape (2, 0); it is the largest value of a curve, its points last"),
+    (lambda: SumOfResiduals("h", "mm", lambda a: None)(3),
+     "the h gives None; a measure gives real numbers, one or an array"),
+    (lambda: height.text("x"), "the height is 'x'; it must be one number"),
+    (lambda: height.text(np.ones((2, 1))), "the height is an array of shape (2, 1); it must be one number"),
+    (lambda: departure(np.array([[0.5], [0.6]])),
+     "the pressure angle that is aimed at is an array of shape (2, 1); it must be a finite number"),
+    (lambda: max_departure(0.5, np.ones((2, 3))),
+     "the weights of the positions have the shape (2, 3); they must be one for each position"),
+    (lambda: departure(0.5, np.ones(5))(RSSR().analyse([0.1, 0.2])),
+     "there are 5 weights for 2 positions; there must be one for each"),
 
     # searches
     (lambda: nsga2(door_handle_study(), population=3), "the population is 3; it must be a whole number of at least 4"),
@@ -210,6 +284,28 @@ REFUSALS = [
      "the file says 'wobbly' for 'motion_law'; there are simple harmonic, parabolic, cycloidal, modified trapezoid, "
      "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial and 9 more"),
     (lambda: from_json(to_json(CAM), Session), "the file holds a door handle cam; a session is wanted here"),
+
+    # columns and paths
+    (lambda: with_quantities(OscillatingRollerCam(), {
+        "motion.rise.angle": np.array([[1.0], [1.1]]), "motion.return.angle": np.array([[1.0], [1.1], [1.2]])}),
+     "the program has columns of 2 in its segment 1 and 3 in its segment 3; they must be equally long"),
+    (lambda: DoorHandleCam(lift_arm=np.ma.masked),
+     "the lift arm l_1 is a masked array; it must be a finite number above 0 mm, or a column of them of the shape "
+     "(p, 1)"),
+    (lambda: DoorHandleCam(lift_arm=np.ones((2, 1)).view(np.matrix)),
+     "the lift arm l_1 is a matrix; it must be a finite number above 0 mm, or a column of them of the shape (p, 1)"),
+    (lambda: ArmLoad(torque_table=ITSELF), "the torque table holds itself, or lists within lists without end"),
+    (lambda: ArmLoad(torque_table=(DoorHandleCam, DoorHandleCam)),
+     "the torque table is a tuple; it must hold pairs of numbers (travel, torque)"),
+    (lambda: ahp(ITSELF), "the judgements must be a square matrix of numbers, or what is above its diagonal"),
+    (lambda: OscillatingRollerCam().motion(NESTED), "the cam angles must be numbers; given is a list"),
+    (lambda: declarations(5), "the design is 5; it must be a design, such as a cam, or a class of designs"),
+    (lambda: Paths(CAM, 5), "the paths are 5; they must be a tuple of paths"),
+    (lambda: Paths(CAM, "lift_arm"), "the paths are 'lift_arm'; they must be a tuple of paths"),
+    (lambda: Paths(CAM, ["lift_arm"]).values(DoorHandleCam),
+     "the design is the class DoorHandleCam; it must be a DoorHandleCam"),
+    (lambda: contour_panel(explore(CAM, pressure_angle), {"a": lambda start, weights: a_study()}, {3: 1.0}),
+     "the argument weights is {3: 1.0}; it must be a mapping such as {name: value}, each name a text"),
 
     # names
     (lambda: ArmLoad().replace(weight=1),
@@ -300,3 +396,8 @@ def test_bad_input_is_refused_in_words(bad):
     """Whatever the wording: a ``ValueError`` (or that a file is missing) in a person's language, when it is given."""
     with pytest.raises((ValueError, FileNotFoundError), match=rf"^(?!.*({PYTHON})).*"):
         bad()
+
+
+def test_free_paths_may_come_in_an_array():
+    arms = explore(CAM, pressure_angle, free=np.array(["lift_arm", "relief_arm"]))
+    assert list(arms.controls) == ["lift_arm", "relief_arm"]

@@ -116,13 +116,13 @@ def test_limits_that_cannot_be_kept_are_told():
         (
             (largest,),
             None,
-            "the study minimises the largest error; polish takes one sum of residuals: use minimise()",
+            "the study minimises the largest error; polish takes one sum of residuals: use minimise",
         ),
         (
             (total, above),
             None,
             "the study minimises the total error and total error above; "
-            "polish takes one sum of residuals: use minimise()",
+            "polish takes one sum of residuals: use minimise",
         ),
     ],
 )

@@ -116,7 +116,7 @@ def test_a_measure_that_does_not_depend_on_what_is_free_is_the_same_for_all():
 
 
 def test_angles_is_how_many_an_analysis_takes():
-    assert can_study(angles=7).analyse(can_study().x0)["along"].shape == (7,)
+    assert can_study(angles=7).analysis(can_study().x0)["along"].shape == (7,)
 
 
 positive = st.floats(0.01, 100)
@@ -171,7 +171,8 @@ def test_the_sign_of_a_weighted_sum_survives_new_weights():
 def test_what_cannot_be_analysed_is_refused(start, given) -> None:
     with pytest.raises(ValueError, match=r".") as said:
         Study(start, ("radius",), (area,))
-    assert str(said.value) == (f"a study needs a design that can be analysed, such as a cam; it was given {given}")
+    sentence = f"the start of the study is {given}; it must be a design that can be analysed, such as a cam"
+    assert str(said.value) == sentence
 
 
 def test_measures_of_another_mechanism_are_refused() -> None:
@@ -244,5 +245,5 @@ def test_a_measure_gives_real_numbers(value):
     """Neither as an objective nor as a limit, which it would have kept."""
     odd = Measure("odd", "", lambda analysis: value)
     for study in (a_study(minimise=(odd,)), a_study(at_most={odd: 1.0})):
-        with pytest.raises(ValueError, match=r"^the odd gives .*; a measure gives real numbers$"):
+        with pytest.raises(ValueError, match=r"^the odd gives .*; a measure gives real numbers, one or an array$"):
             study.evaluate([[0.03]])

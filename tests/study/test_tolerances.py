@@ -199,9 +199,9 @@ def test_one_call_makes_all_parts():
     calls = []
 
     class Counting(Study):
-        def analyse(self, x):
+        def analysis(self, x):
             calls.append(len(x))
-            return super().analyse(x)
+            return super().analysis(x)
 
     made = Tolerances(
         Counting(Block(), ONE, (total, product), {product: 1.0}), {"x": 0.1, "y": 0.1, "z": 0.1}, parts=64
