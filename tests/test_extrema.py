@@ -446,5 +446,7 @@ def test_peaks_of_a_valve_cam(n, m):
         assert valve_study.peak_stress(few) == pytest.approx(fine.contact_stress.max(), rel=1e-5, nan_ok=True)
         assert valve_study.peak_camshaft_torque(few) == pytest.approx(abs(fine.cam_torque).max(), rel=1e-5)
         assert valve_study.face_reach(few) == pytest.approx(abs(fine.velocity).max(), rel=1e-5)
-        tightest = fine.flat_radius.min() if follower == FOLLOWERS[0] else 1 / fine.curvature.max() - cam.roller_radius
-        assert few.min_radius == pytest.approx(tightest, abs=1e-4 * 30 * mm)
+        tightest = (
+            fine.profile_radius.min() if follower == FOLLOWERS[0] else 1 / fine.curvature.max() - cam.roller_radius
+        )
+        assert few.profile_margin.value == pytest.approx(tightest, abs=1e-4 * 30 * mm)

@@ -17,7 +17,7 @@ import numpy as np
 from .. import extrema
 from ..extrema import Extreme
 from ..geometry import Body, offset_curvature, rotated
-from ..motion import Kinematics
+from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
 from ..quantities.kinds import columns
@@ -67,13 +67,19 @@ class CamAnalysis(ABC):
         other.__dict__.update(resolved=self.resolved, resolution=self.resolution)
         return other
 
+    @property
+    def program(self) -> MotionProgram:
+        """The motion over which extremes are looked for: all of the cam's."""
+        motion: MotionProgram = self.cam.motion
+        return motion
+
     @cached_property
     def resolution(self) -> Resolution:
         """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides.
 
         Those of the load's tables, too.
         """
-        load, motion = getattr(self.cam, "load", None), self.cam.motion
+        load, motion = getattr(self.cam, "load", None), self.program
         angles, levels = (getattr(load, name, ()) for name in ("cam_angle_table", "travel_table"))
         if not (self.rough or len(angles) or len(levels)):
             return motion.resolution
@@ -84,7 +90,7 @@ class CamAnalysis(ABC):
     def resolved(self) -> Any:
         """The same cam at the cam angles of its `resolution`."""
         other = replace(self, cam_angle=self.resolution.angle)
-        motion = self.cam.motion.over(self.resolution)
+        motion = self.program.over(self.resolution)
         other.__dict__.update(resolved=other, resolution=self.resolution, motion=motion)
         return other
 
@@ -262,7 +268,7 @@ class CamAnalysis(ABC):
 
         ``(..., k)``; the last one leads back to the first.  A leap of the follower itself counts as both ways.
         """
-        shown, program = self.resolved, self.cam.motion
+        shown, program = self.resolved, self.program
         first, last = self.resolution.first, self.resolution.last
         s, v = (x - 0.0 * shown.cam_angle for x in shown.motion[:2])
         leaps, jumps = (np.roll(x[..., first], -1, axis=-1) - x[..., last] for x in (s, v))

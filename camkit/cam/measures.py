@@ -24,6 +24,11 @@ def _min_radius(side: int) -> Callable[[Any], Any]:
     return lambda analysis: radius_of(analysis.sharpest(side).value)
 
 
+def number(value: Any) -> Any:
+    """A field of a design as a number of the whole: one, or ``(p,)`` from ``(p, 1)``."""
+    return np.atleast_1d(value)[..., 0]
+
+
 def radius_of(curvature: Any) -> Any:
     """The radius of a curvature; ``inf`` where it is not above 0, ``nan`` stays."""
     with np.errstate(divide="ignore"):

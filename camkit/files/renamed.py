@@ -23,6 +23,13 @@ RENAMED: dict[tuple[str, str], str] = {
     ("DoorHandleCam", "door_torque_table"): "lift_load.torque_table",
     ("DoorHandleCam", "relief_arm_mass [kg]"): "relief_load.mass [kg]",
     ("DoorHandleCam", "flap_torque [N m]"): "-relief_load.torque [N m]",
+    ("ValveCam", "speed [rpm]"): "load.speed [rpm]",
+    ("ValveCam", "train_mass [kg]"): "load.mass [kg]",
+    ("ValveCam", "spring_rate [N/mm]"): "load.spring_rate [N/mm]",
+    ("ValveCam", "spring_preload [N]"): "load.preload [N]",
+    ("ValveCam", "contact_width [mm]"): "contact.width [mm]",
+    ("ValveCam", "cam_modulus [GPa]"): "contact.cam_modulus [GPa]",
+    ("ValveCam", "follower_modulus [GPa]"): "contact.follower_modulus [GPa]",
     **{
         (cam, before): now
         for cam in ("HighSpeedCam", "CamLever")

@@ -18,12 +18,13 @@ import numpy as np
 
 from ..cam import bodies
 from ..cam.loads import Table, refuse_table, tabulated
+from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
 from ..quantities import Measure, fails, quantity
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..units import mm
-from .high_speed_analysis import HighSpeedAnalysis, number
+from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
 from .high_speed_study import CLEAR, COMMON, laws_free, min_lead, min_radius, overrun, peak, undercut_margin

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..cam.measures import number
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..contact import line_contact
 from ..extrema import raised, with_tops
@@ -21,11 +22,6 @@ from ..motion.resolution import STEPS, Resolution, between, resolve
 from ..quantities import members
 from ..units import mm
 from . import high_speed_curves as curves
-
-
-def number(value: Any) -> Any:
-    """A field of a design as a number of the whole: one, or ``(p,)`` from ``(p, 1)``."""
-    return np.atleast_1d(value)[..., 0]
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ from operator import attrgetter
 from typing import Any
 
 from ..cam.force_closure import jump_speed
+from ..cam.measures import number
 from ..quantities import Measure, Paths, PeakMeasure
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Space, Study
 from ..units import mm
-from .high_speed_analysis import number
 from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import InertialSpringLoad
 

@@ -11,21 +11,21 @@ Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 11
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..cam.force_closure import ContactPair
-from ..cam.slide import SlideLoad
+from ..cam.slide import SlideFriction
 from ..motion import MotionProgram, Return, Rise
-from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity, unremarked
+from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity
 from ..quantities.kinds import one_number
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
 from .valve_motion import BLEND, Backwards, Flank, Ramp
-from .valve_train import FLAT, FOLLOWERS
+from .valve_train import FLAT, FOLLOWERS, ValveLoad
 
 LEAST_GAP = 1e-3
 """Exponents closer than this count as repeated: the coefficients would be the difference of huge numbers."""
@@ -40,7 +40,7 @@ class ValveCam(Design):
     The train (mass, spring, widths, materials) is not the paper's; its defaults are those of a truck engine.
 
     >>> cam = ValveCam(n=20, m=20).analyse()
-    >>> print(f"{cam.fullness:.6f}, {cam.nose_acceleration:.3f} m/s^2, {cam.min_radius / mm:.3f} mm")
+    >>> print(f"{cam.fullness:.6f}, {cam.nose_acceleration:.3f} m/s^2, {cam.profile_margin.value / mm:.3f} mm")
     0.638393, -862.722 m/s^2, 1.159 mm
 
     Raises ``ValueError`` for exponents that repeat and for sizes that cannot be built.
@@ -50,19 +50,25 @@ class ValveCam(Design):
     m: float = quantity("m", 16, 1, 20, "", "third and fourth exponent 2n + 2m, 2n + 4m")
     max_lift: float = quantity("h_max", 13, 5, 20, "mm", "lift at the nose")
     half_angle: float = quantity("alpha_B", 62, 40, 90, "deg", "cam angle of one flank, start to nose")
-    speed: float = quantity("omega", 1800, 300, 4000, "rpm", "speed of the camshaft")
     seating_velocity: float = quantity("v_g", 0.2, 0, 0.6, "m/s", "follower where the flank begins", at_least=0)
     base_radius: float = quantity("r_0", 21, 12, 40, "mm", "cam axis to follower where the flank begins")
     ramp_angle: float = quantity("alpha_r", 25, 5, 60, "deg", "cam angle of one ramp")
     follower: Any = choice("follower", FLAT, FOLLOWERS, "what rides on the cam")
     roller_radius: float = quantity("r_r", 10, 3, 25, "mm", "roller, where there is one")
-    train_mass: float = quantity("m_v", 0.25, 0.02, 1, "kg", "valve, spring's share, tappet, as felt at the cam")
-    spring_rate: float = quantity("c", 30, 0, 100, "N/mm", "valve spring", at_least=0)
-    spring_preload: float = quantity("F_0", 250, 0, 1000, "N", "valve spring with the valve shut", at_least=0)
     speed_margin: float = quantity("x", 15, 0, 60, "%", "overspeed that must not make the follower jump", at_least=0)
-    contact_width: float = quantity("w", 14, 4, 40, "mm", "length of the line on which cam and follower touch")
-    cam_modulus: float = quantity("E_1", 210, 90, 220, "GPa", "elastic modulus of the cam")
-    follower_modulus: float = quantity("E_2", 210, 90, 320, "GPa", "elastic modulus of the follower")
+    load: ValveLoad = field(default_factory=ValveLoad)
+    """The train and the spring above the cam, and the camshaft's speed."""
+    contact: ContactPair = field(default_factory=lambda: ContactPair(width=14 * mm))
+    """The materials of cam and follower and the length of the line on which they touch."""
+
+    offset: ClassVar[float] = 0.0
+    """The follower travels in line with the cam axis."""
+    rotation: ClassVar[int] = 1
+    """Counter-clockwise."""
+    groove: ClassVar[bool] = False
+    """A plate: the spring holds the follower to it."""
+    friction: ClassVar[SlideFriction] = SlideFriction(0, 0, 0, 0)
+    """None is counted."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -108,7 +114,7 @@ class ValveCam(Design):
     def seating_slope(self) -> Any:
         """``h'(0) = v_g / omega``, m/rad."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.divide(self.seating_velocity, self.speed)
+            return np.divide(self.seating_velocity, self.load.speed)
 
     @property
     def ramp_height(self) -> Any:
@@ -122,10 +128,6 @@ class ValveCam(Design):
             slope = self.seating_slope * self.half_angle / self.max_lift
         return Flank.of(self._exponents, np.where(self.buildable, slope, np.nan)[()])
 
-    @property
-    def _opening_flank(self) -> Rise:
-        return Rise(self.half_angle, self.max_lift, self.flank)
-
     @cached_property
     def motion(self) -> MotionProgram:
         """Lift and its derivatives by cam angle over a turn that begins with the opening flank.
@@ -137,42 +139,36 @@ class ValveCam(Design):
             ramp = Ramp(np.where(self.buildable, self.ramp_angle / aside, np.nan)[()])
         return MotionProgram(
             (
-                self._opening_flank,
+                *self.opening.segments,
                 Return(self.half_angle, self.max_lift, Backwards(self.flank)),
                 Return(aside, height, Backwards(ramp)),
                 Rise(aside, height, ramp),
             )
         )
 
-    @property
-    def load(self) -> SlideLoad:
-        """The mass and the spring above the cam, at the camshaft's speed."""
-        with unremarked():
-            return SlideLoad(self.train_mass, self.speed, 0.0, self.spring_rate, self.spring_preload)
-
-    @property
-    def materials(self) -> ContactPair:
-        """What touches, and over which width."""
-        with unremarked():
-            return ContactPair(self.contact_width, self.cam_modulus, self.follower_modulus)
-
     @cached_property
-    def opening(self) -> Any:
-        """The opening flank as a disk cam under the follower, at angles fine enough for its extremes."""
-        motion = MotionProgram((self._opening_flank,))
-        return self.follower.analysis(self.follower.on(self, motion), motion.resolution.angle)
+    def opening(self) -> MotionProgram:
+        """The opening flank alone."""
+        return MotionProgram((Rise(self.half_angle, self.max_lift, self.flank),))
+
+    @property
+    def start_height(self) -> Any:
+        """Cam axis to the roller's centre where the flank begins, m."""
+        return self.base_radius + self.roller_radius
 
     def analyse(self, n: int = 721) -> ValveAnalysis:
         """The opening flank at ``n`` cam angles; `ValveAnalysis.whole` is the whole cam."""
-        return ValveAnalysis(self, np.linspace(0, 1, counted(n, "cam angles")) * self.half_angle)
+        angles: np.ndarray = np.linspace(0, 1, counted(n, "cam angles")) * self.half_angle
+        return self.follower.analysis(self, angles)
 
     def with_spring(self, preload_share: float = 0.4) -> ValveCam:
         """The same cam under the weakest spring that holds the follower on it up to the speed margin.
 
         Its preload is ``preload_share`` of its force at full lift.
 
+        >>> from camkit.cam.force_closure import jump_speed
         >>> cam = ValveCam().with_spring()
-        >>> print(f"{cam.analyse().jump_speed / cam.speed:.4f}")
+        >>> print(f"{jump_speed(cam.analyse()) / cam.load.speed:.4f}")
         1.1500
         """
         must = "lie above 0, up to 1"
@@ -181,14 +177,12 @@ class ValveCam(Design):
             raise ValueError(
                 f"the preload's share of the full force is {preload_share:g}; it must lie above 0, up to 1"
             )
-        top = self.speed * (1 + self.speed_margin)
 
         def lacking(at: Any) -> Any:
-            share = preload_share + (1 - preload_share) * at.motion.s / self.max_lift
-            return -self.train_mass * top**2 * at.acceleration / share
+            share = preload_share + (1 - preload_share) * at.lift / self.max_lift
+            return np.maximum(at.needed_at(at.top_speed) - at.other_force, 0) / share
 
-        force = self.opening.highest(lacking).value
+        force = self.analyse(2).highest(lacking).value
         force = float(force) if np.ndim(force) == 0 else force[..., None]
-        return self.replace(
-            spring_rate=(1 - preload_share) * force / self.max_lift, spring_preload=preload_share * force
-        )
+        rate, preload = (1 - preload_share) * force / self.max_lift, preload_share * force
+        return self.replace(load=self.load.replace(spring_rate=rate, preload=preload))

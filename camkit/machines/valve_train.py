@@ -1,47 +1,49 @@
-"""What rides on a valve cam: a flat face or a roller, in line with the cam axis.
-
-The follower travels along +y of the machine's frame; the cam turns counter-clockwise.
-"""
+"""What rides on a valve cam and what it moves: a flat face or a roller in line with the cam axis, valve and spring."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
 
-from ..cam.translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
-from ..cam.translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
-from ..motion import MotionProgram
-from ..quantities import unremarked
-
-if TYPE_CHECKING:
-    from .valve_cam import ValveCam
+from ..cam.slide import SlideLoad
+from ..quantities import quantity
+from .valve_analysis import FlatValveAnalysis, RollerValveAnalysis, ValveAnalysis
 
 
 @dataclass(frozen=True)
-class FlatFollower:
-    """A flat face across the line of travel (see `camkit.cam.translating_flat`)."""
+class Follower:
+    """What rides on the cam, by its ``name``, and what follows from a cam under it."""
 
-    name: ClassVar[str] = "flat face"
-    analysis: ClassVar[type[TranslatingFlatAnalysis]] = TranslatingFlatAnalysis
-
-    def on(self, cam: ValveCam, motion: MotionProgram) -> TranslatingFlatCam:
-        """The disk cam that lifts the face by ``motion``."""
-        with unremarked():
-            return TranslatingFlatCam(motion, cam.base_radius, load=cam.load)
+    name: str
+    analysis: type[ValveAnalysis]
 
 
-@dataclass(frozen=True)
-class RollerFollower:
-    """A roller whose centre travels in line with the cam axis (see `camkit.cam.translating_roller`)."""
-
-    name: ClassVar[str] = "roller"
-    analysis: ClassVar[type[TranslatingRollerAnalysis]] = TranslatingRollerAnalysis
-
-    def on(self, cam: ValveCam, motion: MotionProgram) -> TranslatingRollerCam:
-        """The disk cam that lifts the roller by ``motion``."""
-        with unremarked():
-            return TranslatingRollerCam(motion, cam.base_radius, cam.roller_radius, load=cam.load, groove=False)
-
-
-FLAT, ROLLER = FlatFollower(), RollerFollower()
+FLAT, ROLLER = Follower("flat face", FlatValveAnalysis), Follower("roller", RollerValveAnalysis)
 FOLLOWERS = (FLAT, ROLLER)
+
+
+@dataclass(frozen=True)
+class ValveLoad(SlideLoad):
+    """The load of a sliding follower, of a size as valves have it (defaults: a truck engine's).
+
+    The closing flank mirrors the opening one, and so must the load: what resists may be tabulated over the lift.
+
+    >>> ValveLoad(cam_angle_table=((0.0, 5.0), (1.0, 9.0)))
+    Traceback (most recent call last):
+        ...
+    ValueError: the load has a table over the cam angle; that of a valve must be the same on both flanks: tabulate it \
+over the lift, as its force table
+    """
+
+    mass: float = quantity("m_v", 0.25, 0.02, 1, "kg", "valve, spring's share, tappet, as felt at the cam")
+    speed: float = quantity("omega", 1800, 300, 4000, "rpm", "speed of the camshaft")
+    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None)
+    spring_rate: float = quantity("c", 30, 0, 100, "N/mm", "valve spring", at_least=0)
+    preload: float = quantity("F_0", 250, 0, 1000, "N", "valve spring with the valve shut", at_least=0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if len(self.cam_angle_table):
+            raise ValueError(
+                "the load has a table over the cam angle; that of a valve must be the same on both flanks: "
+                "tabulate it over the lift, as its force table"
+            )

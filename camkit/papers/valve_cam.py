@@ -81,11 +81,18 @@ def lifts() -> Comparison:
 def sharpest() -> Comparison:
     """Where the cam of the corner (20, 20) is sharpest, which is not at its nose."""
     value, a = _of_formulas("corner_20_20"), ValveCam(n=20, m=20).analyse()
+    least, where = a.profile_margin
     needed = float(a.base_radius_for(PAPER_MIN_RADIUS) / mm)
     rows = [
         Row("radius at the nose", "mm", value["nose_radius"], float(a.nose_radius / mm), "at least 4.5: kept"),
-        Row("least radius anywhere", "mm", value["min_radius"], float(a.min_radius / mm), "at least 4.5: missed"),
-        Row("where", "deg", value["min_radius_angle"], float(a.min_radius_angle / deg)),
+        Row(
+            "least radius anywhere",
+            "mm",
+            value["min_radius"],
+            float(least / mm),
+            "at least 4.5: missed",
+        ),
+        Row("where", "deg", value["min_radius_angle"], float(where / deg)),
         Row("base radius that would keep 4.5 mm", "mm", value["base_radius_needed"], needed),
     ]
     return Comparison("Radius of curvature under a flat face at (20, 20)", FORMULAS, rows, APART)

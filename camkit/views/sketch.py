@@ -179,7 +179,7 @@ def valve_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
         _stretch("travel", (0, 0), (0, face), stroke="dashdot"),
         _cam_angles(alpha, cam.half_angle, r0, (cam.base_radius + cam.max_lift) / mm),
         _lengths(r0, h),
-        _contact(whole.contact_point[:, i] / mm, whole.flat_radius[i] / mm, face),
+        _contact(whole.contact_point()[:, i] / mm, whole.flat.profile_radius[i] / mm, face),
     )
 
 

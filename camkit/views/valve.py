@@ -25,7 +25,7 @@ def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
     x, y = profile = rotated(whole.profile, whole.turn[i]) / mm
     from_nose = abs(whole.cam_angle - cam.half_angle)
     ramps, flanks = from_nose <= cam.half_angle + cam.ramp_angle, from_nose <= cam.half_angle
-    contact = whole.contact_point[:, i] / mm
+    contact = whole.contact_point()[:, i] / mm
     return picture(
         Axes(title=f"Cam and {cam.follower.name}", xlabel="x  [mm]", ylabel="y  [mm]", equal=True),
         Circle("tip circle", 0.0, 0.0, np.max(np.hypot(*profile)), role="guide"),
@@ -95,14 +95,14 @@ def radius_of_curvature(analysis: Any) -> Picture:
     """
     event, limit = analysis.event, PAPER_MIN_RADIUS / mm
     x = event.cam_angle / deg
-    at, least = analysis.min_radius_angle / deg, analysis.min_radius / mm
-    roller = gaps(event.roller_profile_radius / mm, event.curvature > 0)
+    least, at = analysis.profile_margin.value / mm, analysis.profile_margin.cam_angle / deg
+    radius = gaps(event.roller.profile_radius / mm, event.roller.curvature > 0)
     return _over_event(
         analysis,
         "Radius",
         "ρ  [mm]",
-        Line("flat", x, event.flat_radius / mm, role="position", label="flat face"),
-        Line("roller", x, roller, role="velocity", stroke="thin dashed", label="roller"),
+        Line("flat", x, event.flat.profile_radius / mm, role="position", label="flat face"),
+        Line("roller", x, radius, role="velocity", stroke="thin dashed", label="roller"),
         Line("limit", x[[0, -1]], [limit] * 2, role="limit"),
         Points("least", at, least, role="position" if least >= limit else "trouble"),
         ylim=SHOWN_RADIUS,
@@ -114,7 +114,8 @@ def spring_and_inertia(analysis: Any) -> Picture:
     event = analysis.event
     x, spring = event.cam_angle / deg, event.spring_force
     marks: list[Mark] = [Line("spring", x, gaps(spring, event.valve_open), role="velocity", label="spring")]
-    for key, speed, stroke in (("inertia", analysis.cam.speed, "solid"), ("overspeed", analysis.top_speed, "dashed")):
+    speeds = {"inertia": (analysis.cam.load.speed, "solid"), "overspeed": (analysis.top_speed, "dashed")}
+    for key, (speed, stroke) in speeds.items():
         needed = event.needed_at(speed)
         pulled = gaps(needed, event.valve_open & (needed > 0))
         label = "inertia" if key == "inertia" else ""

@@ -70,7 +70,7 @@ def _from_the_start(book: Workbook) -> None:
 
 def shows(book: Workbook, cam: ValveCam) -> None:
     """Boxes and table show ``cam``, computed here."""
-    for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("speed", cam.speed / rpm)):
+    for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("load speed", cam.load.speed / rpm)):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{shown:.6g}")
     limits = dict.fromkeys((nose_radius, min_radius), PAPER_MIN_RADIUS)
     expected = table_of_measures(VALVE_MEASURES, cam.analyse(), START.analyse(), {}, limits)
@@ -103,7 +103,7 @@ def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
     shows(book, START.with_spring())
     book.bench.get_by_role("button", name="Keep 4.5 mm everywhere").click()
     shows(book, keeping_least_radius(START.with_spring()))
-    assert book.value("app.analysis.min_radius") == pytest.approx(4.5 * mm, rel=1e-9)
+    assert book.value("app.analysis.profile_margin.value") == pytest.approx(4.5 * mm, rel=1e-9)
 
 
 def test_what_cannot_be_built_is_said_in_a_sentence(book: Workbook) -> None:

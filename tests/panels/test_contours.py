@@ -169,7 +169,7 @@ PROBLEMS = {
 
 @pytest.fixture(scope="module")
 def workshop():
-    app = explore(ValveCam(), lift, free=["n", "m", "base_radius", "speed"], width=4, height=3)
+    app = explore(ValveCam(), lift, free=["n", "m", "base_radius", "load.speed"], width=4, height=3)
     panel = contour_panel(app, PROBLEMS, weights={"fullness": 0.5, "wear": 0.5}, steps=21)
     yield panel
     settled(panel)

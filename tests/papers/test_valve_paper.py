@@ -30,7 +30,7 @@ def test_the_defaults_are_the_papers_data():
     data, cam = load("valve")["paper"]["data"], ValveCam()
     assert_allclose(cam.base_radius, data["base_radius"] * mm)
     assert_allclose(cam.max_lift, data["max_lift"] * mm)
-    assert_allclose(cam.speed, data["speed"] * rpm)
+    assert_allclose(cam.load.speed, data["speed"] * rpm)
     assert_allclose(cam.half_angle, data["half_angle"] * deg)
     assert_allclose(cam.seating_velocity, data["seating_velocity"])
     assert_allclose(PAPER_MIN_RADIUS, data["min_radius"] * mm)
