@@ -17,7 +17,8 @@ import numpy as np
 import pymoo
 import scipy
 
-from camkit import __version__, door_handle_paper_study, lift_curve_study, nsga2
+from camkit import __version__, nsga2
+from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.study.study import Study
 
 STORED = Path(__file__).parents[1] / "camkit" / "data" / "door_handle_fronts.json"

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize as scipy_minimize
 
-from camkit.machines.high_speed_study import high_speed_study
+from camkit.machines.high_speed_measures import high_speed_study
 from camkit.search.minimax import BAD, STEP
 from camkit.search.minimise import CROWD, EXACT, minimise
 from camkit.study.study import Evaluation, Study

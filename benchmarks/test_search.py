@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from camkit import door_handle_study, lift_curve_study, nsga2
+from camkit import door_handle_study, nsga2
+from camkit.machines import lift_curve_study
 from camkit.search.evolution import StudyProblem
 from camkit.study.study import Study
 

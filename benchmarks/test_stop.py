@@ -12,7 +12,8 @@ STOPS = 9
 
 CELLS = [
     """
-from camkit import DoorHandleCam, lift_curve_study, explore, pareto_panel
+from camkit import DoorHandleCam, explore, pareto_panel
+from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import LIFT_SPACE
 from camkit.views import mechanism
 

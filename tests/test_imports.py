@@ -77,7 +77,7 @@ import camkit.search as wing
 assert set(wing.__all__) <= set(dir(wing))
 assert "pymoo" not in sys.modules
 from camkit.search import Front, Minimum, Step, search
-from camkit.machines.high_speed_study import high_speed_study
+from camkit.machines.high_speed_measures import high_speed_study
 *_, last = search(high_speed_study(angles=61), "slsqp", seed=1)
 of_pymoo = {"CompetitiveAlgorithm", "StudyProblem", "ToolboxGenetic"}
 print(last.best.feasible, [name for name in wing.__all__ if name not in of_pymoo and not hasattr(wing, name)])
@@ -160,3 +160,19 @@ def test_no_name_that_is_loaded_later_is_that_of_a_module() -> None:
     assert not modules & camkit._LATER.keys()
     for name in camkit._LATER:
         assert callable(getattr(camkit, name))
+
+
+WINGS_WITHOUT = """
+import camkit
+try:
+    camkit.panels
+except ImportError as refused:
+    print(refused)
+print(camkit.views.CAM_VIEWS[0].__name__)
+"""
+
+
+def test_a_wing_without_the_extra_says_what_it_needs() -> None:
+    said = python("-c", ONLY_NUMPY_AND_SCIPY + WINGS_WITHOUT, cwd=REPOSITORY).splitlines()
+    assert re.fullmatch(r"camkit\.panels needs \w+, which is not installed: pip install 'camkit\[lab\]'", said[0])
+    assert said[1:] == ["mechanism"]

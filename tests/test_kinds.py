@@ -10,6 +10,7 @@ import warnings
 from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -17,13 +18,9 @@ import pytest
 import camkit
 from camkit import (
     RSSR,
-    AnalysisCurve,
-    Box,
-    CamLever,
     Cycloidal,
     DesignMap,
     Dwell,
-    FreePolynomial,
     Judgements,
     Measure,
     MotionProgram,
@@ -31,25 +28,22 @@ from camkit import (
     Return,
     Rise,
     Session,
-    Skewed,
-    SliderLoad,
-    SplineLaw,
     Study,
-    SumOfResiduals,
     Sweep,
-    TableLaw,
     Tolerances,
     TranslatingRollerCam,
-    UnitRemark,
     UniversalJointShaft,
-    cam_lever_study,
 )
 from camkit.decision import random_index
-from camkit.machines.high_speed_study import peak_stress
+from camkit.linkage import Box
+from camkit.machines import CamLever, SliderLoad, cam_lever_study
+from camkit.machines.high_speed_measures import peak_stress
 from camkit.machines.shaft import shaft_study
-from camkit.quantities import Choice, Quantity
+from camkit.motion import FreePolynomial, Skewed, SplineLaw, TableLaw
+from camkit.quantities import Choice, Quantity, UnitRemark
 from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.front import dominated, front_of
+from camkit.study import AnalysisCurve, SumOfResiduals
 
 ITSELF: list = []
 ITSELF.append(ITSELF)
@@ -122,7 +116,7 @@ GIVEN = {
     MotionProgram: (PROGRAM.segments,),
     Skewed: (LAW,),
     FreePolynomial: (),
-    camkit.ShapedLaw: (LAW, (0.1, 0.0, 0.0, 0.0)),
+    camkit.motion.ShapedLaw: (LAW, (0.1, 0.0, 0.0, 0.0)),
     SplineLaw: ((0.5,), (0.5,)),
     TableLaw: ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)),
     Box: ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
@@ -143,7 +137,12 @@ GIVEN = {
 """What the constructors that have no defaults are given."""
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
-PUBLIC = [getattr(camkit, name) for name in camkit.__all__ if name not in NOT_MADE_BY_HAND]
+NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "PairForces", "Read", "SideBySide"}
+NOT_MADE_BY_HAND |= {"TorqueBalance", "WeightedSum", "WinnerMap"}
+WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
+WINGS += [camkit.decision, camkit.files]
+NAMES = {name: wing for wing in WINGS for name in wing.__all__ if name not in NOT_MADE_BY_HAND}
+PUBLIC = [getattr(wing, name) for name, wing in NAMES.items() if not name.endswith("Analysis")]
 CLASSES = [c for c in PUBLIC if inspect.isclass(c) and dataclasses.is_dataclass(c)]
 CASES = [(kind, f.name) for kind in [*CLASSES, Quantity, Choice] for f in dataclasses.fields(kind) if f.init]
 
@@ -190,7 +189,7 @@ def used(kind, name, value):
         made.analyse([0.1, 0.2])
     elif hasattr(made, "analyse"):
         made.analyse(61)
-    elif isinstance(made, camkit.Law):
+    elif isinstance(made, camkit.motion.Law):
         made(0.3)
         made.peaks()
     elif isinstance(made, MotionProgram):
@@ -230,13 +229,13 @@ FUNCTIONS = {
     camkit.knee: {"front": FRONT, "weights": (1, 1)},
     camkit.topsis: {"front": FRONT, "weights": (1, 1), "scale": "range"},
     camkit.weighted_sum: {"front": FRONT, "weights": (1, 1)},
-    camkit.judgement_ranges: {"front": FRONT, "judgements": [3]},
-    camkit.winner_map: {"front": FRONT},
-    camkit.line_contact: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
-    camkit.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},
-    camkit.program_between: {"pieces": PIECES, "start": 0.0},
-    camkit.residual_vibration: {"law": LAW, "tau": 1.5, "damping": 0.1},
-    camkit.weighted: {"name": "sum", "weights": {HEIGHT: 1.0}, "reference": (2.0,)},
+    camkit.decision.judgement_ranges: {"front": FRONT, "judgements": [3]},
+    camkit.decision.winner_map: {"front": FRONT},
+    camkit.contact.line_contact: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
+    camkit.motion.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},
+    camkit.motion.program_between: {"pieces": PIECES, "start": 0.0},
+    camkit.motion.residual_vibration: {"law": LAW, "tau": 1.5, "damping": 0.1},
+    camkit.study.weighted: {"name": "sum", "weights": {HEIGHT: 1.0}, "reference": (2.0,)},
     PROGRAM.__call__: {"cam_angle": 0.3},
     PROGRAM.in_time: {"cam_angle": 0.3, "speed": 10.0},
     LAW.__call__: {"u": 0.3},
@@ -265,36 +264,37 @@ FOUND = front_of(CROSS, TWO)
 SPREAD = Tolerances(STUDY, {"base_radius": 0.001}, parts=64)
 CURVE = AnalysisCurve("pressure_angle", "deg", "pressure angle")
 FUNCTIONS |= {
-    camkit.cam_lever_study: {
+    camkit.machines.cam_lever_study: {
         "start": CamLever(), "objective": peak_stress, "max_radius": 0.11, "free_laws": False, "angles": 31
     },
-    camkit.corrected_valve_study: {"start": camkit.ValveCam(), "weights": (0.5, 0.5)},
-    camkit.door_handle_paper_study: {"start": DOOR, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.machines.corrected_valve_study: {"start": camkit.ValveCam(), "weights": (0.5, 0.5)},
+    camkit.machines.door_handle_paper_study: {"start": DOOR, "reference": DOOR, "weights": (1, 1, 1)},
     camkit.door_handle_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
     camkit.high_speed_study: {
         "start": camkit.HighSpeedCam(), "objective": peak_stress, "free_laws": True, "free_spring": True,
         "space": {"arm_length": (0.1, 0.2)}, "at_most": {peak_stress: 1.0}, "at_least": {peak_stress: 1.0}, "angles": 31
     },
-    camkit.lift_curve_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
-    camkit.lightest_shaft: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
+    camkit.machines.lift_curve_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.machines.lightest_shaft: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
     camkit.rssr_study: {
-        "start": camkit.CabinDoorLinkage(), "objective": missed, "space": {"crank": (0.05, 0.1)}, "min_swing": 1.0,
+        "start": camkit.machines.CabinDoorLinkage(), "objective": missed, "space": {"crank": (0.05, 0.1)},
+        "min_swing": 1.0,
         "inside": Box(*GIVEN[Box]), "outside": Box(*GIVEN[Box]), "positions": 5
     },
     camkit.shaft_study: {"start": UniversalJointShaft(), "space": SHAFT_SPACE},
     camkit.valve_study: {
         "start": camkit.ValveCam(), "weights": (0.5, 0.5), "printed_sign": False, "paper_units": False
     },
-    camkit.valve_front_study: {"start": camkit.ValveCam(), "limited": HEIGHT, "space": {"n": (2.0, 20.0)}},
+    camkit.machines.valve_front_study: {"start": camkit.ValveCam(), "limited": HEIGHT, "space": {"n": (2.0, 20.0)}},
     camkit.minimise: {"study": STUDY, "method": "slsqp", "seed": 1, "starts": 1, "designs": 40, "recheck": 61},
     camkit.nsga2: {"study": TWO, "population": 4, "generations": 1, "seed": 1},
     camkit.polish: {"study": RESIDUAL, "x": [0.03]},
     camkit.quick_front: {"study": TWO, "size": 4, "start": FOUND},
-    first_of(camkit.shortest_interval): {
+    first_of(camkit.search.shortest_interval): {
         "study": cam_lever_study(free_laws=False, angles=31), "limit": 1e3, "shortest": 0.9, "longest": 1.0,
         "intervals": ("rise_angle",), "tolerance": 0.05
     },
-    first_of(camkit.trade_off): {"study": TWO, "points": 2},
+    first_of(camkit.search.trade_off): {"study": TWO, "points": 2},
     first_of(epsilon_constraint_steps): {"study": TWO, "points": 2},
     front_of: {"evaluation": CROSS, "study": TWO},
     dominated: {"f": FRONT},
@@ -311,13 +311,13 @@ FUNCTIONS |= {
     },
     camkit.profile_csv: {"analysis": CAM.analyse(31)},
     camkit.profile_dxf: {"analysis": CAM.analyse(31)},
-    camkit.side_by_side: {
+    camkit.decision.side_by_side: {
         "designs": {"cam": CAM}, "measures": (HEIGHT,), "study": STUDY, "analyses": [CAM.analyse(31)]
     },
     RSSR().closure: {"crank_angle": 0.3},
     RSSR().discriminant: {"crank_angle": 0.3},
     RSSR().assembles: {"crank_angle": 0.3},
-    RSSR().analyse: {"crank_angle": 0.3, "branch": 1, "load": camkit.RockerLoad(), "through": False},
+    RSSR().analyse: {"crank_angle": 0.3, "branch": 1, "load": camkit.linkage.RockerLoad(), "through": False},
     Box(*GIVEN[Box]).depth: {"points": (0.5, 0.5, 0.5)},
     Box(*GIVEN[Box]).clearance: {"start": (0.5, 0.5, 0.5), "end": (0.5, 0.5, 2.0)},
 }  # fmt: skip

@@ -11,7 +11,6 @@ from numpy.testing import assert_array_equal
 
 from camkit import (
     ArmLoad,
-    ContactPair,
     DoorHandleCam,
     Friction,
     HighSpeedCam,
@@ -20,11 +19,11 @@ from camkit import (
     SlideLoad,
     Study,
     TranslatingRollerCam,
-    UnitRemark,
     UniversalJointShaft,
 )
+from camkit.cam import ContactPair
 from camkit.motion import LAWS, Cycloidal, Poly345
-from camkit.quantities import Choice, Design, Measure, Quantity, choice, declarations, quantity, unremarked
+from camkit.quantities import Choice, Design, Measure, Quantity, UnitRemark, choice, declarations, quantity, unremarked
 from camkit.units import deg, mm
 
 

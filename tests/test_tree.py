@@ -8,9 +8,7 @@ from numpy.testing import assert_allclose
 
 from camkit import (
     RSSR,
-    CamLever,
     DoorHandleCam,
-    DoubleUniversalJoint,
     HighSpeedCam,
     OscillatingFlatCam,
     OscillatingRollerCam,
@@ -19,7 +17,6 @@ from camkit import (
     Tolerances,
     TranslatingFlatCam,
     TranslatingRollerCam,
-    UniversalJoint,
     UniversalJointShaft,
     ValveCam,
     deg,
@@ -29,6 +26,8 @@ from camkit import (
 )
 from camkit.cam.follower_measures import FLAT_CURVE
 from camkit.files import Session, from_json, to_json
+from camkit.linkage import DoubleUniversalJoint, UniversalJoint
+from camkit.machines import CamLever
 from camkit.machines.cabin_door import CabinDoorLinkage
 from camkit.motion import (
     LAW_MENU,

@@ -1,1 +1,74 @@
-"""Disk cams: one module for each kind of follower or machine."""
+"""Disk cams with a follower on a straight guide or an arm, with a roller or a flat face; their loads and measures."""
+
+from .analysis import CamAnalysis, FlatAnalysis, RollerAnalysis
+from .conjugate import PairForces, opposite, pair_forces
+from .follower_measures import face_width, jump_margin, mean_torque, min_force, min_profile_radius, peak_pressure
+from .force_closure import ContactPair, TorqueBalance, contact_along, jump_speed, preload_needed, torque_balance
+from .loads import ArmLoad, Contact, Friction
+from .measures import (
+    base_radius,
+    groove_gap,
+    max_pressure_angle,
+    mean_efficiency,
+    min_concave_radius,
+    min_convex_radius,
+    part,
+    peak_force,
+    peak_torque,
+    published_mean_efficiency,
+    undercut_margin,
+    work_efficiency,
+    worst,
+)
+from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
+from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from .slide import SlideFriction, SlideLoad
+from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
+from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
+
+__all__ = [
+    "ArmLoad",
+    "CamAnalysis",
+    "Contact",
+    "ContactPair",
+    "FlatAnalysis",
+    "Friction",
+    "OscillatingFlatAnalysis",
+    "OscillatingFlatCam",
+    "OscillatingRollerAnalysis",
+    "OscillatingRollerCam",
+    "PairForces",
+    "RollerAnalysis",
+    "SlideFriction",
+    "SlideLoad",
+    "TorqueBalance",
+    "TranslatingFlatAnalysis",
+    "TranslatingFlatCam",
+    "TranslatingRollerAnalysis",
+    "TranslatingRollerCam",
+    "base_radius",
+    "contact_along",
+    "face_width",
+    "groove_gap",
+    "jump_margin",
+    "jump_speed",
+    "max_pressure_angle",
+    "mean_efficiency",
+    "mean_torque",
+    "min_concave_radius",
+    "min_convex_radius",
+    "min_force",
+    "min_profile_radius",
+    "opposite",
+    "pair_forces",
+    "part",
+    "peak_force",
+    "peak_pressure",
+    "peak_torque",
+    "preload_needed",
+    "published_mean_efficiency",
+    "torque_balance",
+    "undercut_margin",
+    "work_efficiency",
+    "worst",
+]

@@ -26,7 +26,7 @@ def jump_speed(analysis: Any) -> Any:
     0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
     speed, as it does in a groove without a spring: that is form closed.
 
-    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.cam import TranslatingRollerCam
     >>> from camkit.units import rpm
     >>> print(f"{jump_speed(TranslatingRollerCam().analyse()) / rpm:.1f} rpm")
     943.7 rpm
@@ -49,7 +49,7 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
     The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
     ``inf`` where the follower's speed drops at once.  ``ValueError`` for a speed that is not finite.
 
-    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.cam import TranslatingRollerCam
     >>> from camkit.units import rpm
     >>> cam = TranslatingRollerCam()
     >>> least = preload_needed(cam.analyse(), 1200 * rpm)
@@ -133,7 +133,7 @@ def contact_along(analysis: Any, pair: ContactPair) -> LineContact:
 
     ``nan`` where that flank is undercut, and where a flat face would have to be pulled.
 
-    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.cam import TranslatingRollerCam
     >>> print(f"{contact_along(TranslatingRollerCam().analyse(), ContactPair()).pressure.max() / 1e6:.1f} MPa")
     230.8 MPa
     """

@@ -76,8 +76,8 @@ def feasible(study: Study, n: int = 241) -> np.ndarray:
     They are seen if they, and the gaps between them, are wider than the range over ``n``; their ends are then
     found to rounding.
 
-    >>> from camkit.cam.measures import max_pressure_angle
-    >>> from camkit.cam.translating_roller import TranslatingRollerCam
+    >>> from camkit.cam import max_pressure_angle
+    >>> from camkit.cam import TranslatingRollerCam
     >>> cam, limit = TranslatingRollerCam(), {max_pressure_angle: 20 * deg}
     >>> study = Study(cam, ["base_radius"], [max_pressure_angle], at_most=limit, angles=721)
     >>> (feasible(study) / mm).round(2).tolist()

@@ -1,7 +1,18 @@
 """Designs, sessions, profiles and tables as files."""
 
 from .designs import Read, from_json, read, read_json, to_json, write
-from .profiles import profile_csv, profile_dxf
+from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
 
-__all__ = ["Read", "Session", "from_json", "profile_csv", "profile_dxf", "read", "read_json", "to_json", "write"]
+__all__ = [
+    "Read",
+    "Session",
+    "from_json",
+    "profile_csv",
+    "profile_dxf",
+    "read",
+    "read_json",
+    "table_csv",
+    "to_json",
+    "write",
+]

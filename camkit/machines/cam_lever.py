@@ -27,7 +27,7 @@ from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
-from .high_speed_study import CLEAR, COMMON, laws_free, min_lead, min_radius, overrun, peak, undercut_margin
+from .high_speed_measures import CLEAR, COMMON, laws_free, min_lead, min_radius, overrun, peak, undercut_margin
 
 
 @dataclass(frozen=True)

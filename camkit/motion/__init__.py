@@ -7,7 +7,7 @@ from .families.harmonic import Cycloidal, SimpleHarmonic
 from .families.modified import ModifiedSine, ModifiedTrapezoid
 from .families.plain import HALF_LAWS, LAWS
 from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
-from .families.shaped import ShapedLaw
+from .families.shaped import DEGREE9, SPLINE, ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
 from .law import Kinematics, Law, Peaks
@@ -17,9 +17,11 @@ from .transitions import ProgramPeaks, Transition
 from .vibration import period_ratio, residual_vibration
 
 __all__ = [
+    "DEGREE9",
     "HALF_LAWS",
     "LAWS",
     "LAW_MENU",
+    "SPLINE",
     "ConstantVelocity",
     "Cycloidal",
     "Degree9",

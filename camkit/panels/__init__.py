@@ -1,19 +1,22 @@
 """Live panels for JupyterLab: sliders on one side, pictures and numbers of the same design on the other."""
 
-from .ahp import AhpPanel, ahp_panel
-from .choose import choose_panel
-from .contours import contour_panel
-from .cycle_time import CycleTimePanel, cycle_time_panel
-from .explore import Explorer, explore
-from .fronts import FrontsPanel, compare_fronts
-from .live_pareto import LiveParetoPanel, live_pareto_panel
-from .optimise import OptimisePanel, optimise_panel
-from .pareto import ParetoPanel, pareto_panel
-from .presets import presets
-from .program import ProgramEditor, edit_program
-from .shortlist import shortlist
-from .tolerances import TolerancePanel, tolerance_panel
-from .try_everything import try_everything
+from ..quantities.extras import extra
+
+with extra("camkit.panels"):
+    from .ahp import AhpPanel, ahp_panel
+    from .choose import choose_panel
+    from .contours import contour_panel
+    from .cycle_time import CycleTimePanel, cycle_time_panel
+    from .explore import Explorer, explore
+    from .fronts import FrontsPanel, compare_fronts
+    from .live_pareto import LiveParetoPanel, live_pareto_panel
+    from .optimise import OptimisePanel, optimise_panel
+    from .pareto import ParetoPanel, pareto_panel
+    from .presets import presets
+    from .program import ProgramEditor, edit_program
+    from .shortlist import shortlist
+    from .tolerances import TolerancePanel, general_tolerances, tolerance_panel
+    from .try_everything import try_everything
 
 __all__ = [
     "AhpPanel",
@@ -32,6 +35,7 @@ __all__ = [
     "cycle_time_panel",
     "edit_program",
     "explore",
+    "general_tolerances",
     "live_pareto_panel",
     "optimise_panel",
     "pareto_panel",

@@ -12,7 +12,7 @@ from ..machines.cam_lever import CamLever, cam_lever_study
 from ..machines.high_speed_analysis import HighSpeedAnalysis
 from ..machines.high_speed_cam import HighSpeedCam
 from ..machines.high_speed_load import ConstantTorque, InertialSpringLoad
-from ..machines.high_speed_study import GEOMETRY, high_speed_study, peak_stress, peak_wear
+from ..machines.high_speed_measures import GEOMETRY, high_speed_study, peak_stress, peak_wear
 from ..quantities import Measure
 from ..study.study import Study
 from ..units import cm, deg, mm

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..data import as_printed
 from ..machines.valve_cam import ValveCam
-from ..machines.valve_study import PAPER_MIN_RADIUS, in_paper_units, valve_study
+from ..machines.valve_measures import PAPER_MIN_RADIUS, in_paper_units, valve_study
 from ..units import deg, mm
 from .published import Comparison, Row
 

@@ -1,32 +1,52 @@
 """Searches for the best designs of a study: one protocol, `search`, with its methods and their results behind it.
 
-Names are loaded when they are first asked for, so that only what needs pymoo loads it.  ``nsga2``, ``minimise`` and
-``polish`` are modules here; the functions of that name come from ``camkit`` itself.
+What needs pymoo is loaded when it is first asked for.  ``nsga2``, ``minimise`` and ``polish`` are modules here; the
+functions of these names come from ``camkit`` itself.
 """
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-_HOMES = {
-    "competitive": ("CompetitiveAlgorithm",),
-    "cycle_time": ("IntervalStep", "shortest_interval"),
-    "epsilon_constraint": ("dominated_shares", "trade_off"),
-    "evolution": ("StudyProblem",),
-    "fast_front": ("quick_front",),
-    "front": ("Front", "dominated", "front_of", "reference_point"),
-    "minimum": ("Active", "Minimum"),
-    "protocol": ("Step", "search"),
-    "toolbox_genetic": ("ToolboxGenetic",),
-}
-_HOME = {name: module for module, names in _HOMES.items() for name in names}
+from ..quantities.extras import extra
+from .cycle_time import IntervalStep, shortest_interval
+from .epsilon_constraint import dominated_shares, trade_off
+from .fast_front import quick_front
+from .front import Front, dominated, front_of, reference_point
+from .minimum import Active, Minimum
+from .protocol import Step, search
 
-__all__ = sorted(_HOME)
+if TYPE_CHECKING:
+    from .competitive import CompetitiveAlgorithm
+    from .evolution import StudyProblem
+    from .toolbox_genetic import ToolboxGenetic
+
+_PYMOO = {"CompetitiveAlgorithm": "competitive", "StudyProblem": "evolution", "ToolboxGenetic": "toolbox_genetic"}
+
+__all__ = [
+    "Active",
+    "CompetitiveAlgorithm",
+    "Front",
+    "IntervalStep",
+    "Minimum",
+    "Step",
+    "StudyProblem",
+    "ToolboxGenetic",
+    "dominated",
+    "dominated_shares",
+    "front_of",
+    "quick_front",
+    "reference_point",
+    "search",
+    "shortest_interval",
+    "trade_off",
+]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
+    if name not in _PYMOO:
         raise AttributeError(f"camkit.search has no {name!r}")
-    return getattr(import_module(f".{_HOME[name]}", __name__), name)
+    with extra(name):
+        return getattr(import_module(f".{_PYMOO[name]}", __name__), name)
 
 
 def __dir__() -> list[str]:

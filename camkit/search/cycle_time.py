@@ -87,7 +87,7 @@ def shortest_interval(
     known to ``tolerance``.  Leave the loop to stop: every step holds the best so far.  ``search`` goes to `minimise`.
     Gains count from ``longest``.
 
-    >>> from camkit.machines.cam_lever import cam_lever_study
+    >>> from camkit.machines import cam_lever_study
     >>> from camkit.units import cm
     >>> *_, last = shortest_interval(cam_lever_study(free_laws=False), 9 / cm**0.5, 50 * deg, 61 * deg)
     >>> print(f"{last.high / deg:.0f} deg, {100 * last.gain:.0f} % more output")

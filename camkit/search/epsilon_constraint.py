@@ -28,8 +28,8 @@ def trade_off(study: Study, points: int = 9, **search: Any) -> Iterator[Minimum]
     in all; each search starts where the last one ended, and ``search`` goes to `minimise`.  Every design keeps the
     study's limits if it is ``feasible``.  Leave the loop to stop.
 
-    >>> from camkit.machines.high_speed_study import high_speed_study, peak_stress, peak_wear
-    >>> study = high_speed_study().replace(minimise=(peak_stress, peak_wear))
+    >>> from camkit.machines import high_speed_measures as fast
+    >>> study = fast.high_speed_study().replace(minimise=(fast.peak_stress, fast.peak_wear))
     >>> front = [best.x for best in trade_off(study, 3)]
     >>> (study.evaluate(front).f * 0.001**0.5).round(1).tolist()
     [[1.7, 268.4], [1.7, 245.6], [5.5, 222.8]]
@@ -43,8 +43,8 @@ def trade_off(study: Study, points: int = 9, **search: Any) -> Iterator[Minimum]
 def epsilon_constraint_steps(study: Study, points: int = 9, **search: Any) -> Iterator[Step]:
     """The front of `trade_off` as it grows; a step with a ``message`` ends the search for one of its designs.
 
-    >>> from camkit.machines.high_speed_study import high_speed_study, peak_stress, peak_wear
-    >>> study = high_speed_study().replace(minimise=(peak_stress, peak_wear))
+    >>> from camkit.machines import high_speed_measures as fast
+    >>> study = fast.high_speed_study().replace(minimise=(fast.peak_stress, fast.peak_wear))
     >>> steps = epsilon_constraint_steps(study, 3)
     >>> [(step.number, step.of, len(step.front)) for step in steps if step.message]
     [(1, 3, 1), (2, 3, 2), (3, 3, 3)]
@@ -99,8 +99,8 @@ def dominated_shares(fronts: Mapping[str, Front], worst: Any) -> dict[str, float
     The box goes from the best in each objective, of all fronts, to ``worst``; 1 would be a design that is best in
     everything.  ``nan`` if ``worst`` is no worse than the best in some objective.
 
-    >>> from camkit.machines.high_speed_study import high_speed_study, peak_stress, peak_wear
-    >>> study = high_speed_study().replace(minimise=(peak_stress, peak_wear))
+    >>> from camkit.machines import high_speed_measures as fast
+    >>> study = fast.high_speed_study().replace(minimise=(fast.peak_stress, fast.peak_wear))
     >>> *_, step = epsilon_constraint_steps(study, 5)
     >>> few = {"two": Front(study, step.front.x[::4], step.front.f[::4]), "five": step.front}
     >>> [round(share, 3) for share in dominated_shares(few, study.evaluate(study.x0).f[0]).values()]

@@ -72,7 +72,7 @@ def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Fr
     ``start`` is the front of a study like this one, which saves most of the search.  Every design that is returned
     was judged on all angles of the study; an empty front says in ``message`` which limit stood in the way.
 
-    >>> from camkit.machines.door_handle import door_handle_study
+    >>> from camkit.machines import door_handle_study
     >>> front = quick_front(door_handle_study())
     >>> len(front), front.study.evaluate(front.x).feasible.all()
     (100, np.True_)

@@ -53,7 +53,7 @@ def minimise(
     ``recheck``: how many angles the result is judged on, if not those of the study; ``"slsqp"`` tightens limits until
     they hold there.  The result is never worse than the study's start, and repeatable for a seed.
 
-    >>> from camkit.machines.high_speed_study import high_speed_study
+    >>> from camkit.machines import high_speed_study
     >>> best = minimise(high_speed_study())
     >>> best.evaluations < 200, *(f"{held.name} {held.value}" for held in best.active)
     (True, 'contact stress F_sigma 1.683 N^0.5 mm^-0.5', 'maximum radius 140 mm (upper bound)')

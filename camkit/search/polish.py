@@ -22,7 +22,7 @@ def polish(study: Study, x: Any = None) -> Minimum:
 
     The study's objective is a `SumOfResiduals`; what else there is to be small is the business of `minimise`.
 
-    >>> from camkit.machines.cabin_door import rssr_study
+    >>> from camkit.machines import rssr_study
     >>> found = polish(rssr_study())
     >>> print(f"{np.degrees(found.f):.5f} deg, crank {1e3 * found.design.crank:.2f} mm")
     213.29848 deg, crank 80.00 mm

@@ -106,7 +106,7 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
       `camkit.minimise`.  A step is one evaluation, and a stop takes effect before the next.
     - ``"cycle_time"``: ``limit``, ``shortest``, ``longest``, ``intervals``; see `camkit.shortest_interval`.
 
-    >>> from camkit.machines.door_handle import door_handle_study
+    >>> from camkit.machines import door_handle_study
     >>> for step in search(door_handle_study(), "nsga2", population=20, generations=9, seed=1):
     ...     if step.number == 3:
     ...         break

@@ -24,7 +24,7 @@ class DesignMap:
     ``window`` holds a lower and an upper bound of each free quantity, ``(2, 2)`` SI like `Study.bounds`, which it is
     unless said otherwise; it may reach beyond them.  ``n`` is the number of grid lines each way.
 
-    >>> from camkit.machines.shaft import shaft_study
+    >>> from camkit.machines import shaft_study
     >>> plane = DesignMap(shaft_study())
     >>> plane.objective.shape, plane.limits.shape, (1e3 * plane.best).round(4).tolist()
     ((81, 81), (4, 81, 81), [129.1907, 103.0])

@@ -17,7 +17,8 @@ from .study import Evaluation, Study
 class Sweep:
     """``study`` at ``n`` values of its one free quantity, evaluated in one call.
 
-    >>> from camkit import DoorHandleCam, lift_curve_study, mm
+    >>> from camkit import DoorHandleCam, mm
+    >>> from camkit.machines import lift_curve_study
     >>> sweep = Sweep(lift_curve_study(space={"lift_arm": (40 * mm, 60 * mm)}))
     >>> sweep.limits.shape, bool(sweep.feasible.any())
     ((3, 121), True)

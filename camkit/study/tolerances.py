@@ -102,7 +102,7 @@ class Tolerances:
     ``uniform``: every value within plus and minus the half width is equally likely.  ``normal``: the half width is
     three standard deviations.  ``parts`` is a power of two; a seed gives the same parts again.
 
-    >>> from camkit import lift_curve_study
+    >>> from camkit.machines import lift_curve_study
     >>> lift = Tolerances(lift_curve_study(), {"lift_arm": 0.3 * mm, "lift_start_angle": 0.5 * deg}, parts=256)
     >>> lift.share, lift.x.shape, lift.measures[0].name
     (1.0, (256, 2), 'effort')

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..data import load
 from ..geometry import rotated
-from ..machines.valve_study import PAPER_MIN_RADIUS
+from ..machines.valve_measures import PAPER_MIN_RADIUS
 from ..units import MPa, deg, mm
 from .cam import ANGLE, bodies
 from .front import ShownFront, pareto

@@ -15,7 +15,7 @@ from camkit import deg, mm
 from camkit.machines.cam_lever import CamLever, lever_stress
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
-from camkit.machines.high_speed_study import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
+from camkit.machines.high_speed_measures import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
 from camkit.search.minimise import minimise
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures

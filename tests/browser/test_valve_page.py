@@ -14,7 +14,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit import deg, mm, profile_csv, rpm
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import (
+from camkit.machines.valve_measures import (
     PAPER_MIN_RADIUS,
     VALVE_MEASURES,
     keeping_least_radius,

@@ -11,20 +11,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import (
-    ArmLoad,
-    DoorHandleCam,
-    Friction,
-    OscillatingRollerCam,
-    ahp,
-    door_handle_study,
-    lift_curve_study,
-    nsga2,
-    read,
-    write,
-)
+from camkit import ArmLoad, DoorHandleCam, Friction, OscillatingRollerCam, ahp, door_handle_study, nsga2, read, write
 from camkit.files import Session, from_json, to_json
 from camkit.files.designs import SCHEMA
+from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import EXPANDED_SPACE
 from camkit.motion import (
     HALF_LAWS,

@@ -35,7 +35,6 @@ from camkit import (
     door_handle_study,
     explore,
     high_speed_study,
-    lift_curve_study,
     nsga2,
     pareto_panel,
     quantity,
@@ -49,9 +48,10 @@ from camkit.files.entries import MOST_ROWS, exact_in_unit, fits
 from camkit.files.json_file import EDITED, UNMARKED
 from camkit.linkage.measures import departure, excess
 from camkit.linkage.space import Box
+from camkit.machines import lift_curve_study
 from camkit.machines.cam_lever import CamLever
 from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, EXPANDED_SPACE, PAPER_JUDGEMENTS, PAPER_SPACE
-from camkit.machines.valve_study import corrected_valve_study
+from camkit.machines.valve_measures import corrected_valve_study
 from camkit.motion import Cycloidal, Dwell, Law, MotionProgram, Poly345, Return, Rise, Segment, Skewed
 from camkit.motion.families.shaped import SPLINE, Family, ShapedLaw
 from camkit.papers.high_speed_cam import with_printed_sizes

@@ -8,16 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import (
-    ArmLoad,
-    DoorHandleCam,
-    OscillatingRollerCam,
-    door_handle_paper_study,
-    door_handle_study,
-    lift_curve_study,
-    nsga2,
-    quick_front,
-)
+from camkit import ArmLoad, DoorHandleCam, OscillatingRollerCam, door_handle_study, nsga2, quick_front
 from camkit.cam.measures import (
     base_radius,
     max_pressure_angle,
@@ -29,6 +20,7 @@ from camkit.cam.measures import (
     undercut_margin,
 )
 from camkit.data import load
+from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.machines.door_handle import (
     BOTH,
     DOOR_HANDLE_SPACE,

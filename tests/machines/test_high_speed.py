@@ -17,7 +17,7 @@ from camkit.files.profiles import profile_csv
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque, InertialSpringLoad
-from camkit.machines.high_speed_study import (
+from camkit.machines.high_speed_measures import (
     COEFFICIENTS,
     HIGH_SPEED_MEASURES,
     high_speed_study,
@@ -718,7 +718,7 @@ def test_the_trade_off_is_of_the_same_cams_with_either_spring():
 
 
 def test_more_limits_can_be_set():
-    from camkit.machines.high_speed_study import gap
+    from camkit.machines.high_speed_measures import gap
 
     study = high_speed_study(at_least={gap: 60 * mm}, space={"roller_radius": (20 * mm, 60 * mm)})
     assert list(study.free) == ["roller_radius"]

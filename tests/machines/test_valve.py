@@ -18,7 +18,7 @@ from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import (
+from camkit.machines.valve_measures import (
     PAPER_BOX,
     PAPER_MIN_RADIUS,
     VALVE_MEASURES,

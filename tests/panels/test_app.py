@@ -37,7 +37,6 @@ from camkit import (
     ahp_panel,
     door_handle_study,
     explore,
-    lift_curve_study,
     most_isolated,
     nsga2,
     pareto_panel,
@@ -46,6 +45,7 @@ from camkit import (
 from camkit.decision import CHOOSERS
 from camkit.files import from_json, to_json
 from camkit.files.profiles import profile_csv
+from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import (
     CURVE_TABLE,
     DOOR_HANDLE_SPACE,

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from camkit import Measure, Study, explore, try_everything
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import corrected_valve_study, valve_study
+from camkit.machines.valve_measures import corrected_valve_study, valve_study
 from camkit.panels.contours import contour_panel, optimum
 from camkit.quantities import Design, quantity
 from camkit.render.artists import _find, moving

@@ -14,7 +14,7 @@ from camkit import Measure, Study, explore, try_everything
 from camkit.data import load
 from camkit.machines.cam_lever import CamLever, lever_stress
 from camkit.machines.high_speed_cam import HighSpeedCam
-from camkit.machines.high_speed_study import high_speed_study, peak_stress
+from camkit.machines.high_speed_measures import high_speed_study, peak_stress
 from camkit.panels.fronts import compare_fronts
 from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity

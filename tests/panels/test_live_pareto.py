@@ -17,12 +17,12 @@ from camkit import (
     ahp_panel,
     door_handle_study,
     explore,
-    lift_curve_study,
     nsga2,
     try_everything,
 )
+from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE, LIFT_SPACE, PAPER_JUDGEMENTS, stroke_radius
-from camkit.machines.valve_study import valve_front_study
+from camkit.machines.valve_measures import valve_front_study
 from camkit.panels.kit.latest_only import Debounced, LatestOnly
 from camkit.panels.live_pareto import live_pareto_panel
 from camkit.quantities import Design, quantity

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from camkit import Measure, explore, try_everything
 from camkit.machines.cam_lever import CamLever, cam_lever_study
 from camkit.machines.high_speed_cam import HighSpeedCam
-from camkit.machines.high_speed_study import (
+from camkit.machines.high_speed_measures import (
     GEOMETRY,
     high_speed_study,
     max_pressure_angle,

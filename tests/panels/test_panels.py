@@ -21,7 +21,6 @@ from camkit import (
     door_handle_study,
     explore,
     mm,
-    value_of,
 )
 from camkit.cam.measures import max_pressure_angle
 from camkit.cam.undercut import undercut_in_words
@@ -30,10 +29,10 @@ from camkit.linkage.universal_joint import DoubleUniversalJoint
 from camkit.machines.cabin_door import CabinDoorLinkage
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever
 from camkit.machines.high_speed_cam import HighSpeedCam
-from camkit.machines.high_speed_study import HIGH_SPEED_MEASURES, high_speed_study
+from camkit.machines.high_speed_measures import HIGH_SPEED_MEASURES, high_speed_study
 from camkit.machines.shaft import UniversalJointShaft
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import VALVE_MEASURES
+from camkit.machines.valve_measures import VALVE_MEASURES
 from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise
 from camkit.panels import (
     compare_fronts,
@@ -48,7 +47,7 @@ from camkit.panels import (
     tolerance_panel,
 )
 from camkit.panels.kit.number import NumberBox, WholeBox
-from camkit.quantities import Measure, PeakMeasure
+from camkit.quantities import Measure, PeakMeasure, value_of
 from camkit.render.picture import picture
 from camkit.render.shaft import SHAFT_VIEWS
 from camkit.study.sweep import Sweep

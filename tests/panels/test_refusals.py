@@ -25,28 +25,33 @@ from camkit import (
     Return,
     Rise,
     Study,
-    SumOfResiduals,
     ahp,
     door_handle_study,
-    lift_curve_study,
     most_isolated,
     nsga2,
     picture,
     profile_csv,
     read,
-    side_by_side,
     topsis,
-    weighted,
     weighted_sum,
     with_quantities,
 )
 from camkit.data import load as reference
-from camkit.decision import crowding_distance, judged_weights, judgement_ranges, weight_lattice, winner_map
+from camkit.decision import (
+    crowding_distance,
+    judged_weights,
+    judgement_ranges,
+    side_by_side,
+    weight_lattice,
+    winner_map,
+)
 from camkit.files import Session, from_json, to_json
 from camkit.linkage.measures import departure, max_departure
+from camkit.machines import lift_curve_study
 from camkit.panels import ahp_panel, choose_panel, contour_panel, explore
 from camkit.quantities import Paths, declarations, quantities_of
 from camkit.search.front import Front
+from camkit.study import SumOfResiduals, weighted
 from camkit.units import deg, factor, mm
 from camkit.views import pressure_angle
 

@@ -11,8 +11,9 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from camkit import DoorHandleCam, Measure, UniversalJointShaft, explore, lift_curve_study, shaft_study
+from camkit import DoorHandleCam, Measure, UniversalJointShaft, explore, shaft_study
 from camkit.decision import side_by_side
+from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import CURVE_TABLE, stroke_radius
 from camkit.motion import Poly345
 from camkit.panels.kit.controls import Download

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import DoorHandleCam, Tolerances, deg, door_handle_paper_study, lift_curve_study, mm, quick_front
+from camkit import DoorHandleCam, Tolerances, deg, mm, quick_front
 from camkit.data import load
+from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.panels.tolerances import general_tolerances
 from camkit.papers import door_handle as paper
 from camkit.search.front import Front, reference_point

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from camkit import nsga2
 from camkit.data import load
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import (
+from camkit.machines.valve_measures import (
     PAPER_BOX,
     PAPER_MIN_RADIUS,
     corrected_valve_study,

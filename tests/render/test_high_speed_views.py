@@ -8,7 +8,7 @@ from camkit import picture
 from camkit.machines.cam_lever import CamLever, cam_lever_study, lever_stress, lever_wear
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
-from camkit.machines.high_speed_study import peak_pressure, peak_stress, peak_wear
+from camkit.machines.high_speed_measures import peak_pressure, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
 from camkit.render.artists import INK, WARNING, _find, moving
 from camkit.render.picture import draw, layout

@@ -12,7 +12,7 @@ from camkit.files import from_json, to_json
 from camkit.files.profiles import table_csv
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_study import VALVE_MEASURES, valve_front_study
+from camkit.machines.valve_measures import VALVE_MEASURES, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
 from camkit.render.artists import BLUE, WARNING, _find, moving
 from camkit.render.picture import draw, layout

@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 from camkit.machines.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, reach
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
-from camkit.machines.high_speed_study import (
+from camkit.machines.high_speed_measures import (
     COEFFICIENTS,
     GEOMETRY,
     gap,

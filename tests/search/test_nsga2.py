@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import DoorHandleCam, Measure, Study, door_handle_paper_study, door_handle_study, lift_curve_study, nsga2
+from camkit import DoorHandleCam, Measure, Study, door_handle_study, nsga2
+from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.machines.door_handle import EXPANDED_SPACE
 from camkit.motion import Poly345
 from camkit.quantities import Design, quantity

@@ -9,12 +9,14 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 import camkit
-from camkit import DoubleUniversalJoint, Friction, Measure, Study, TranslatingRollerCam, minimise, weighted
+from camkit import Friction, Measure, Study, TranslatingRollerCam, minimise
+from camkit.linkage import DoubleUniversalJoint
 from camkit.linkage.load import RockerLoad
 from camkit.linkage.measures import swing
 from camkit.linkage.rssr import RSSR
 from camkit.linkage.universal_joint import fluctuation
 from camkit.quantities import Design, Quantity, declarations, quantity
+from camkit.study import weighted
 from camkit.study.study import WeightedSum
 from camkit.units import mm
 
@@ -195,7 +197,10 @@ def test_measures_of_another_mechanism_are_refused() -> None:
             Study(joint, free, (curve,)).evaluate(designs)
 
 
-DESIGNS = [value for value in vars(camkit).values() if isinstance(value, type) and issubclass(value, Design)]
+WINGS = (camkit.cam, camkit.linkage, camkit.machines)
+DESIGNS = [
+    thing for wing in WINGS for thing in vars(wing).values() if isinstance(thing, type) and issubclass(thing, Design)
+]
 
 
 @pytest.mark.parametrize("kind", [kind for kind in DESIGNS if hasattr(kind, "analyse") and kind is not RSSR])

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 
-from camkit import DoorHandleCam, deg, lift_curve_study, mm
+from camkit import DoorHandleCam, deg, mm
+from camkit.machines import lift_curve_study
 from camkit.study.sweep import Sweep
 from camkit.views.sweep import limit_sweep
 

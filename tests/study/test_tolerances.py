@@ -9,19 +9,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.stats import norm
 
-from camkit import (
-    DoorHandleCam,
-    Measure,
-    Study,
-    deg,
-    door_handle_paper_study,
-    explore,
-    lift_curve_study,
-    mm,
-    nsga2,
-    picture,
-    try_everything,
-)
+from camkit import DoorHandleCam, Measure, Study, deg, explore, mm, nsga2, picture, try_everything
+from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.panels.kit import picture as live
 from camkit.panels.tolerances import MOVING, SETTLED, general_tolerances, tolerance_panel
 from camkit.quantities import Design, Quantity, quantity

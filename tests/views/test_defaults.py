@@ -7,11 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from camkit import (
-    AnalysisCurve,
-    CabinDoorLinkage,
-    CamLever,
     DoorHandleCam,
-    DoubleUniversalJoint,
     HighSpeedCam,
     OscillatingFlatCam,
     OscillatingRollerCam,
@@ -22,6 +18,9 @@ from camkit import (
     mm,
     picture,
 )
+from camkit.linkage import DoubleUniversalJoint
+from camkit.machines import CabinDoorLinkage, CamLever
+from camkit.study import AnalysisCurve
 from camkit.views.defaults import VIEW_OF, default_views
 
 DESIGNS = (

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from camkit import Cycloidal, Dwell, MotionProgram, Parabolic, Return, Rise, deg, mm, residual_vibration
+from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, deg, mm
+from camkit.motion import Parabolic, residual_vibration
 from camkit.views.laws import LAW_VIEWS, PROGRAM_VIEWS, ShownProgram, ShownVibration, vibration_left
 
 PARABOLIC = Parabolic()
