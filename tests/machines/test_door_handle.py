@@ -398,7 +398,7 @@ def test_the_default_study_judges_the_whole_cam_where_whole_cams_live():
     effort, radius = f[feasible].T
     assert (effort > 0.82).all()
     assert (-radius < 29.3 * mm).all()
-    sharp = study.replace(at_most={}, at_least={}).analyse(x[feasible][:400])
+    sharp = study.replace(at_most={}, at_least={}).analysis(x[feasible][:400])
     assert not (sharp.undercut | sharp.outer_undercut).any()
     assert (study.start.roller_radius * abs(sharp.curvature) <= 0.9 + 1e-12).all()
 

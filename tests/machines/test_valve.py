@@ -516,7 +516,7 @@ def test_the_listing_mixes_units():
 def test_fullness_and_wear_agree():
     """Both get better with either exponent, so there is nothing to weigh."""
     steps = 35
-    analysis = valve_study().analyse(grid(steps))
+    analysis = valve_study().analysis(grid(steps))
     for values in (analysis.fullness, analysis.nose_acceleration):
         values = values.reshape(steps, steps)
         assert (np.diff(values, axis=0) > 0).all()
