@@ -46,19 +46,16 @@ import matplotlib.pyplot as plt
 from ipywidgets import FloatSlider, interact
 from matplotlib import rc_context
 from camkit import mm
-from camkit.render.artists import STYLE
+from camkit.render.draw import theme_style
+from camkit.render.picture import draw
 
-mechanism, *others = CAM_VIEWS
 places = [ax.get_position() for ax in app.picture.axes]
 
 def redraw(lift_arm):
     analysis = DoorHandleCam(lift_arm=lift_arm * mm).analyse()
-    with rc_context(STYLE):
+    with rc_context(theme_style()):
         figure = plt.figure(figsize=(12.6, 7.0), dpi=100)
-        first, *rest = [figure.add_axes(place) for place in places]
-        mechanism(analysis, first, turn=75 * deg)
-        for view, ax in zip(others, rest):
-            view(analysis, ax)
+        draw(analysis, [figure.add_axes(place) for place in places], CAM_VIEWS, turn=75 * deg)
         plt.show()
 
 interact(redraw, lift_arm=FloatSlider(50, min=40, max=62, step=0.01));""",

@@ -37,6 +37,7 @@ from camkit.quantities.markup import Html, attribute, csv_cell, escaped, html, j
 from camkit.render.picture import picture
 from camkit.search.nsga2 import nsga2
 from camkit.units import deg, mm
+from camkit.views.picture import Axes, Picture, Points
 
 EVIL = "<img src=x onerror='ran()'>\"</script>\n<b>$\\frac$ | `x` {0} &amp; $"
 ALLOWED = {"table", "caption", "tr", "th", "td", "b", "i", "sub", "span", "div", "br"}
@@ -199,13 +200,9 @@ def study(start=None, weights=None, reference=None, space=None) -> Study:
     return Study(start or Evil(), free, (FIRST, SECOND), at_most={LIMITED: 5 * mm})
 
 
-def evil_view(analysis, ax):
-    from camkit.render.artists import frame, line, new
-
-    if new(ax):
-        frame(ax, EVIL, EVIL, EVIL)
-    line(ax, "point", [analysis.cam.x], [analysis.cam.y], marker="o", label=EVIL)
-    return ax
+def evil_view(analysis):
+    point = Points("point", analysis.cam.x, analysis.cam.y, label=EVIL)
+    return Picture.of(Axes(title=EVIL, xlabel=EVIL, ylabel=EVIL), point)
 
 
 def widgets(box: w.Widget) -> list[w.Widget]:

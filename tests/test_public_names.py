@@ -53,7 +53,7 @@ WINGS = [
 ]
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
-    *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "OnGrid", "Material"),
+    *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "Still", "OnGrid", "Material"),
     *("Evaluated", "Found"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
@@ -122,8 +122,7 @@ def _arguments(thing):
 def _is_view(thing):
     """Whether it makes a picture of what it is given first."""
     signature = inspect.signature(thing)
-    drawn = thing.__module__.startswith("camkit.views.") and signature.return_annotation == "Picture"
-    return drawn or "ax" in signature.parameters
+    return thing.__module__.startswith("camkit.views.") and signature.return_annotation == "Picture"
 
 
 CAM = TranslatingRollerCam()
@@ -237,7 +236,7 @@ GOOD = {
     "studies": lambda: {"two": two},
     "study": lambda: TWO,
     "target": lambda: 0.01,
-    "on_the_plane.tubes": lambda: {"a tube": camkit.UniversalJointShaft()},
+    "designs_on_plane.designs": lambda: {"a tube": camkit.UniversalJointShaft()},
     "tolerances": lambda: camkit.Tolerances(STUDY, {"base_radius": 0.001}, parts=64),
     "torque": lambda: np.ones(31),
     "trials": lambda: TRIALS[:2],

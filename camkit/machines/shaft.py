@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..data import load
-from ..quantities import Design, Measure, declarations, fails, quantity, words
+from ..quantities import Design, Measure, declarations, fails, quantities_of, quantity, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.design_map import DesignMap
 from ..study.study import Space, Study
@@ -161,6 +161,9 @@ class ShaftAnalysis:
     ``nan`` where a member of a population cannot be built.
     """
 
+    offers: ClassVar[tuple[str, ...]] = ("sizes", "utilisation", "rings")
+    """The shapes and curves that are shown of it where nobody chooses, in this order."""
+
     shaft: UniversalJointShaft
 
     @cached_property
@@ -270,6 +273,20 @@ class ShaftAnalysis:
     def sizes(self) -> TubeSizes:
         """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
         return _sizes(self.shaft.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
+
+    @property
+    def here(self) -> np.ndarray:
+        """Where the tube is on the plane of its sizes, ``(2,)`` m."""
+        return np.array([self.shaft.outer_diameter, self.shaft.inner_diameter])
+
+    @property
+    def rings(self) -> dict[str, np.ndarray]:
+        """Both diameters by name, m: of the tube, of the nearest of each series that keeps every limit, or ``nan``."""
+        nearest = {
+            f"nearest {series}": _nearest(self.here, tubes) if len(tubes) else np.full(2, np.nan)
+            for series, tubes in self.sizes.holding.items()
+        }
+        return {"this tube": self.here, **nearest}
 
 
 def _measure(name: str, unit: str, attribute: str) -> Measure:
@@ -425,13 +442,12 @@ def nearest_tube(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJoin
     holding = tubes_that_hold(shaft, tubes)
     if not len(holding):
         raise ValueError(f"none of the {len(tubes)} standard tubes keeps every limit")
-    return _with_nearest(shaft, holding)
-
-
-def _with_nearest(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJointShaft:
-    gap = np.hypot(tubes[:, 0] - shaft.outer_diameter, tubes[:, 1] - shaft.inner_diameter)
-    D, d = tubes[np.argmin(gap)]
+    D, d = _nearest(np.array([shaft.outer_diameter, shaft.inner_diameter]), holding)
     return shaft.replace(outer_diameter=float(D), inner_diameter=float(d))
+
+
+def _nearest(here: np.ndarray, tubes: np.ndarray) -> np.ndarray:
+    return np.asarray(tubes[np.argmin(np.hypot(*(tubes - here).T))])
 
 
 def lightest_tube(study: Study, tubes: np.ndarray) -> UniversalJointShaft:
@@ -456,7 +472,7 @@ class TubeSizes:
     """Which diameters a shaft's power, speeds, length and material allow; its own diameters do not matter.
 
     >>> sizes = UniversalJointShaft().analyse().sizes
-    >>> (1e3 * sizes.lightest).round(4).tolist(), sizes is UniversalJointShaft(inner_diameter=90*mm).analyse().sizes
+    >>> (1e3 * sizes.closed_form).round(4).tolist(), sizes is UniversalJointShaft(inner_diameter=90*mm).analyse().sizes
     ([129.1907, 103.0], True)
     """
 
@@ -467,8 +483,16 @@ class TubeSizes:
         """The paper's problem over the plane of both diameters."""
         return DesignMap(shaft_study(self.shaft), PLANE_WINDOW)
 
+    @property
+    def limit_names(self) -> tuple[str, ...]:
+        """The limits with what they allow, in the order of the study."""
+        s, q = self.shaft, quantities_of(self.shaft)
+        tau, theta = (q[n].text(value_of(s, n)) for n in ("allowable_shear", "allowable_twist"))
+        speed = f"{s.speed_margin * s.max_speed / rpm:.4g} rpm"
+        return f"shear stress {tau}", f"twist {theta}", f"critical speed {speed}", "buckling"
+
     @cached_property
-    def lightest(self) -> np.ndarray:
+    def closed_form(self) -> np.ndarray:
         """Both diameters of `lightest_shaft`, ``(2,)`` m; ``nan`` where there is none in closed form."""
         try:
             tube = lightest_shaft(self.shaft)
@@ -477,18 +501,14 @@ class TubeSizes:
         return np.array([tube.outer_diameter, tube.inner_diameter])
 
     @cached_property
-    def standard_tubes(self) -> dict[str, np.ndarray]:
+    def catalogue(self) -> dict[str, np.ndarray]:
         """The sizes of each series of `standard_tubes`, by the series' name."""
         return {series: standard_tubes(series) for series in TUBE_FILES}
 
     @cached_property
     def holding(self) -> dict[str, np.ndarray]:
         """`tubes_that_hold` of each series."""
-        return {series: tubes_that_hold(self.shaft, tubes) for series, tubes in self.standard_tubes.items()}
-
-    def nearest(self, shaft: UniversalJointShaft) -> dict[str, UniversalJointShaft | None]:
-        """The `nearest_tube` of each series to a shaft with this data; ``None`` where no tube keeps every limit."""
-        return {series: _with_nearest(shaft, t) if len(t) else None for series, t in self.holding.items()}
+        return {series: tubes_that_hold(self.shaft, tubes) for series, tubes in self.catalogue.items()}
 
 
 _sizes = lru_cache(maxsize=16)(TubeSizes)

@@ -16,7 +16,8 @@ from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, words
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, joined, table
-from ..render.decision import (
+from ..render.draw import colour
+from ..views.decision import (
     MARKS,
     ShownDecision,
     brushed_designs,
@@ -25,7 +26,7 @@ from ..render.decision import (
     judgement_bars,
     winners_by_weight,
 )
-from ..render.parallel import Designs
+from ..views.parallel import Designs
 from .kit.controls import banner, bar_html, show_message, small_html, tables_html
 from .kit.panel import Panel
 from .kit.picture import LivePicture
@@ -263,7 +264,7 @@ class ChoosePanel(Panel):
             values = [m.text(m.sign * f) for m, f in zip(goals, front.f[i], strict=True)]
             values += [declared[n].text(float(f"{x:.5g}")) for n, x in zip(free, front.x[i], strict=True)]
             share = f"{100 * self.shown.maps[rule].shares.get(i, 0):.0f} %" if rule in self.shown.maps else "all"
-            rows.append((bar_html(self.shown.colours[i], 11, rule), i, *values, share))
+            rows.append((bar_html(colour("series", self.shown.index[i]), 11, rule), i, *values, share))
         return tables_html(table(head, rows))
 
     @property

@@ -12,10 +12,10 @@ import numpy as np
 from ..quantities import Measure, Quantity, value_of, with_quantities, words
 from ..quantities.kinds import a_number, refuse_arguments, refuse_empty
 from ..quantities.markup import html, joined
-from ..render.contours import ShownPlane, objective_plane
 from ..study.design_map import DesignMap
 from ..study.study import Study, WeightedSum, made_study
 from ..units import factor
+from ..views.design_map import ShownPlane, objective_plane
 from .explore import Explorer
 from .kit.controls import NumberRow, banner, show_message
 from .kit.latest_only import Debounced

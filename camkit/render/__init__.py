@@ -1,5 +1,1 @@
-"""Pictures: a view is ``f(analysis, ax) -> ax``; it computes no physics.
-
-Calling a view again on the same axes moves what it drew, so the same function serves a printed figure and
-a live panel.
-"""
+"""The renderer: the only matplotlib.  A picture is drawn the first time and moved the next."""

@@ -12,11 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex, to_rgb
+from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.ticker import NullLocator
 
 from ..geometry import circle
 from ..views import picture as shown
+from .contours import outlined
 
 
 class Role(NamedTuple):
@@ -32,6 +34,7 @@ class Role(NamedTuple):
 ROLES: dict[str, Role] = {
     "ink": Role("#1f2933", "#e6edf3", "#000000", 1.5),
     "paper": Role("#ffffff", "#111417", "#ffffff", 7.0),
+    "onto": Role("#1f2933", "#111417", "#000000", 1.5),
     "guide": Role("#7b8794", "#93a1af", "#6b6b6b", 1.0),
     "ghost": Role("#c5ccd4", "#4a545e", "#bdbdbd", 1.0),
     "body": Role("#e4e7eb", "#2a3138", "#e6e6e6", 1.0),
@@ -142,7 +145,7 @@ def moving(ax: Axes) -> list[Any]:
     return sorted(found, key=lambda artist: artist.get_zorder())
 
 
-def drawn(ax: Axes, key: str) -> Any:
+def artist_of(ax: Axes, key: str) -> Any:
     """The artist of the mark ``key``, if there is one."""
     return next((artist for artist in moving(ax) if artist.get_gid() == key), None)
 
@@ -150,9 +153,11 @@ def drawn(ax: Axes, key: str) -> Any:
 def draw_picture(picture: shown.Picture, ax: Axes, theme: str = "light") -> None:
     """``picture`` on ``ax``: marks that are there already move, others appear, those that are gone disappear."""
     there = {artist.get_gid(): artist for artist in moving(ax)}
-    for gone in there.keys() - {mark.key for mark in picture.marks}:
+    box = ax.get_window_extent()
+    marks = outlined(picture, np.array([box.width, box.height]) * 100 / ax.figure.dpi)
+    for gone in there.keys() - {mark.key for mark in marks}:
         there[gone].remove()
-    for order, mark in enumerate(picture.marks):
+    for order, mark in enumerate(marks):
         _put(ax, mark, there.get(mark.key), theme).set_zorder(2.6 + 0.002 * order)
     _frame(ax, picture.axes)
     _legend(ax, picture)
@@ -233,13 +238,16 @@ def _corners(mark: Any) -> np.ndarray:
 def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, Any], theme: str) -> Any:
     if artist is None:
         artist = ax.text(0, 0, "", gid=mark.key, clip_on=False)
-        if mark.boxed:
-            paper = colour("paper", theme=theme)
-            artist.set_bbox({"facecolor": paper, "edgecolor": "none", "pad": 1.0, "alpha": 0.75})
+    if mark.boxed or mark.framed:
+        edge = style["color"] if mark.framed else "none"
+        artist.set_bbox({"facecolor": colour("paper", theme=theme), "edgecolor": edge, "pad": 1.2, "alpha": 0.85})
+    if mark.framed:
+        style["color"] = colour("ink", theme=theme)
+    words = mark.words if isinstance(mark.words, shown.Formula) else plain(mark.said)
     at = mark.anchor.split()
     across = next((a for a in at if a in ("left", "right")), "center")
     upright = next((a for a in at if a in ("top", "bottom")), "center")
-    artist.set(position=(mark.x, mark.y), text=plain(mark.words), ha=across, va=upright, fontsize=mark.size, **style)
+    artist.set(position=(mark.x, mark.y), text=words, ha=across, va=upright, fontsize=mark.size, **style)
     artist.set_fontweight("bold" if mark.bold else "normal")
     return artist
 
@@ -252,7 +260,9 @@ def _frame(ax: Axes, axes: shown.Axes) -> None:
     _scale(ax, "x", axes.log, axes.xticks, axes.xlim)
     _scale(ax, "y", axes.log, axes.yticks, axes.ylim)
     if axes.equal:
-        ax.set_aspect("equal", adjustable="box" if axes.bare or axes.xlim else "datalim")
+        ax.set_aspect("equal", adjustable="box" if axes.bare or axes.xlim is not None else "datalim")
+    if not axes.grid:
+        ax.grid(visible=False)
     if axes.bare:
         ax.set_axis_off()
 
@@ -274,6 +284,8 @@ def _scale(ax: Axes, name: Any, log: str, ticks: Any, ends: Any) -> None:
 
 LETTER, BOLD, SAMPLE = 6.3, 9.1, 33.0
 """Pixels, of 100 an inch, that a letter of the legend and of the title takes, and the sample before a name."""
+LARGEST_SAMPLE = 11.0
+"""No mark is larger in the legend, points."""
 
 
 def _legend(ax: Axes, picture: shown.Picture) -> None:
@@ -286,7 +298,10 @@ def _legend(ax: Axes, picture: shown.Picture) -> None:
         legend.remove()
     if labels:
         named = {artist.get_label(): artist for artist in reversed(moving(ax))}
-        ax.legend(handles=[named[label] for label in labels], **_place(ax, picture.axes, labels))
+        legend = ax.legend(handles=[named[label] for label in labels], **_place(ax, picture.axes, labels))
+        for sample in legend.legend_handles:
+            if isinstance(sample, Line2D):
+                sample.set_markersize(min(sample.get_markersize(), LARGEST_SAMPLE))
 
 
 def _place(ax: Axes, axes: shown.Axes, labels: Sequence[str]) -> dict[str, Any]:
@@ -295,7 +310,7 @@ def _place(ax: Axes, axes: shown.Axes, labels: Sequence[str]) -> dict[str, Any]:
     if not axes.equal and row + BOLD * len(axes.title) < room:
         spaces = {"columnspacing": 0.9, "handletextpad": 0.4, "borderaxespad": 0.1}
         return {"loc": "lower right", "bbox_to_anchor": (1.02, 0.99), "ncols": len(labels), **spaces}
-    columns = max(1, min(len(labels), int(room / (LETTER * max(map(len, labels)) + SAMPLE + 9))))
+    columns = next((n for n in range(len(labels), 1, -1) if _width(labels, n) < room), 1)
     below = 1.0 if axes.bare else 4.2 if axes.xlabel else 2.6
     return {
         "loc": "upper center",
@@ -304,3 +319,8 @@ def _place(ax: Axes, axes: shown.Axes, labels: Sequence[str]) -> dict[str, Any]:
         "ncols": columns,
         "columnspacing": 1.2,
     }
+
+
+def _width(labels: Sequence[str], columns: int) -> float:
+    """Of a legend with so many columns, each as wide as its longest label, pixels."""
+    return sum(LETTER * max(map(len, part)) + SAMPLE + 9 for part in np.array_split(labels, columns))

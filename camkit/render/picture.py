@@ -26,7 +26,7 @@ LARGEST = 100
 """No figure is wider or higher, inches."""
 
 
-class Picture(Figure):
+class Still(Figure):
     """A figure that shows itself in a notebook, as a small file; pyplot never sees it, so none is left behind."""
 
     def _repr_png_(self) -> bytes:
@@ -58,16 +58,14 @@ def encoded(image: Image.Image, kind: str, **options: Any) -> bytes:
     return out.getvalue()
 
 
-def layout(
-    views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100
-) -> tuple[Picture, list[Axes]]:
+def layout(views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100) -> tuple[Still, list[Axes]]:
     """A figure with one pair of axes for each view: the first large on the left, the others in two columns."""
     if not views:
         raise ValueError("the picture needs one or more views")
     for name, size in (("width", width), ("height", height)):
         a_number(size, f"the {name} of the picture", f"be from 0.1 to {LARGEST} inches", lambda s: 0.1 <= s <= LARGEST)
     with rc_context(theme_style()):
-        figure = Picture(figsize=(width, height), dpi=dpi, layout="constrained")
+        figure = Still(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(figure)
         rest = len(views) - 1
         columns = 2 if rest > 3 else 1
@@ -97,16 +95,13 @@ def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: An
     with rc_context(theme_style()):
         for view, ax in zip(views, axes, strict=True):
             takes = inspect.signature(view)
-            known = {"ax": ax, **asked}
-            given = {name: value for name, value in known.items() if name in takes.parameters}
+            given = {name: value for name, value in asked.items() if name in takes.parameters}
             try:
                 takes.bind(analysis, **given)
             except TypeError as unfit:
                 raise ValueError(f"the view {_name(view)} cannot show an analysis: {unfit}") from None
             with applied(f"the view {_name(view)}", analysis):
-                made = view(analysis, **given)
-                if "ax" not in given:
-                    draw_picture(made, ax)
+                draw_picture(view(analysis, **given), ax)
 
 
 def _name(view: View) -> str:
@@ -122,7 +117,7 @@ def picture(
     azimuth: float | None = None,
     elevation: float | None = None,
     limits: Mapping[Any, float] | None = None,
-) -> Picture:
+) -> Still:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
 
     Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
@@ -143,11 +138,11 @@ def picture(
     return figure
 
 
-def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Picture:
+def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Still:
     """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
     with rc_context(theme_style()):
         turns = tuple(turns)
-        figure = Picture(figsize=(width, height), dpi=100, layout="constrained")
+        figure = Still(figsize=(width, height), dpi=100, layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots(1, len(turns))
         for ax, turn in zip(axes, turns, strict=True):

@@ -8,5 +8,10 @@ from .cam import efficiency as efficiency
 from .cam import mechanism as mechanism
 from .cam import motion as motion
 from .cam import pressure_angle as pressure_angle
+from .design_map import ShownPlane as ShownPlane
+from .design_map import design_plane as design_plane
+from .design_map import designs_on_plane as designs_on_plane
+from .design_map import objective_plane as objective_plane
 from .picture import Picture as Picture
 from .picture import View as View
+from .progress import candidates as candidates

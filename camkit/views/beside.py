@@ -13,7 +13,7 @@ from ..quantities import PeakMeasure
 from ..quantities.kinds import refuse_empty, refuse_kinds
 from ..units import deg, factor, mm
 from .cam import bodies, position
-from .picture import Axes, Line, Mark, Picture, Text, picture
+from .picture import Axes, Line, Mark, Picture, Text
 
 GAP = 40.0
 """Between two cams with their followers, mm."""
@@ -43,7 +43,7 @@ def cams_beside(shown: Beside, turn: float = 0.0) -> Picture:
         marks += [mark for mark in drawn if not mark.key.endswith(("pitch", "flank", "undercut"))]
         marks.append(Text(f"{name} name", x, 1.06 * bottom, name, anchor="top", bold=True))
         x += right + GAP
-    return picture(Axes(title="To the same scale", xlabel="x  [mm]", ylabel="y  [mm]", equal=True), marks)
+    return Picture.of(Axes(title="To the same scale", xlabel="x  [mm]", ylabel="y  [mm]", equal=True), marks)
 
 
 def _reach(analysis: Any) -> tuple[Any, Any, Any]:
@@ -77,7 +77,7 @@ def curves_beside(shown: Beside) -> Picture:
         marks.append(Line(f"{name} curve", across, along, label=name, **style))
         marks.append(Line(f"{name} peak", x[[0, -1]], np.max(y) + np.zeros(2), stroke="thin dashed", **style))
     title = peak.name[:1].upper() + peak.name[1:]
-    return picture(Axes(title=title, xlabel="cam angle  [deg]", ylabel=peak.label, ylim=(0, None)), marks)
+    return Picture.of(Axes(title=title, xlabel="cam angle  [deg]", ylabel=peak.label, ylim=(0, None)), marks)
 
 
 def _parted(values: Any, jump: Any) -> Any:

@@ -13,7 +13,7 @@ import numpy as np
 from ..geometry import Body, Disc
 from ..quantities import Measure
 from ..units import deg, mm
-from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps, picture
+from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
 
 ANGLE = "cam angle  [deg]"
 PARTS = {"body": "", "pitch": "pitch curve", "profile": "profile", "flank": "groove's outer flank"}
@@ -33,7 +33,7 @@ def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
     Of a groove the band between its two flanks is filled; trouble: stretches that the follower undercuts.
     """
     axes = Axes(title="Cam and follower", xlabel="x  [mm]", ylabel="y  [mm]", equal=True)
-    return picture(axes, bodies(analysis.bodies, position(analysis, turn)))
+    return Picture.of(axes, bodies(analysis.bodies, position(analysis, turn)))
 
 
 def bodies(shown: tuple[Body, ...], i: Any, away: Any = 0.0, prefix: str = "", index: int | None = None) -> list[Mark]:
@@ -85,7 +85,7 @@ def motion(analysis: Any) -> Picture:
             peak = np.max(abs(values), axis=-1)
             share = values / np.where(peak > 0, peak, 1.0)
             marks.append(Line(f"{name} {key}", curve.cam_angle / deg, gaps(share, moves), role=role, label=key))
-    return picture(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
+    return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
 
 
 def _moving(curve: Any) -> Any:
@@ -111,19 +111,19 @@ def pressure_angle(analysis: Any, limits: Mapping[Measure, float] | None = None)
         Band(f"allowed {i}", -limit, limit, role="allowed", opacity=0.1) for i, limit in enumerate(sorted(allowed))
     ]
     axes = Axes(title="Pressure angle", xlabel=ANGLE, ylabel="alpha  [deg]")
-    return picture(axes, bands, _each(analysis, "pressure_angle", deg))
+    return Picture.of(axes, bands, _each(analysis, "pressure_angle", deg))
 
 
 def contact_force(analysis: Any) -> Picture:
     """Force between cam and follower, without friction."""
     axes = Axes(title="Contact force", xlabel=ANGLE, ylabel="F  [N]")
-    return picture(axes, _each(analysis, "contact_force", 1.0))
+    return Picture.of(axes, _each(analysis, "contact_force", 1.0))
 
 
 def cam_torque(analysis: Any) -> Picture:
     """Torque on the cam, without friction."""
     axes = Axes(title="Cam torque", xlabel=ANGLE, ylabel="M  [N mm]")
-    return picture(axes, _each(analysis, "cam_torque", mm))
+    return Picture.of(axes, _each(analysis, "cam_torque", mm))
 
 
 def curvature(analysis: Any) -> Picture:
@@ -143,7 +143,7 @@ def curvature(analysis: Any) -> Picture:
         shown = gaps(inner, abs(inner) < 2 * limit)
         style: Any = {"role": "series", "index": i, "stroke": "thin dashed"}
         marks.append(Line(f"{name} profile", curve.cam_angle / deg, shown, **style))
-    return picture(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
+    return Picture.of(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
 
 
 def efficiency(analysis: Any) -> Picture:
@@ -156,7 +156,7 @@ def efficiency(analysis: Any) -> Picture:
         if hasattr(curve, "published_efficiency"):
             published = gaps(100 * curve.published_efficiency, moves)
             marks.append(Line(f"{name} published", x, published, stroke="thin dashed", **style))
-    return picture(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
+    return Picture.of(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
 
 
 CAM_VIEWS = (mechanism, motion, pressure_angle, contact_force, cam_torque, curvature, efficiency)

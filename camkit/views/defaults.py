@@ -8,8 +8,8 @@ import numpy as np
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import cam, high_speed, linkage, universal_joint, valve
-from .picture import Axes, Line, Picture, View, picture
+from . import cam, high_speed, linkage, sizes, universal_joint, valve
+from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
     "bodies": cam.mechanism,
@@ -46,6 +46,9 @@ VIEW_OF: dict[str, View] = {
     "lead": universal_joint.leads,
     "output_torque": universal_joint.torques,
     "output_couple": universal_joint.couples,
+    "sizes": sizes.sizes,
+    "utilisation": sizes.utilisation,
+    "rings": sizes.section,
 }
 """By what an analysis offers: the name of one of its attributes."""
 
@@ -75,7 +78,7 @@ def curve_view(curve: AnalysisCurve) -> View:
         ]
         title = curve.label[:1].upper() + curve.label[1:]
         axes = Axes(title=title, xlabel=f"{name}  [deg]", ylabel=f"[{curve.unit}]")
-        return picture(axes, limits, Line("curve", x, curve.values(analysis) / unit, role="position"))
+        return Picture.of(axes, limits, Line("curve", x, curve.values(analysis) / unit, role="position"))
 
     view.__name__ = curve.label.replace(" ", "_")
     return view

@@ -11,7 +11,7 @@ import numpy as np
 from ..decision import Judgements
 from ..quantities.kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
 from ..units import factor
-from .picture import Axes, Line, Mark, Picture, Points, Text, picture
+from .picture import Axes, Line, Mark, Picture, Points, Text
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def _axes(title: str, objectives: Any) -> Axes:
 def pareto(shown: ShownFront) -> Picture:
     """The front of the first two objectives, the start, the design in the sliders and the winner."""
     objectives = shown.front.study.minimise
-    return picture(_axes("Pareto front", objectives), _front(shown))
+    return Picture.of(_axes("Pareto front", objectives), _front(shown))
 
 
 def _front(shown: ShownFront) -> list[Mark]:
@@ -110,7 +110,7 @@ def fronts_overlaid(shown: ShownFronts) -> Picture:
         Points("start", *start, role="guide", mark="square", label=named[0] and "start"),
         Points("in the sliders", *here, size=11, fill="paper", label=named[1] and "in the sliders"),
     ]
-    return picture(_axes("What one objective costs the other", objectives), marks)
+    return Picture.of(_axes("What one objective costs the other", objectives), marks)
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def live_pareto(shown: LiveFront) -> Picture:
     front = {mark.key: mark for mark in _front(ShownFront(shown.front, winner=shown.winner))}
     before = shown_objectives(shown.before)
     here = [m.sign * v / factor(m.unit) for m, v in zip(objectives, shown.here, strict=False)]
-    return picture(
+    return Picture.of(
         _axes("What is possible", objectives),
         Points("before", *before, role="ghost", size=6, label="before"),
         front["front"],
@@ -153,7 +153,7 @@ def searches_compared(searches: Mapping[str, Any]) -> Picture:
         ylabel="hypervolume still missing  [%]",
         log="xy",
     )
-    return picture(
+    return Picture.of(
         axes,
         [
             Line(name, *(np.transpose(points) * [[1], [100]]), role="series", index=i, label=name)
@@ -180,4 +180,4 @@ def weight_bars(judgements: Judgements) -> Picture:
         ylim=(0.5 - len(names), 0.9),
         yticks={-i: name for i, name in enumerate(names)},
     )
-    return picture(axes, marks)
+    return Picture.of(axes, marks)

@@ -14,7 +14,7 @@ import numpy as np
 from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..units import deg, factor, mm
 from .cam import ANGLE, MOTION, cam_torque, mechanism, pressure_angle
-from .picture import Axes, Line, Mark, Picture, Points, Text, gaps, picture
+from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
 
 AWAY_BACK = ("away", "back")
 ROOM = 1.42
@@ -40,7 +40,7 @@ def motion_over_turn(analysis: Any) -> Picture:
         Line(key, analysis.cam_angle / deg, values / np.max(abs(values)), role=role, label=key)
         for key, role, values in zip("svaj", MOTION, analysis.motion, strict=True)
     ]
-    return picture(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
+    return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
 
 
 class Curve(NamedTuple):
@@ -86,7 +86,9 @@ def _with_peaks(analysis: Any, curve: Curve, along: Along = TURN) -> Picture:
         ]
     marks.append(Line("none", x, gaps(0 * x, ~np.isfinite(y)), role="trouble"))
     label = f"{curve.letter}  [{curve.unit}]"
-    return picture(Axes(title=curve.title, xlabel=f"{along.name}  [{along.unit}]", ylabel=label, ylim=(0, top)), marks)
+    return Picture.of(
+        Axes(title=curve.title, xlabel=f"{along.name}  [{along.unit}]", ylabel=label, ylim=(0, top)), marks
+    )
 
 
 def _values(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
@@ -142,7 +144,7 @@ def slider_load(analysis: Any) -> Picture:
     press = analysis.press
     way = analysis.rise.cam.load.way(analysis.rise.motion, press.swing)
     title = "Load" if press.force_curve else "Load (stand-in)"
-    return picture(
+    return Picture.of(
         Axes(title=title, xlabel="way of the slider  [mm]", ylabel="F  [N]"),
         Line("zero", way[[0, -1]] / mm, [0, 0], role="guide"),
         Line("weight", way / mm, press.weight + 0 * way, role="guide", stroke="dashed", label="G"),
@@ -173,7 +175,7 @@ def radius_sweep(found: Sequence[Any]) -> Picture:
         Text(f"at {x:g}", x, y, f" {y:.2f}", anchor="left bottom", size=11) for x, y in zip(radius, least, strict=True)
     ]
     axes = Axes(title="What a larger cam buys", xlabel="largest radius allowed  [mm]", ylabel=two_lines(measure))
-    return picture(
+    return Picture.of(
         axes, Line("least", radius, least, role="position"), Points("results", radius, least, role="position"), told
     )
 

@@ -13,7 +13,7 @@ from ..motion import Kinematics, Law, MotionProgram, residual_vibration
 from ..quantities.kinds import refuse_kinds
 from ..units import deg, factor
 from .cam import MOTION
-from .picture import Axes, Line, Picture, Points, View, picture
+from .picture import Axes, Line, Picture, Points, View
 
 HAIR = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
@@ -54,7 +54,7 @@ def _derivative(shown: ShownProgram, k: int, name: str) -> Picture:
     unit = shown.unit + ("" if k == 0 else "/rad" if k == 1 else f"/rad^{k}")
     scale = factor(shown.unit)
     at = np.interp(shown.breaks, shown.cam_angle, shown.motion[k]) / scale
-    return picture(
+    return Picture.of(
         Axes(title=name, xlabel="cam angle  [deg]", ylabel=f"{'svaj'[k]}  [{unit}]"),
         Line("zero", shown.joints[[0, -1]] / deg, [0.0, 0.0], role="guide", stroke="thin"),
         Line(name, shown.cam_angle / deg, shown.motion[k] / scale, role=MOTION[k], stroke="solid"),
@@ -66,7 +66,7 @@ def displacement(shown: ShownProgram) -> Picture:
     """Position, with a handle at every joint."""
     drawn = _derivative(shown, 0, "Displacement")
     y = np.asarray(shown.program.levels, dtype=float) / factor(shown.unit)
-    return picture(drawn.axes, drawn.marks, Points("handles", shown.joints / deg, y, size=10, fill="paper"))
+    return Picture.of(drawn.axes, drawn.marks, Points("handles", shown.joints / deg, y, size=10, fill="paper"))
 
 
 def velocity(shown: ShownProgram) -> Picture:
@@ -98,7 +98,7 @@ def law_overlay(k: int, name: str) -> View:
             Line(f"{i} {law.name}", SHARES, law(SHARES)[k], role="series", index=i, label=law.name if k == 0 else "")
             for i, law in enumerate(laws)
         ]
-        return picture(Axes(title=name, xlabel="share of the angle", ylabel=f"{'svaj'[k]}"), marks)
+        return Picture.of(Axes(title=name, xlabel="share of the angle", ylabel=f"{'svaj'[k]}"), marks)
 
     view.__doc__ = f"{name} of several laws, each with lift 1 over an angle of 1."
     return view
@@ -144,7 +144,7 @@ def vibration_left(shown: ShownVibration) -> Picture:
         ylim=(0.003, 200),
     )
     laws = enumerate(zip(shown.laws, shown.residual, strict=True))
-    return picture(axes, [_ringing(shown.tau, law, residual, i) for i, (law, residual) in laws])
+    return Picture.of(axes, [_ringing(shown.tau, law, residual, i) for i, (law, residual) in laws])
 
 
 def _ringing(tau: Any, law: Law, residual: Any, index: int) -> Line:

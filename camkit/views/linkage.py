@@ -13,7 +13,7 @@ import numpy as np
 
 from ..linkage.measures import TARGET, clearance_from, room_in
 from ..units import deg, mm
-from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps, picture
+from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps
 from .turntable import Turntable
 
 LIMIT = 50 * deg
@@ -192,7 +192,7 @@ def output_angle(analysis: Any, turn: float | None = None) -> Picture:
     now = analysis.at(_middle(analysis) if turn is None else turn)
     at, angle = now.crank_angle / deg, np.mod(now.rocker_angle, 2 * np.pi) / deg
     swept = _unbroken(analysis.rocker_angle)
-    return picture(
+    return Picture.of(
         _swept("Output angle", "rocker angle  [deg]", ylim=(0, 360)),
         Polygon("sweep", [start, end, end, start], [0, 0, 360, 360], role="body"),
         Polygon("never", np.array([x[0], *x, x[-1]]), np.array([0, *wall, 0]), role="trouble", opacity=0.15),
@@ -212,7 +212,7 @@ def _unbroken(angle: Any) -> np.ndarray:
 def pressure_angles(analysis: Any, turn: float | None = None) -> Picture:
     """Both pressure angles over the sweep, with the target of 30 deg and the usual limit of 50 deg."""
     x = analysis.crank_angle
-    return picture(
+    return Picture.of(
         _swept("Pressure angle", "alpha  [deg]", ylim=(0, 90)),
         Band("target", TARGET / deg, TARGET / deg, role="allowed"),
         Band("limit", LIMIT / deg, LIMIT / deg, role="limit"),
@@ -224,19 +224,19 @@ def pressure_angles(analysis: Any, turn: float | None = None) -> Picture:
 def velocity_ratio(analysis: Any, turn: float | None = None) -> Picture:
     """Rocker's speed over the crank's."""
     curve, dot = _curve("ratio", analysis.crank_angle, analysis.ratio, turn, named=False, role="velocity")
-    return picture(_swept("Velocity ratio", "dφ₃/dφ₁  [-]"), curve, dot)
+    return Picture.of(_swept("Velocity ratio", "dφ₃/dφ₁  [-]"), curve, dot)
 
 
 def acceleration_ratio(analysis: Any, turn: float | None = None) -> Picture:
     """Rocker's angular acceleration over the square of the crank's speed."""
     y = analysis.acceleration_ratio
     marks = _curve("acceleration", analysis.crank_angle, y, turn, named=False, role="acceleration")
-    return picture(_swept("Acceleration ratio", "d²φ₃/dφ₁²  [1/rad]"), marks)
+    return Picture.of(_swept("Acceleration ratio", "d²φ₃/dφ₁²  [1/rad]"), marks)
 
 
 def torques(analysis: Any, turn: float | None = None) -> Picture:
     """Torque that turns the crank, and torque with which the rocker resists."""
-    return picture(
+    return Picture.of(
         _swept("Torque", "M  [N m]"),
         _curve("on the crank", analysis.crank_angle, analysis.crank_torque, turn, **CRANK),
         _curve("resisting", analysis.crank_angle, analysis.resisting_torque, turn, **ROCKER),
@@ -246,7 +246,7 @@ def torques(analysis: Any, turn: float | None = None) -> Picture:
 def forces(analysis: Any, turn: float | None = None) -> Picture:
     """Force along the coupler, compression positive (the crank's bearing carries as much), and on the hinge."""
     hinge = np.linalg.norm(analysis.rocker_bearing_force, axis=0)
-    return picture(
+    return Picture.of(
         _swept("Force", "F  [N]"),
         _curve("coupler", analysis.crank_angle, analysis.coupler_force, turn),
         _curve("hinge", analysis.crank_angle, hinge, turn, **ROCKER),

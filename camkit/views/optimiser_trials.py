@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities.kinds import refuse_arguments, refuse_empty
-from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View, picture
+from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View
 
 TARGETS = (0.01, 0.001)
 FEWEST = 3
@@ -39,7 +39,7 @@ def evaluations_needed(trials: Sequence[Any]) -> Picture:
         ylim=(0.5 - len(trials), 0.9),
         yticks={-i: one.method for i, one in enumerate(trials)},
     )
-    return picture(axes, marks)
+    return Picture.of(axes, marks)
 
 
 def _box(key: str, y: float, trials: Any, target: float, index: int, fill: str) -> list[Mark]:
@@ -78,7 +78,7 @@ def solved_within(target: float, problem: str | None = None) -> View:
             xlim=(FEWEST, budget),
             ylim=(-2, 102),
         )
-        return picture(axes, marks)
+        return Picture.of(axes, marks)
 
     return shares
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..units import mm
-from .picture import Axes, Line, Mark, Picture, Points, picture
+from .picture import Axes, Line, Mark, Picture, Points
 
 PLACES = "ABCDE"
 """A design keeps its letter and its place in the series as long as it is kept."""
@@ -32,7 +32,7 @@ def profiles_overlaid(kept: Kept) -> Picture:
         index = PLACES.index(place)
         stroke = "bold" if index == 0 else ""
         marks.append(Line(place, *_profile(analysis), role="series", index=index, label=place, stroke=stroke))
-    return picture(Axes(title="Profiles", xlabel="x  [mm]", ylabel="y  [mm]", equal=True), marks)
+    return Picture.of(Axes(title="Profiles", xlabel="x  [mm]", ylabel="y  [mm]", equal=True), marks)
 
 
 def _profile(analysis: Any) -> np.ndarray:
@@ -62,4 +62,4 @@ def measures_overlaid(kept: Kept) -> Picture:
         ylim=(0.4 - len(measures), 0.6),
         yticks={float(y): fill(m.name, 34) for y, m in zip(height, measures, strict=True)},
     )
-    return picture(axes, marks)
+    return Picture.of(axes, marks)

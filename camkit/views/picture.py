@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 ROLES = (
     "ink",  # what is read: letters, the design in hand, edges
     "paper",  # the background, to part what crosses
+    "onto",  # what is written on the colour of a series
     "guide",  # lines that help to read: axes, circles, zero
     "ghost",  # what was, or what is left out
     "body",  # a solid, filled
@@ -58,6 +59,8 @@ class Axes:
     xticks: Mapping[float, str] | None = None
     yticks: Mapping[float, str] | None = None
     """Places with their names, instead of numbers."""
+    grid: bool = True
+    """Whether lines cross the picture at the numbers of its scales."""
     bare: bool = False
     """Whether there are neither scales nor frame."""
 
@@ -116,6 +119,30 @@ class Polygon(Mark):
 
 
 @dataclass(frozen=True)
+class Contour(Mark):
+    """Where values on a grid are one of several levels: ``z`` ``(m, n)`` over ``x`` ``(n,)`` and ``y`` ``(m,)``."""
+
+    x: Any
+    y: Any
+    z: Any
+    levels: Any
+    names: tuple[str, ...] = field(kw_only=True, default=())
+    """Written on the curves, one for each level; of several levels those that find room."""
+    stroke: str = field(kw_only=True, default="")
+
+
+@dataclass(frozen=True)
+class Region(Mark):
+    """Where values on a grid, as of a `Contour`, are between two levels."""
+
+    x: Any
+    y: Any
+    z: Any
+    low: Any
+    high: Any
+
+
+@dataclass(frozen=True)
 class Points(Mark):
     """Marks of one kind."""
 
@@ -140,17 +167,30 @@ class Circle(Mark):
 
 @dataclass(frozen=True)
 class Text(Mark):
-    """Words at a place."""
+    """Words at a place; at ``nan`` they are not shown."""
 
     x: Any
     y: Any
     words: str
+    values: tuple[Any, ...] = field(kw_only=True, default=())
+    """Numbers for the braces in ``words``, if there are any: a view that is recorded does not know them."""
     anchor: str = field(kw_only=True, default="")
     """Which part of the words is at the place: "left" or "right", "top" or "bottom", or both; else the middle."""
     size: float = field(kw_only=True, default=10.0)
     bold: bool = field(kw_only=True, default=False)
     boxed: bool = field(kw_only=True, default=False)
     """Whether the background is kept clear behind them."""
+    framed: bool = field(kw_only=True, default=False)
+    """Whether a box around them has the colour of the role, and the words that of ink."""
+
+    @property
+    def said(self) -> str:
+        """The words with their numbers.
+
+        >>> Text("here", 1.0, 2.0, "{:.1f} mm", values=(3.14,)).said
+        '3.1 mm'
+        """
+        return self.words.format(*self.values) if self.values else self.words
 
 
 @dataclass(frozen=True)
@@ -159,6 +199,11 @@ class Picture:
 
     axes: Axes
     marks: tuple[Mark, ...]
+
+    @classmethod
+    def of(cls, axes: Axes, *marks: Mark | Iterable[Mark]) -> Self:
+        """A picture of ``marks``, one by one or several at once."""
+        return cls(axes, tuple(m for some in marks for m in ((some,) if isinstance(some, Mark) else some)))
 
     def __post_init__(self) -> None:
         keys = [mark.key for mark in self.marks]
@@ -172,7 +217,7 @@ class Picture:
     def __getitem__(self, key: str) -> Any:
         """The mark with that key.
 
-        >>> Picture(Axes(), (Points("here", [1.0], [2.0]),))["here"].y
+        >>> Picture.of(Axes(), Points("here", [1.0], [2.0]))["here"].y
         [2.0]
         """
         for mark in self.marks:
@@ -188,11 +233,12 @@ View = Callable[..., Any]
 """``view(analysis) -> Picture``; it may ask for ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` by name."""
 
 
-def picture(axes: Axes, *marks: Mark | Iterable[Mark]) -> Picture:
-    """A picture of ``marks``, one by one or several at once."""
-    return Picture(axes, tuple(m for some in marks for m in ((some,) if isinstance(some, Mark) else some)))
-
-
 def gaps(values: Any, where: Any) -> Any:
     """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
     return np.where(where, values, np.nan)
+
+
+def joined(pieces: Any) -> np.ndarray:
+    """Outlines ``(k, corners, 2)`` as one, each closed, with ``nan`` between them, ``(2, m)``."""
+    gap = np.full((len(pieces), 1, 2), np.nan)
+    return np.asarray(np.concatenate([pieces, np.asarray(pieces)[:, :1], gap], axis=1).reshape(-1, 2)[:-1].T)

@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure
+from ..quantities import Measure, Quantity, declarations, words
 from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..units import deg, factor, in_unit
 from .high_speed import two_lines
-from .picture import Axes, Band, Line, Picture, Points, picture
+from .picture import Axes, Band, Line, Mark, Picture, Points, View
 
 ROOM = 0.5
 """How far above the first design, as a share of it, designs that a search looked at are shown."""
@@ -25,7 +25,7 @@ def convergence(generations: Sequence[Any]) -> Picture:
     built = [g.evaluation.f[np.isfinite(g.evaluation.f[:, 0]), 0] for g in generations]
     numbers = [g.number for g in generations]
     mean, best = (in_unit(measure.sign * np.array([of(f) for f in built]), measure.unit) for of in (np.mean, np.min))
-    return picture(
+    return Picture.of(
         Axes(title="Convergence", xlabel="generation", ylabel=measure.label, log="x"),
         Line("mean", numbers, mean, role="guide", label="mean"),
         Line("best", numbers, best, role="profile", label="best"),
@@ -54,7 +54,7 @@ def best_so_far(shown: ShownLooks) -> Picture:
     ]
     line = Line("best", looked, sense * best, role="profile", steps=True, label="best so far")
     axes = Axes(title="The search", xlabel="designs looked at", ylabel=two_lines(shown.measure), log="x")
-    return picture(axes, dots, line)
+    return Picture.of(axes, dots, line)
 
 
 class ShownIntervals(NamedTuple):
@@ -75,7 +75,7 @@ def intervals_tried(shown: ShownIntervals) -> Picture:
         for key, where, role in (("keeps the limit", kept, "allowed"), ("does not", ~kept, "trouble"))
     ]
     ends = tried[0][[tried[0].argmin(), tried[0].argmax()]] / deg if tried.size else np.zeros(0)
-    return picture(
+    return Picture.of(
         Axes(title="Best designs", xlabel="interval  [deg]", ylabel=two_lines(shown.measure)),
         Band("left", *_left(shown), role="allowed", along="y", opacity=0.18),
         Line("limit", ends, 0 * ends + shown.limit / unit, stroke="dashed", label="limit"),
@@ -87,3 +87,48 @@ def _left(shown: ShownIntervals) -> tuple[Any, Any]:
     """Between what is too short and what is long enough, deg."""
     last = shown.steps[-1] if shown.steps else None
     return (last.low / deg, last.high / deg) if last and last.low and last.best else (np.nan, np.nan)
+
+
+def candidates(name: str | None = None, optimum: float | None = None) -> View:
+    """A view of a finished competitive search: where its candidates stood in each cycle.
+
+    ``name`` is a free quantity, or the objective if none is said; ``optimum`` (SI) is drawn if it is known.
+    """
+
+    refuse_arguments(candidates, locals())
+
+    def paths(search: Any) -> Picture:
+        study, (x, f) = search.problem.study, search.paths
+        what = _free(study, name) if name else _objective(study)
+        values = (x[..., list(study.free).index(name)] if name else f) / what.factor
+        cycles, named = np.arange(len(values)), name is None
+        marks: list[Mark] = []
+        for k in range(values.shape[1])[::-1]:
+            label = ("best", "others", "", "")[min(k, 3)] if named else ""
+            role = "guide" if k else "profile"
+            marks.append(Line(f"candidate {k}", cycles, values[:, k], role=role, label=label))
+        if optimum is not None:
+            known, label = [optimum / what.factor] * 2, "true optimum" if named else ""
+            marks.append(Line("optimum", cycles[[0, -1]], known, role="allowed", stroke="dashed", label=label))
+        return Picture.of(Axes(title=what.title, xlabel="cycle", ylabel=what.label), marks)
+
+    return paths
+
+
+class _Shown(NamedTuple):
+    """What an axis shows."""
+
+    title: str
+    label: str
+    factor: float
+
+
+def _free(study: Any, name: str) -> _Shown:
+    declared = declarations(study.start)[name]
+    assert isinstance(declared, Quantity)
+    return _Shown(words(name).capitalize(), f"{declared.symbol}  [{declared.unit}]", declared.factor)
+
+
+def _objective(study: Any) -> _Shown:
+    measure: Measure = study.minimise[0]
+    return _Shown(measure.name.capitalize(), measure.label, factor(measure.unit))

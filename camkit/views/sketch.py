@@ -9,7 +9,7 @@ import numpy as np
 from ..geometry import Disc, circle, rotated
 from ..units import deg, mm
 from .cam import position
-from .picture import Axes, Circle, Formula, Line, Mark, Picture, Points, Polygon, Text, picture
+from .picture import Axes, Circle, Formula, Line, Mark, Picture, Points, Polygon, Text
 
 BARE = Axes(equal=True, bare=True)
 
@@ -62,7 +62,7 @@ def roller_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     """The geometry of an oscillating roller cam (one curve) with the letters of the formulas, at cam angle ``turn``."""
     i = position(analysis, turn)
     pivot, centre, radius = analysis.cranks["arm"][0] / mm, analysis.roller_centre[:, i] / mm, _radius(analysis)
-    return picture(
+    return Picture.of(
         BARE,
         Line("pitch", *_turned(analysis, i, "pitch"), role="pitch"),
         Line("profile", *_turned(analysis, i, "profile"), role="profile"),
@@ -111,7 +111,7 @@ def high_speed_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     centre, radius = analysis.roller_centre[:, i] / mm, _radius(analysis)
     normal, t = analysis.normal[:, i], analysis.arm_angle[i]
     middle = pivot + 56 * np.stack([-np.cos(t / 2), np.sin(t / 2)])
-    return picture(
+    return Picture.of(
         Axes(equal=True, bare=True, ylim=(None, centre[1] + 100)),
         Polygon("cam", *profile, role="body"),
         Line("profile", *profile, role="profile"),
@@ -168,7 +168,7 @@ def valve_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     i = position(whole, turn)
     alpha, r0, h = whole.cam_angle[i], cam.base_radius / mm, whole.lift[i] / mm
     profile, face = _turned(whole, i, "profile"), r0 + h
-    return picture(
+    return Picture.of(
         BARE,
         Polygon("cam", *profile, role="body"),
         Line("profile", *profile, role="profile"),

@@ -11,7 +11,7 @@ from ..quantities import words
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Study, made_study
 from ..study.sweep import Sweep
-from .picture import Axes, Band, Line, Picture, Polygon, Text, View, picture
+from .picture import Axes, Band, Line, Picture, Polygon, Text, View
 
 LOWEST, HIGHEST = -100.0, 100.0
 """The window of spare and excess, percent of the limit."""
@@ -32,7 +32,7 @@ def limit_sweep(sweep: Sweep) -> Picture:
         xlim=(x[0], x[-1]),
         ylim=(LOWEST, HIGHEST),
     )
-    return picture(
+    return Picture.of(
         axes,
         Polygon("feasible", *_bands(x, sweep.feasible), role="allowed", opacity=0.2),
         Band("zero", 0.0, 0.0),

@@ -12,7 +12,7 @@ from ..quantities.kinds import refuse_arguments
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
 from .front import shown_objectives
-from .picture import Area, Axes, Line, Mark, Picture, Points, Text, View, picture
+from .picture import Area, Axes, Line, Mark, Picture, Points, Text, View
 
 
 def band(curve: AnalysisCurve) -> View:
@@ -40,7 +40,7 @@ def _band(tolerances: Tolerances, curve: AnalysisCurve, base: Any) -> Picture:
         xlabel=f"{angle}  [deg]",
         ylabel=f"{'' if np.ndim(base) == 0 else 'deviation  '}[{curve.unit}]",
     )
-    return picture(
+    return Picture.of(
         axes,
         Area("most", x[known], low, high, role="flank", opacity=0.35, label="95 %"),
         Area("half", x[known], lower, upper, role="profile", opacity=0.5, label="half"),
@@ -83,7 +83,7 @@ def _cloud(tolerances: Tolerances, front: Any) -> Picture:
         xlabel=study.minimise[0].label,
         ylabel=study.minimise[1].label if len(study.minimise) > 1 else "parts  [%]",
     )
-    return picture(axes, marks)
+    return Picture.of(axes, marks)
 
 
 def _positive(measure: Measure) -> Measure:
@@ -122,7 +122,7 @@ def sobol_bars(tolerances: Tolerances) -> Picture:
         ylim=(0.5 - len(measures), 0.6),
         yticks={-i: fill(measure.name, 20) for i, measure in enumerate(measures)},
     )
-    return picture(axes, marks)
+    return Picture.of(axes, marks)
 
 
 def _shares(tolerances: Tolerances) -> np.ndarray:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, picture
+from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text
 
 NEAR = 10.0
 """Height in the drawing of what lies at the middle of a scene; nearer things come later, flat things before."""
@@ -50,7 +50,7 @@ class Turntable:
     def picture(self, axes: Axes, *more: Mark) -> Picture:
         """What has been put on the table, nearer things above, with ``more`` above all."""
         order = np.argsort([float(height) for height, _ in self.drawn], kind="stable")
-        return picture(axes, [self.drawn[i][1] for i in order], more)
+        return Picture.of(axes, [self.drawn[i][1] for i in order], more)
 
     def put(self, height: Any, mark: Mark) -> None:
         """Put a mark into the drawing at a height."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..units import deg, rpm
-from .picture import Axes, Line, Picture, picture
+from .picture import Axes, Line, Picture
 from .turntable import Turntable
 
 ROLE = {"input": "guide", "intermediate": "follower", "driven": "position"}
@@ -81,7 +81,7 @@ def _over_a_turn(analysis: Any, title: str, ylabel: str, curves: Mapping[str, An
         # the even input needs no name where three would not find room
         label = "" if name == "input" and len(curves) == 3 else name
         marks.append(Line(name, analysis.input_angle / deg, shown, role=ROLE[name], stroke="line", label=label))
-    return picture(Axes(title=title, xlabel="input angle  [deg]", ylabel=ylabel), marks)
+    return Picture.of(Axes(title=title, xlabel="input angle  [deg]", ylabel=ylabel), marks)
 
 
 def speeds(analysis: Any) -> Picture:

@@ -12,7 +12,7 @@ from ..machines.valve_measures import PAPER_MIN_RADIUS
 from ..units import MPa, deg, mm
 from .cam import ANGLE, bodies
 from .front import ShownFront, pareto
-from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps, picture
+from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
 
 SHOWN_RADIUS = (-10, 45)
 """Radii of curvature (mm) that the view shows: where the flank begins they are far larger, and of no concern."""
@@ -26,7 +26,7 @@ def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
     from_nose = abs(whole.cam_angle - cam.half_angle)
     ramps, flanks = from_nose <= cam.half_angle + cam.ramp_angle, from_nose <= cam.half_angle
     contact = whole.contact_point()[:, i] / mm
-    return picture(
+    return Picture.of(
         Axes(title=f"Cam and {cam.follower.name}", xlabel="x  [mm]", ylabel="y  [mm]", equal=True),
         Circle("tip circle", 0.0, 0.0, np.max(np.hypot(*profile)), role="guide"),
         Polygon("cam", x, y, role="body"),
@@ -52,7 +52,7 @@ def _over_event(analysis: Any, title: str, ylabel: str, *marks: Mark, ylim: Any 
         Band(name, x, x, role="guide", along="y", opacity=0.0)
         for name, x in zip(("start", "nose", "end"), ends, strict=True)
     ]
-    return picture(Axes(title=title, xlabel=ANGLE, ylabel=ylabel, ylim=ylim), lines, marks)
+    return Picture.of(Axes(title=title, xlabel=ANGLE, ylabel=ylabel, ylim=ylim), lines, marks)
 
 
 def lift(analysis: Any, turn: float = 0.0) -> Picture:
@@ -149,7 +149,7 @@ def fullness_front(shown: ShownFront) -> Picture:
     front, points = pareto(shown), load("valve")["formulas"]["front"]
     style: Any = {"mark": "diamond", "size": 9, "fill": "none", "role": "allowed"}
     known = Points("known", points["fullness"], points["acceleration"], label="known points", **style)
-    return picture(front.axes, [front["front"], front["start"]], known)
+    return Picture.of(front.axes, [front["front"], front["start"]], known)
 
 
 VALVE_VIEWS = (

@@ -22,7 +22,7 @@ from camkit.geometry import rotated
 from camkit.machines.door_handle import CURVE_TABLE, DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.motion import LAWS
 from camkit.quantities import declarations
-from camkit.render.artists import BLUE, ORANGE
+from camkit.render.draw import colour
 from camkit.units import in_unit
 from camkit.views import CAM_VIEWS, mechanism, pressure_angle
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot, table_of_measures
@@ -167,11 +167,11 @@ def test_dragging_a_slider_moves_box_table_and_picture(book: Workbook) -> None:
     shows(book, design)
     assert book.value("app.design.lift_arm") == pytest.approx(arm * mm, rel=1e-9)
     cam, angle = CAM_VIEWS.index(mechanism), CAM_VIEWS.index(pressure_angle)
-    eventually(lambda: drawn(book, "app", cam, profile_points(design, TURN), BLUE).all())
-    assert drawn(book, "app", cam, profile_points(START, TURN), BLUE).mean() < 0.5
+    eventually(lambda: drawn(book, "app", cam, profile_points(design, TURN), colour("position")).all())
+    assert drawn(book, "app", cam, profile_points(START, TURN), colour("position")).mean() < 0.5
     lift = design.analyse().lift
     curve = np.array([lift.cam_angle, lift.pressure_angle])[:, 420::30] / deg
-    eventually(lambda: drawn(book, "app", angle, curve, BLUE).all())
+    eventually(lambda: drawn(book, "app", angle, curve, colour("position")).all())
 
 
 def test_a_typed_number_counts_to_its_last_digit(book: Workbook) -> None:
@@ -223,12 +223,12 @@ def test_turning_the_handle_turns_cam_and_cranks(book: Workbook) -> None:
     try:
         analysis = START.analyse()
         i = np.argmin(abs(analysis.cam_angle - 120 * deg))
-        for name, colour in (("lift", BLUE), ("relief", ORANGE)):
+        for place, name in enumerate(("lift", "relief")):
             pivot, centre = (point / mm for point in (analysis.cranks[name][0], analysis.cranks[name][1][:, i]))
             arm = pivot[:, None] + np.linspace(0.3, 0.7, 9) * (centre - pivot)[:, None]
-            eventually(lambda arm=arm, colour=colour: drawn(book, "app", 0, arm, colour).all())
-        eventually(lambda: drawn(book, "app", 0, profile_points(START, 120 * deg), BLUE).all())
-        assert drawn(book, "app", 0, profile_points(START, TURN), BLUE).mean() < 0.5
+            eventually(lambda arm=arm, i=place: drawn(book, "app", 0, arm, colour("series", i)).all())
+        eventually(lambda: drawn(book, "app", 0, profile_points(START, 120 * deg), colour("position")).all())
+        assert drawn(book, "app", 0, profile_points(START, TURN), colour("position")).mean() < 0.5
         shows(book, START)
     finally:
         book.type("cam angle shown", f"{TURN / deg:g}")
@@ -264,8 +264,8 @@ def test_a_judgement_changes_weights_front_and_winner(book: Workbook) -> None:
     assert book.value("criteria.judgements.consistency_ratio") == pytest.approx(judged.consistency_ratio, abs=1e-12)
     rows = -np.arange(3.0)
     ends = 100 * judged.weights
-    eventually(lambda: drawn(book, "criteria", 0, [ends - 0.7, rows], BLUE, within=0).all())
-    assert not drawn(book, "criteria", 0, [ends + 0.7, rows], BLUE, within=0).any()
+    eventually(lambda: drawn(book, "criteria", 0, [ends - 0.7, rows], colour("position"), within=0).all())
+    assert not drawn(book, "criteria", 0, [ends + 0.7, rows], colour("position"), within=0).any()
     wins(book, judged.weights, None, "crowding distance")
 
 

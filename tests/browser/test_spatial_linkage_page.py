@@ -13,7 +13,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study
-from camkit.render.artists import BLUE
+from camkit.render.draw import colour
 from camkit.units import deg, mm
 from camkit.views.linkage import scene_of
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
@@ -90,7 +90,7 @@ def test_a_typed_size_and_load_change_numbers_and_picture(panel: Locator) -> Non
     put(panel, "load mass", "45.5")
     design = PRACTICAL.replace(crank=110 * mm, load=START.load.replace(mass=45.5))
     shows(panel, design)
-    eventually(lambda: drawn(panel, crank_seen(design, 60 * deg, -60 * deg, 25 * deg), BLUE))
+    eventually(lambda: drawn(panel, crank_seen(design, 60 * deg, -60 * deg, 25 * deg), colour("position")))
     put(panel, "crank", "120")
     put(panel, "load mass", "30")
     shows(panel, PRACTICAL)
@@ -104,7 +104,7 @@ def test_the_crank_slider_ends_at_the_limits(panel: Locator) -> None:
     slider.press("End")
     eventually(lambda: abs(float(box(panel, "crank angle shown").input_value()) - high) < 1)
     turn = PRACTICAL.analyse().turn_range[1]
-    eventually(lambda: drawn(panel, crank_seen(PRACTICAL, turn, -60 * deg, 25 * deg), BLUE))
+    eventually(lambda: drawn(panel, crank_seen(PRACTICAL, turn, -60 * deg, 25 * deg), colour("position")))
     expect(panel.get_by_role("alert")).to_have_count(0)
     put(panel, "crank angle shown", "60")
 
@@ -123,7 +123,7 @@ def test_the_mouse_turns_the_view(panel: Locator) -> None:
     eventually(lambda: abs(float(box(panel, "azimuth").input_value()) - azimuth) < 0.5)
     eventually(lambda: abs(float(box(panel, "elevation").input_value()) - elevation) < 0.5)
     seen = kernel_value(panel.page, "[app.positions[name].value for name in ('azimuth', 'elevation')]")
-    eventually(lambda: drawn(panel, crank_seen(PRACTICAL, 60 * deg, *seen), BLUE))
+    eventually(lambda: drawn(panel, crank_seen(PRACTICAL, 60 * deg, *seen), colour("position")))
     shows(panel, PRACTICAL)
     put(panel, "azimuth", "-60")
     put(panel, "elevation", "25")

@@ -17,7 +17,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from camkit import deg, kW, mm, rpm
 from camkit.linkage.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
 from camkit.machines.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft, shaft_study
-from camkit.render.artists import BLUE
+from camkit.render.draw import colour
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 START = UniversalJointShaft()
@@ -105,12 +105,12 @@ def twist_curve(design: UniversalJointShaft) -> np.ndarray:
 
 
 def test_typed_power_moves_the_twist_limits_curve(book: Workbook) -> None:
-    eventually(lambda: drawn(book, twist_curve(START), BLUE).all())
+    eventually(lambda: drawn(book, twist_curve(START), colour("series", 1)).all())
     book.type(book.tube, "power", "300")
     changed = START.replace(power=300 * kW)
     shows(book, changed)
-    eventually(lambda: drawn(book, twist_curve(changed), BLUE).all())
-    assert not drawn(book, twist_curve(START), BLUE).all()
+    eventually(lambda: drawn(book, twist_curve(changed), colour("series", 1)).all())
+    assert not drawn(book, twist_curve(START), colour("series", 1)).all()
 
 
 def test_a_slider_moves_the_tube(book: Workbook) -> None:

@@ -61,7 +61,7 @@ from camkit.panels.kit.number import NumberBox
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import pending
 from camkit.quantities import Measure, Quantity, value_of
-from camkit.render.artists import _find
+from camkit.render.draw import artist_of
 from camkit.search.checkpoint import read
 from camkit.search.front import Front
 from camkit.search.protocol import Step, search
@@ -414,7 +414,7 @@ def test_the_picture_shows_the_numbers_of_the_analysis(app):
     app.controls["lift_arm"].slider.value = 46.0
     for name in ("lift", "relief"):
         curve = getattr(app.analysis, name)
-        x, y = _find(app.picture.axes[0], name).get_data()
+        x, y = artist_of(app.picture.axes[0], name).get_data()
         assert_allclose(x, curve.cam_angle / deg)
         assert_allclose(y, curve.pressure_angle / deg)
 
@@ -1303,7 +1303,7 @@ def test_a_click_loads_the_nearest_point_of_the_front(found):
 
 def test_the_mark_on_the_front_leaves_a_design_that_is_moved_away(found):
     found.select(3)
-    mark = _find(found.picture.axes[0], "in the sliders")
+    mark = artist_of(found.picture.axes[0], "in the sliders")
     assert_allclose(np.ravel(mark.get_data()), shown_objectives(found.front)[:, 3])
     found.explorer.controls["lift_arm"].slider.value = 61.0
     assert np.size(mark.get_data()) == 0
@@ -1563,11 +1563,10 @@ def test_try_everything_bites_when_a_control_does_not_come_back():
 
 
 def test_a_view_that_breaks_is_not_silent():
-    def view(analysis, ax):
-        ax.plot(analysis.lift.pressure_angle)
+    def view(analysis):
         if analysis.cam.lift_arm > 51 * mm:
             raise RuntimeError("a broken view")
-        return ax
+        return pressure_angle(analysis)
 
     app = explore(DoorHandleCam(lift_arm=50.9999 * mm), view, free=["lift_arm"], **SMALL)
     with pytest.raises(RuntimeError, match="a broken view"):

@@ -7,7 +7,6 @@ import ipywidgets as w
 import numpy as np
 import pytest
 from ipywidgets.widgets.widget import _instances
-from matplotlib.colors import to_rgb
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
 
@@ -17,12 +16,13 @@ from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
 from camkit.panels.kit.picture import ImageWidget
 from camkit.quantities import Design, quantity
-from camkit.render.artists import _find, moving
-from camkit.render.decision import APART, MARKS, decision, front_winners, judgement_bars, triangle, winners_by_weight
-from camkit.render.parallel import Column, Designs, parallel_coordinates
+from camkit.render.draw import moving
 from camkit.render.picture import draw, layout
 from camkit.search.front import Front, front_of
 from camkit.units import mm
+from camkit.views.decision import APART, MARKS, decision, front_winners, judgement_bars, triangle, winners_by_weight
+from camkit.views.parallel import Column, Designs, parallel_coordinates
+from camkit.views.picture import Axes, Picture, Polygon
 
 
 @dataclass(frozen=True)
@@ -57,15 +57,8 @@ def a_front(k, n=9):
 UPPERS = {1: None, 2: [2], 3: [2, 3, None], 4: [2, 3, 4, 2, 2, 1]}
 
 
-def drawn(shown, view):
-    _, axes = layout((view,), width=6, height=5)
-    draw(shown, axes, (view,))
-    axes[0].figure.canvas.draw()
-    return axes[0]
-
-
-def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+def xy(shown, key):
+    return np.array([shown[key].x, shown[key].y], dtype=float)
 
 
 # --- the views --------------------------------------------------------------------------------------------------------
@@ -78,8 +71,8 @@ def test_a_decision_is_what_the_package_says(k):
     weights = np.ones(1) if k == 1 else ahp(UPPERS[k]).weights
     assert_allclose(shown.weights, weights)
     assert shown.winners == {rule: CHOOSERS[rule](front, weights) for rule in MARKS}
-    assert set(shown.colours) == set(shown.winners.values())
-    assert len(set(shown.colours.values())) == len(shown.colours)
+    assert set(shown.index) == set(shown.winners.values())
+    assert sorted(shown.index.values()) == list(range(1, 1 + len(shown.index)))
     for rule in WEIGHING:
         assert shown.ranges[rule] == (() if k == 1 else judgement_ranges(front, UPPERS[k], CHOOSERS[rule]))
         assert (shown.maps[rule].winners == winner_map(front, CHOOSERS[rule]).winners).all()
@@ -96,42 +89,46 @@ def test_a_decision_is_what_the_package_says(k):
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
 @pytest.mark.parametrize("view", [front_winners, winners_by_weight, judgement_bars])
 @pytest.mark.filterwarnings("error")
-def test_every_view_of_one_to_four_objectives_is_moved_and_not_drawn_again(k, view):
+def test_every_view_of_one_to_four_objectives_is_drawn_and_moved(k, view):
     shown = decision(a_front(k), UPPERS[k] and ahp(UPPERS[k]))
-    ax = drawn(shown, view)
-    artists = moving(ax)
-    other = shown.judged(None if k == 1 else ahp(np.ones((k, k))))
-    draw(other, [ax], (view,))
-    ax.figure.canvas.draw()
-    assert moving(ax) == artists
+    _, (ax,) = layout((view,), width=6, height=5)
+    for each in (shown, shown.judged(None if k == 1 else ahp(np.ones((k, k))))):
+        draw(each, [ax], (view,))
+        ax.figure.canvas.draw()
+        assert [artist.get_gid() for artist in moving(ax)] == [mark.key for mark in view(each).marks]
 
 
 def test_marks_are_at_the_winners_in_their_designs_colours():
     front = a_front(2)
     shown = decision(front, ahp([5]))
-    ax = drawn(shown, front_winners)
+    view = front_winners(shown)
     for rule in MARKS:
         i = CHOOSERS[rule](front, ahp([5]).weights)
-        assert_allclose(xy(ax, rule).ravel(), [front.f[i, 0] / mm, -front.f[i, 1] / mm**2])
-        assert _find(ax, rule).get_markeredgecolor() == shown.colours[i]
+        assert_allclose(xy(view, rule).ravel(), [front.f[i, 0] / mm, -front.f[i, 1] / mm**2])
+        assert (view[rule].role, view[rule].index) == ("series", shown.index[i])
 
 
-def colour_at(ax, key, x, y):
-    """The colour of the region of a map at a point, if one of ``key`` is there."""
-    found = [a for a in ax.patches if a.get_gid().startswith(f"{key} ") and _covers(a, x, y)]
-    return to_rgb(found[0].get_facecolor()) if found else None
+def looks(view, key, x, y):
+    """Role and place in the series of the regions of a map that cover a point, lowest first."""
+    regions = [m for m in view.marks if isinstance(m, Polygon) and m.key.startswith(f"{key} ")]
+    return [(m.role, m.index) for m in regions if _covers(m, x, y)]
 
 
-def _covers(patch, x, y):
-    pieces = np.split(patch.get_xy(), np.flatnonzero(np.isnan(patch.get_xy()[:, 0])))
+def look_of(shown, winner):
+    return ("series", shown.index[winner]) if winner in shown.index else ("guide", 0)
+
+
+def _covers(region, x, y):
+    points = np.transpose([region.x, region.y])
+    pieces = np.split(points, np.flatnonzero(np.isnan(points[:, 0])))
     pieces = [piece[np.isfinite(piece).all(1)] for piece in pieces]
-    return any(len(piece) > 2 and Path(piece).contains_point((x, y)) for piece in pieces)
+    return sum(len(piece) > 2 and Path(piece).contains_point((x, y)) for piece in pieces) % 2 == 1  # not in a hole
 
 
 def test_the_triangle_has_the_winners_colour_at_every_weighting():
     front = a_front(3)
     shown = decision(front, ahp([2, 3, None]))
-    ax = drawn(shown, winners_by_weight)
+    view = winners_by_weight(shown)
     for weights in 0.05 + 0.85 * np.random.default_rng(5).dirichlet(np.ones(3), 12):
         for k, (rule, choose) in enumerate((("weighted sum", weighted_sum), ("TOPSIS", topsis))):
             near = weights + 0.012 * (np.eye(3) - 1 / 3)  # nothing else wins near by
@@ -139,10 +136,18 @@ def test_the_triangle_has_the_winners_colour_at_every_weighting():
                 continue
             x, y = triangle(weights) + np.array([k * APART, 0])
             winner = choose(front, weights)
-            colour = colour_at(ax, rule, x, y)
             assert shown.winner_at(x, y) == winner
-            assert (colour == to_rgb(shown.colours[winner])) if winner in shown.colours else colour is not None
-    x, y = xy(ax, "weighted sum now").ravel()
+            assert look_of(shown, winner) in looks(view, rule, x, y)
+            assert ("paper", 0) not in looks(view, rule, x, y)
+    cells = [
+        m for m in view.marks if m.key.startswith("weighted sum") and getattr(m, "role", "") in ("series", "guide")
+    ]
+    beyond = [(x, y) for m in cells for x, y in np.transpose([m.x, m.y]) if y < -1e-3]
+    assert beyond
+    assert {looks(view, "weighted sum", x, y)[-1] for x, y in beyond[:20]} == {
+        ("paper", 0)
+    }  # what sticks out is hidden
+    x, y = xy(view, "weighted sum now").ravel()
     assert_allclose((x, y), triangle(ahp([2, 3, None]).weights))
     assert_allclose(triangle(np.eye(3)[1]), (0, 0), atol=1e-12)
 
@@ -150,26 +155,27 @@ def test_the_triangle_has_the_winners_colour_at_every_weighting():
 def test_the_line_of_weights_changes_colour_where_the_winner_changes():
     front = a_front(2)
     shown = decision(front, ahp([1]))
-    ax = drawn(shown, winners_by_weight)
+    view = winners_by_weight(shown)
     told = judgement_ranges(front, [1])[0]
     for ratio in np.geomspace(told.low * 1.02, told.high * 0.98, 5):
-        colour = colour_at(ax, "weighted sum", 100 * ratio / (1 + ratio), 0)
-        assert colour == to_rgb(shown.colours[shown.winners["weighted sum"]])
+        (look,) = looks(view, "weighted sum", 100 * ratio / (1 + ratio), 0)
+        assert look == look_of(shown, shown.winners["weighted sum"])
     for ratio in (told.low * 0.95, told.high * 1.05):
         assert shown.winner_at(100 * ratio / (1 + ratio), 0) == weighted_sum(front, [ratio, 1])
         assert shown.winner_at(100 * ratio / (1 + ratio), 0) != shown.winners["weighted sum"]
-    assert_allclose(xy(ax, "now")[0], 50)
+    assert_allclose(xy(view, "now")[0], 50)
 
 
 def test_bars_end_where_the_winner_changes():
     shown = decision(a_front(3), ahp([2, 3, None]))
-    ax = drawn(shown, judgement_bars)
+    view = judgement_bars(shown)
     for rule in WEIGHING:
         for p, told in enumerate(shown.ranges[rule]):
-            assert_allclose(xy(ax, f"{p} {rule}")[0], (told.low, told.high))
-            assert_allclose(xy(ax, f"{p} {rule} now")[0], told.judged)
+            bar = xy(view, f"{p} {rule}")[0]
+            assert_allclose((bar.min(), bar.max()), (told.low, told.high))
+            assert_allclose(view[f"{p} {rule} now"].x, told.judged)
             beyond = "stays" if told.above is None else f"then {told.above}"
-            assert _find(ax, f"{p} {rule} above").get_text() == beyond
+            assert view[f"{p} {rule} above"].words == beyond
 
 
 VALUES = np.array([[1.0, 40, 7], [2, 30, 7], [4, 20, 7], [5, 10, 7]])
@@ -177,18 +183,19 @@ COLUMNS = (Column("one", "mm", 1), Column("two", "", -1), Column("three", "N"))
 
 
 def test_parallel_coordinates_part_what_the_bands_keep():
-    shown = Designs(COLUMNS, VALUES, bands={0: (1.5, 5), 1: (15, 50)}, marked={3: "#E69F00"}, selected=1)
+    shown = Designs(COLUMNS, VALUES, bands={0: (1.5, 5), 1: (15, 50)}, marked={3: 2}, selected=1)
     assert shown.kept.tolist() == [False, True, True, False]
-    ax = drawn(shown, parallel_coordinates)
+    view = parallel_coordinates(shown)
     heights = np.array([[0, 1, 0.5], [0.25, 2 / 3, 0.5], [0.75, 1 / 3, 0.5], [1, 0, 0.5]])
-    for key, rows in (("kept", [1, 2]), ("left out", [0, 3]), ("in the sliders", [1]), ("marked 0", [3])):
-        x, y = xy(ax, key)
+    for key, rows in (("kept", [1, 2]), ("left out", [0, 3]), ("in the sliders", [1]), ("marked 3", [3])):
+        x, y = xy(view, key)
         assert_allclose(y[np.isfinite(x)].reshape(-1, 3), heights[rows])
         assert_allclose(x[np.isfinite(x)].reshape(-1, 3), [[0, 1, 2]] * len(rows))
-    assert_allclose(_find(ax, "band 0").get_xy()[:4, 1], [0.125, 0.125, 1, 1])
-    assert np.isnan(_find(ax, "band 2").get_xy()[:, 1]).all()
-    assert _find(ax, "name 0").get_text() == "one\n[mm]\n↓ better"
-    assert (_find(ax, "low 1").get_text(), _find(ax, "high 1").get_text()) == ("10", "40")
+    assert view["marked 3"].index == 2
+    assert_allclose(view["band 0"].y, [0.125, 0.125, 1, 1])
+    assert "band 2" not in view
+    assert view["name 0"].words == "one\n[mm]\n↓ better"
+    assert (view["low 1"].words, view["high 1"].words) == ("10", "40")
     assert shown.value(1, 0.5) == 25
     assert shown.nearest(0.5, 0.46) == 1  # halfway from 0.25 to 2/3
     assert shown.nearest(0, 0.1) == 1  # design 0 is nearer, but left out
@@ -203,7 +210,7 @@ class Source:
 
     def __init__(self, front, importance=None):
         self.front, self.importance, self.followers = front, importance, []
-        self.explorer = explore(Plate(), lambda analysis, ax: ax, width=3, height=2)
+        self.explorer = explore(Plate(), lambda analysis: Picture.of(Axes()), width=3, height=2)
 
     def on_front(self, act):
         self.followers.append(act)

@@ -7,37 +7,43 @@ from functools import partial
 import ipywidgets as w
 import numpy as np
 import pytest
-from matplotlib.path import Path
 from numpy.testing import assert_allclose
+from scipy.interpolate import RegularGridInterpolator
 
 from camkit import Measure, Study, explore, try_everything
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import corrected_valve_study, valve_study
 from camkit.panels.contours import contour_panel, optimum
 from camkit.quantities import Design, quantity
-from camkit.render.artists import _find, moving
-from camkit.render.contours import BANDS, ShownPlane, objective_plane
-from camkit.render.picture import draw, layout
+from camkit.render.contours import level_curve
+from camkit.render.draw import artist_of
 from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
 from camkit.units import mm, rpm
+from camkit.views.design_map import SHADES, ShownPlane, objective_plane
 from camkit.views.valve import lift
 
 WIDE = ValveCam(base_radius=24.5 * mm)
 
 
-def drawn(shown):
-    _, axes = layout((objective_plane,), width=6, height=5)
-    draw(shown, axes, (objective_plane,))
-    return axes[0]
+def at(mark, x):
+    """What the grid of a mark says at points ``(p, 2)`` in the units of the axes."""
+    return RegularGridInterpolator((mark.y, mark.x), mark.z)(np.asarray(x)[:, ::-1])
 
 
-def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+def covers(region, x):
+    value = at(region, x)
+    return (region.low <= value) & (value < region.high)
 
 
-def legend(ax):
-    return [text.get_text() for text in ax.get_legend().get_texts()]
+def legend(view):
+    return [mark.label for mark in view.marks if mark.label]
+
+
+def curve(contour, i=0):
+    """A contour's points, ``(m, 2)``."""
+    points = level_curve(contour.x, contour.y, contour.z, contour.levels[i]).T
+    return points[np.isfinite(points).all(1)]
 
 
 # --- the picture ------------------------------------------------------------------------------------------------------
@@ -45,66 +51,45 @@ def legend(ax):
 
 def test_each_shade_covers_the_same_area_and_darker_is_better():
     plane = DesignMap(valve_study(), n=61)
-    ax = drawn(ShownPlane(plane))
-    bands = sorted((a for a in moving(ax) if a.get_gid().startswith("band")), key=lambda a: a.get_gid())
-    assert len(bands) == BANDS
-    assert (np.diff([band.get_facecolor()[0] for band in bands]) > 0).all()
-    assert (np.diff([band.get_zorder() for band in bands]) < 0).all()
+    view = objective_plane(ShownPlane(plane))
+    shades = [view[f"shade {i}"] for i in range(SHADES)]
+    assert (np.diff([shade.opacity for shade in shades]) < 0).all()
     x = np.random.default_rng(1).uniform(*plane.study.bounds, (4000, 2))
     f = plane.study.evaluate(x).f[:, 0]
-    inside = np.array([Path(band.get_xy()).contains_points(x) for band in bands])
-    assert_allclose(inside.mean(1), np.arange(1, BANDS + 1) / BANDS, atol=0.03)
+    inside = np.array([covers(shade, x) for shade in shades])
+    assert (inside.sum(0) == 1).all()
+    assert_allclose(inside.mean(1), 1 / SHADES, atol=0.03)
     for lower, upper in itertools.pairwise(inside):
-        assert f[lower].max() < f[upper & ~lower].max() + 1e-3
+        assert f[lower].max() < f[upper].max() + 1e-3
 
 
 def test_levels_are_where_the_objective_has_the_value_that_is_told():
     study = corrected_valve_study(WIDE, (0.9, 0.1))
-    ax = drawn(ShownPlane(DesignMap(study, n=61)))
-    for i in range(0, BANDS - 1, 2):
-        told = float(_find(ax, f"value {i}").get_text())
-        points = xy(ax, f"level {i}").T
-        points = points[np.isfinite(points).all(1)]
-        assert_allclose(study.evaluate(points).f[:, 0], told, atol=2e-3)
+    levels = objective_plane(ShownPlane(DesignMap(study, n=61)))["levels"]
+    for i in range(0, SHADES - 1, 2):
+        assert_allclose(study.evaluate(curve(levels, i)).f[:, 0], float(levels.names[i]), atol=2e-3)
 
 
 def test_the_veil_covers_what_misses_the_limit():
     study = corrected_valve_study(WIDE)
-    ax = drawn(ShownPlane(DesignMap(study, n=61)))
+    view = objective_plane(ShownPlane(DesignMap(study, n=61)))
     x = np.random.default_rng(2).uniform(*study.bounds, (4000, 2))
     feasible = study.evaluate(x).feasible
-    veiled = Path(_find(ax, "missed").get_xy()).contains_points(x)
     assert 0.2 < feasible.mean() < 0.8
-    assert (veiled == ~feasible).mean() > 0.99
-    edge = xy(ax, "limit").T
-    assert abs(study.evaluate(edge[np.isfinite(edge).all(1)]).g).max() < 0.02
+    assert (covers(view["missed"], x) == ~feasible).mean() > 0.99
+    assert abs(study.evaluate(curve(view["limit"])).g).max() < 0.02
 
 
 def test_marks_and_legend():
-    study = valve_study()
-    ax = drawn(ShownPlane(DesignMap(study, n=21), here=(6, 16), best=(20, 20)))
-    assert_allclose(xy(ax, "in the sliders").ravel(), (6, 16))
-    assert_allclose(xy(ax, "optimum").ravel(), (20, 20))
-    assert legend(ax) == ["radius at the nose (flat follower) at least 4.5 mm", "in the sliders", "optimum"]
-    assert ax.get_xlabel() == "n"
-    assert ax.get_title(loc="left") == "Fullness against nose deceleration"
-    draw(ShownPlane(DesignMap(corrected_valve_study(), n=21)), [ax], (objective_plane,))
-    assert np.isnan(xy(ax, "optimum")).all()
-    assert legend(ax) == ["least convex radius anywhere at least 4.5 mm", "optimum"]
-    assert ax.get_title(loc="left") == "Fullness against peak positive acceleration"
-
-
-@pytest.mark.filterwarnings("error")
-def test_drawing_again_moves_what_was_drawn():
-    planes = [DesignMap(s, n=21) for s in (valve_study(), corrected_valve_study(WIDE), valve_study(weights=(0, 1)))]
-    ax = drawn(ShownPlane(planes[0], (5, 5), (20, 20)))
-    artists, first = set(moving(ax)), xy(ax, "level 3")
-    for plane in planes[1:]:
-        draw(ShownPlane(plane), [ax], (objective_plane,))
-        assert set(moving(ax)) == artists
-        ax.figure.canvas.draw()
-    draw(ShownPlane(planes[0], (5, 5), (20, 20)), [ax], (objective_plane,))
-    assert_allclose(xy(ax, "level 3"), first)
+    view = objective_plane(ShownPlane(DesignMap(valve_study(), n=21), here=(6, 16), best=(20, 20)))
+    assert_allclose([view["in the sliders"].x, view["in the sliders"].y], [[6], [16]])
+    assert_allclose([view["optimum"].x, view["optimum"].y], [[20], [20]])
+    assert legend(view) == ["radius at the nose (flat follower) at least 4.5 mm", "in the sliders", "optimum"]
+    assert view.axes.xlabel == "n"
+    assert view.axes.title == "Fullness against nose deceleration"
+    view = objective_plane(ShownPlane(DesignMap(corrected_valve_study(), n=21)))
+    assert np.isnan(view["optimum"].x).all()
+    assert legend(view) == ["least convex radius anywhere at least 4.5 mm"]
 
 
 @dataclass(frozen=True)
@@ -125,22 +110,20 @@ tall = Measure("height", "mm", lambda p: p.height.sum(-1))
 
 def test_lengths_are_shown_in_their_units_and_what_grows_is_read_as_it_is():
     study = Study(Plate(), ("width", "height"), (-area,), at_most={slim: 40 * mm}, at_least={tall: 20 * mm})
-    ax = drawn(ShownPlane(DesignMap(study, n=41), here=(0.03, 0.03), best=(0.04, 0.06)))
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("width  b  [mm]", "height  h  [mm]")
-    assert ax.get_title(loc="left") == "Area  [mm^2]"
-    assert legend(ax) == ["a limit", "in the sliders", "optimum"]
-    assert_allclose(xy(ax, "in the sliders").ravel(), (30, 30))
-    b, h = xy(ax, "level 2")
-    assert_allclose((b * h)[np.isfinite(b)], float(_find(ax, "value 2").get_text()), rtol=5e-3)
-    veil = Path(_find(ax, "missed").get_xy())
-    assert veil.contains_points([(55, 40), (45, 40), (30, 15)]).all()  # cannot be built, too wide, too low
-    assert not veil.contains_points([(35, 40)]).any()
+    view = objective_plane(ShownPlane(DesignMap(study, n=41), here=(0.03, 0.03), best=(0.04, 0.06)))
+    assert (view.axes.xlabel, view.axes.ylabel) == ("width  b  [mm]", "height  h  [mm]")
+    assert view.axes.title == "Area  [mm^2]"
+    assert legend(view) == ["a limit", "in the sliders", "optimum"]
+    assert_allclose([view["in the sliders"].x, view["in the sliders"].y], [[30], [30]])
+    assert_allclose(curve(view["levels"], 2).prod(1), float(view["levels"].names[2]), rtol=5e-3)
+    assert covers(view["missed"], [(55, 40), (45, 40), (30, 15)]).all()  # cannot be built, too wide, too low
+    assert not covers(view["missed"], [(35, 40)]).any()
 
 
 def test_without_a_limit_nothing_is_veiled():
-    ax = drawn(ShownPlane(DesignMap(Study(Plate(), ("width", "height"), (area,)), n=11)))
-    assert np.isnan(xy(ax, "limit")).all()
-    assert legend(ax) == ["optimum"]
+    view = objective_plane(ShownPlane(DesignMap(Study(Plate(), ("width", "height"), (area,)), n=11)))
+    assert not len(curve(view["limit"]))
+    assert legend(view) == []
 
 
 @pytest.mark.parametrize("w", [0.4, 0.55, 0.557, 0.558, 0.6])
@@ -193,8 +176,12 @@ def settled(panel):
     return panel
 
 
+def xy(panel, name):
+    return np.array(artist_of(panel.picture.axes[0], name).get_data(), dtype=float)
+
+
 def mark(panel, name):
-    return xy(panel.picture.axes[0], name).ravel()
+    return xy(panel, name).ravel()
 
 
 def press(panel, words):
@@ -225,7 +212,7 @@ def test_weights_move_the_optimum(panel):
 
 
 def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(panel):
-    before = xy(panel.picture.axes[0], "level 3")
+    before = xy(panel, "levels")
     panel.menu.value = "sign as printed"
     assert panel.optimum is None
     assert "looking for the optimum" in panel.summary()
@@ -233,7 +220,7 @@ def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(p
     assert shown.feasible.all()
     assert_allclose(shown.f[0, 0], f[panel.plane.evaluation.feasible].min(), rtol=1e-12)
     assert panel.take.disabled
-    assert xy(panel.picture.axes[0], "level 3").shape != before.shape
+    assert xy(panel, "levels").shape != before.shape
     panel.settle()
     assert not panel.take.disabled
     assert panel.optimum is not None

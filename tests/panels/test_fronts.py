@@ -18,7 +18,7 @@ from camkit.machines.high_speed_measures import high_speed_study, peak_stress
 from camkit.panels.fronts import compare_fronts
 from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity
-from camkit.render.artists import _find, moving
+from camkit.render.draw import artist_of, moving
 from camkit.render.picture import draw, layout
 from camkit.search.epsilon_constraint import dominated_shares, epsilon_constraint_steps, trade_off
 from camkit.search.front import Front, front_of
@@ -27,6 +27,7 @@ from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.front import ShownFronts, fronts_overlaid
+from camkit.views.picture import Axes, Picture, Points
 
 
 @dataclass(frozen=True)
@@ -51,11 +52,8 @@ def places(start=None, **limits):
     return Study(start or Place(), ("x", "y"), (here, there), **limits)
 
 
-def view(analysis, ax):
-    from camkit.render.artists import line
-
-    line(ax, "place", [analysis.x], [analysis.y], marker="o")
-    return ax
+def view(analysis):
+    return Picture.of(Axes(), Points("place", analysis.x, analysis.y))
 
 
 @pytest.fixture(scope="module")
@@ -122,7 +120,7 @@ def drawn(shown, *views, **position):
 
 
 def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+    return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
 def test_fronts_are_drawn_in_their_units_with_the_start_and_the_design(fronts):
@@ -170,7 +168,7 @@ def test_cams_beside_each_other_do_not_meet(designs, peak):
     cams, curves = drawn(Beside(analyses, peak), cams_beside, curves_beside, turn=40 * deg)
     spans, offsets = [], []
     for name, analysis in analyses.items():
-        outline = _find(cams, f"{name} body").get_xy()
+        outline = artist_of(cams, f"{name} body").get_xy()
         offsets.append(float(xy(cams, f"{name} axis")[0, 0]))
         radius = np.hypot(*(outline - [offsets[-1], 0]).T)
         assert radius.max() == pytest.approx(np.hypot(*analysis.profile).max() / mm)
@@ -193,7 +191,7 @@ def test_a_turned_roller_touches_its_turned_cam():
         arm = next(key for key in (line.get_gid() for line in ax.lines) if key.endswith(" roller"))
         circle = xy(ax, arm)
         centre = (circle.max(1) + circle.min(1)) / 2
-        gap = np.hypot(*(_find(ax, "a body").get_xy() - centre).T).min()
+        gap = np.hypot(*(artist_of(ax, "a body").get_xy() - centre).T).min()
         assert gap == pytest.approx(30, abs=0.05)
 
 

@@ -26,7 +26,7 @@ from camkit.machines.valve_measures import valve_front_study
 from camkit.panels.kit.latest_only import Debounced, LatestOnly
 from camkit.panels.live_pareto import live_pareto_panel
 from camkit.quantities import Design, quantity
-from camkit.render.artists import _find
+from camkit.render.draw import artist_of
 from camkit.render.picture import draw, layout
 from camkit.search.checkpoint import versions
 from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, fast_front_steps, quick_front
@@ -407,7 +407,7 @@ def asked(make, cam):
 
 
 def marks(panel, key):
-    return np.array(_find(panel.picture.axes[0], key).get_data(), dtype=float)
+    return np.array(artist_of(panel.picture.axes[0], key).get_data(), dtype=float)
 
 
 def test_it_opens_with_the_front_of_the_package(panel, lift):
@@ -551,13 +551,13 @@ def test_drawing_again_moves_what_was_drawn(lift):
     other = quick_front(lift.study, 20)
     draw(LiveFront(other, lift, (0.9, -0.04), None), axes, (live_pareto,))
     assert list(axes[0].lines) == first
-    assert_allclose(_find(axes[0], "front").get_data(), shown_objectives(other))
-    assert_allclose(np.ravel(_find(axes[0], "in the sliders").get_data()), (0.9, 40))
+    assert_allclose(artist_of(axes[0], "front").get_data(), shown_objectives(other))
+    assert_allclose(np.ravel(artist_of(axes[0], "in the sliders").get_data()), (0.9, 40))
     assert [t.get_text() for t in axes[0].get_legend().get_texts()] == ["before", "front", "in the sliders", "winner"]
 
 
 def test_searches_are_compared_in_per_cent():
     _, axes = layout((searches_compared,), width=6, height=4)
     draw({"one": [(0.1, 0.5), (1, 0.01)], "other": [(0.2, 0.2)]}, axes, (searches_compared,))
-    assert_allclose(_find(axes[0], "one").get_data(), [(0.1, 1), (50, 1)])
+    assert_allclose(artist_of(axes[0], "one").get_data(), [(0.1, 1), (50, 1)])
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"

@@ -20,8 +20,7 @@ from camkit.machines.high_speed_measures import (
 from camkit.motion import ShapedLaw
 from camkit.panels.cycle_time import cycle_time_panel
 from camkit.panels.optimise import optimise_panel
-from camkit.render.artists import _find
-from camkit.render.draw import unit_text
+from camkit.render.draw import artist_of, unit_text
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.minimise import minimise
 from camkit.search.minimum import Minimum
@@ -52,7 +51,7 @@ def app():
 
 
 def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+    return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
 class Gate:

@@ -49,7 +49,6 @@ from camkit.panels import (
 from camkit.panels.kit.number import NumberBox, WholeBox
 from camkit.quantities import Measure, PeakMeasure, value_of
 from camkit.render.picture import picture
-from camkit.render.shaft import SHAFT_VIEWS
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.units.typed import typed_number, typed_whole
@@ -58,6 +57,7 @@ from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.defaults import default_views
 from camkit.views.high_speed import CAM_LEVER_VIEWS, HIGH_SPEED_VIEWS
 from camkit.views.linkage import CURVES, linkage_in_space
+from camkit.views.picture import Axes, Line, Picture
 from camkit.views.sweep import limit_sweep
 from camkit.views.tolerances import sobol_bars
 from camkit.views.universal_joint import JOINT_VIEWS
@@ -150,7 +150,7 @@ PANELS = {
     "lever": (CamLever(), CAM_LEVER_VIEWS, CAM_LEVER_MEASURES),
     "valve": (ValveCam(), VALVE_VIEWS, VALVE_MEASURES),
     "linkage": (CabinDoorLinkage(), (linkage_in_space, *CURVES), CabinDoorLinkage.measures),
-    "shaft": (UniversalJointShaft(), SHAFT_VIEWS, UniversalJointShaft.measures),
+    "shaft": (UniversalJointShaft(), (), UniversalJointShaft.measures),
     "joint": (DoubleUniversalJoint(), JOINT_VIEWS, DoubleUniversalJoint.measures),
 }
 
@@ -246,11 +246,8 @@ def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():
 def test_a_curve_beyond_all_bounds_is_not_drawn():
     far = [1.0]
 
-    def view(analysis, ax):
-        from camkit.render.artists import line
-
-        line(ax, "far", [0, 1], [0, far[0]])
-        return ax
+    def view(analysis):
+        return Picture.of(Axes(), Line("far", [0, 1], [0, far[0]]))
 
     panel = explore(TranslatingFlatCam(), view, free=["base_radius"])
     before = panel.design

@@ -22,6 +22,7 @@ from camkit.render.picture import draw, layout
 from camkit.units import mm
 from camkit.views import pressure_angle
 from camkit.views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
+from camkit.views.picture import Axes, Picture
 
 ARMS = (50 * mm, 46 * mm, 54 * mm)
 DESIGNS = {f"arm {arm / mm:.0f}": DoorHandleCam(lift_arm=arm) for arm in ARMS}
@@ -274,7 +275,9 @@ def test_an_empty_tray_shows_and_saves_nothing_but_words(panel):
 
 
 def test_designs_without_a_profile_are_compared_in_numbers():
-    app = explore(UniversalJointShaft(), lambda analysis, ax: ax, free=["outer_diameter"], width=3, height=2)
+    app = explore(
+        UniversalJointShaft(), lambda analysis: Picture.of(Axes()), free=["outer_diameter"], width=3, height=2
+    )
     panel = shortlist(app, shaft_study())
     press(panel, "Keep this design")
     app.load(UniversalJointShaft(outer_diameter=120 * mm))

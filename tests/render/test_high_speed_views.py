@@ -10,7 +10,7 @@ from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_measures import peak_pressure, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
-from camkit.render.artists import INK, WARNING, _find, moving
+from camkit.render.draw import artist_of, colour, moving
 from camkit.render.picture import draw, layout
 from camkit.search.minimise import minimise
 from camkit.units import MPa, cm, deg, mm
@@ -50,7 +50,7 @@ def drawn(cam, *views, **position):
 
 
 def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+    return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
 def data_of(ax):
@@ -111,9 +111,9 @@ def test_curves_over_the_turn_and_their_peaks(cam, view, measure, name, factor):
         values = getattr(dense, name) / factor
         assert top == pytest.approx(values.max(), rel=1e-6)
         assert angle == pytest.approx(dense.cam_angle[values.argmax()] / deg, abs=4e-3)
-        label = _find(ax, f"{way} value")
+        label = artist_of(ax, f"{way} value")
         assert label.get_text() == f"{way} {top:.4g}\nat {angle:.1f}°"
-        assert label.get_color() == INK
+        assert label.get_color() == colour("ink")
         heights.append(top)
     unit = {"N^0.5 mm^-0.5": mm**-0.5, "N^1.5 mm^-0.5": mm**-0.5, "MPa": MPa}[measure.unit]
     assert max(heights) == pytest.approx(measure(analysis) / unit, rel=1e-6)
@@ -122,7 +122,7 @@ def test_curves_over_the_turn_and_their_peaks(cam, view, measure, name, factor):
 
 def test_the_printed_peaks_of_the_first_design():
     axes = drawn(FIRST, contact_stress, wear)
-    said = [_find(ax, f"{way} value").get_text().split("\n")[0] for ax in axes for way in ("away", "back")]
+    said = [artist_of(ax, f"{way} value").get_text().split("\n")[0] for ax in axes for way in ("away", "back")]
     assert said == ["away 2.478", "back 2.457", "away 345.3", "back 410"]
 
 
@@ -141,8 +141,8 @@ def test_where_there_is_no_stress_it_is_said_and_warned_of(cam, way, said):
     missing = np.isfinite(xy(ax, "none")[1])
     assert missing.any()
     assert_array_equal(missing, ~np.isfinite(analysis.stress_coefficient))
-    assert _find(ax, f"{way} value").get_text() == said
-    assert _find(ax, f"{way} value").get_color() == WARNING
+    assert artist_of(ax, f"{way} value").get_text() == said
+    assert artist_of(ax, f"{way} value").get_color() == colour("trouble")
 
 
 def test_axes_without_a_curve_still_have_a_height():
@@ -157,7 +157,7 @@ def test_the_highest_peak_stays_below_its_words():
     for cam in (FIRST, UNDERCUT, UNEVEN):
         ax = drawn(cam, contact_stress)
         ax.figure.canvas.draw()
-        lowest = min(_find(ax, f"{w} value").get_window_extent().y0 for w in ("away", "back"))
+        lowest = min(artist_of(ax, f"{w} value").get_window_extent().y0 for w in ("away", "back"))
         top = np.nanmax(xy(ax, "dwell")[1])
         assert ax.transData.transform((0, top))[1] < lowest
 

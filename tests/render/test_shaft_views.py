@@ -1,5 +1,7 @@
 """Views of the shaft, its joints and the trials: what is drawn against numbers, and that drawing again moves it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.path import Path
@@ -10,15 +12,18 @@ from camkit.machines.shaft import PLANE_WINDOW, UniversalJointShaft, lightest_sh
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.papers.problems import tension_spring
 from camkit.papers.shaft import printed_designs
-from camkit.render.artists import WARNING, _find, moving
-from camkit.render.design_map import design_plane, level_curve, region_below
+from camkit.render.contours import level_curve, outlined, region
+from camkit.render.draw import artist_of, moving
 from camkit.render.picture import draw, layout
-from camkit.render.shaft import SHAFT_VIEWS, diameters, on_the_plane
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
+from camkit.views.defaults import default_views
+from camkit.views.design_map import design_plane, designs_on_plane
 from camkit.views.optimiser_trials import evaluations_needed, solved_within
-from camkit.views.shaft import candidates, section, utilisation
+from camkit.views.picture import Text
+from camkit.views.progress import candidates
+from camkit.views.sizes import section, sizes, utilisation
 from camkit.views.universal_joint import JOINT_VIEWS, drive, pins
 
 OTHERS = (
@@ -41,7 +46,7 @@ def data_of(ax):
 
 
 def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+    return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
 def redrawn_in_place(first, others, views, **position) -> None:
@@ -61,7 +66,19 @@ def redrawn_in_place(first, others, views, **position) -> None:
 
 @pytest.mark.filterwarnings("error")
 def test_the_shafts_views_move_what_they_drew() -> None:
-    redrawn_in_place(UniversalJointShaft().analyse(), [s.analyse() for s in OTHERS], SHAFT_VIEWS)
+    """Names on curves come and go with the room for them."""
+    first, views = UniversalJointShaft(), (sizes, utilisation, section)
+    assert default_views(first.analyse()) == views
+    _, axes = drawn(first.analyse(), *views)
+    for other in (*OTHERS, first):
+        draw(other.analyse(), axes, views)
+        axes[0].figure.canvas.draw()
+    _, fresh = drawn(first.analyse(), *views)
+    for ax, new in zip(axes, fresh, strict=True):
+        before, after = data_of(new), data_of(ax)
+        assert before.keys() == after.keys()
+        for key in before:
+            np.testing.assert_array_equal(after[key], before[key], err_msg=key)
 
 
 @pytest.mark.filterwarnings("error")
@@ -73,20 +90,25 @@ def test_the_joints_views_move_what_they_drew() -> None:
     redrawn_in_place(DoubleUniversalJoint().analyse(), others, JOINT_VIEWS, turn=40 * deg)
 
 
+def curve(view, key: str) -> np.ndarray:
+    """The points of a contour's first level, ``(2, m)``."""
+    mark = view[key]
+    points = level_curve(mark.x, mark.y, mark.z, mark.levels[0])
+    return points[:, np.isfinite(points).all(axis=0)]
+
+
 def test_the_twist_curve_is_the_closed_form() -> None:
     a = UniversalJointShaft().analyse()
-    _, (ax,) = drawn(a, diameters)
-    D, d = xy(ax, "limit 1")
+    D, d = curve(sizes(a), "limit 1")
     assert len(D) > 40
     np.testing.assert_allclose(D, a.shaft.stiff_diameter(d * mm) / mm, rtol=0, atol=0.01)
 
 
 def test_every_limits_curve_is_where_it_is_just_kept() -> None:
     for a in (UniversalJointShaft().analyse(), *(s.analyse() for s in OTHERS[:2])):
-        _, (ax,) = drawn(a, diameters)
+        view = sizes(a)
         for i in range(4):
-            x = xy(ax, f"limit {i}").T * mm
-            x = x[np.isfinite(x).all(axis=1)]
+            x = curve(view, f"limit {i}").T * mm
             g = a.sizes.plane.study.evaluate(x).g[:, i] if len(x) else np.zeros(1)
             assert abs(g).max() < 0.02, a.sizes.plane.measures[i].name
 
@@ -95,7 +117,8 @@ def test_every_limits_curve_is_where_it_is_just_kept() -> None:
 def test_the_shaded_region_is_what_the_study_calls_feasible(data) -> None:
     study = shaft_study(UniversalJointShaft(**data))
     plane = DesignMap(study, PLANE_WINDOW)
-    outline = Path(region_below(*plane.axes, plane.worst, 0.0).T)
+    shaded = design_plane(plane)["allowed"]
+    outline = Path(mm * region(shaded.x, shaded.y, shaded.z, shaded.low, shaded.high).T)
     x = np.random.default_rng(4).uniform(*PLANE_WINDOW, (4000, 2))
     inside, feasible = outline.contains_points(x), study.evaluate(x).feasible
     assert feasible.any()
@@ -107,50 +130,67 @@ def test_level_curves_and_regions_of_a_known_field() -> None:
     z = np.hypot(*np.meshgrid(axis, axis))
     assert np.hypot(*level_curve(axis, axis, z, 1.5)) == pytest.approx(1.5, abs=1e-3)
     assert np.isnan(level_curve(axis, axis, z, 9.0)).all()
-    x, y = region_below(axis, axis, z, 1.0)
+    x, y = region(axis, axis, z, -np.inf, 1.0)
     assert abs(np.sum(x * np.roll(y, 1) - y * np.roll(x, 1))) / 2 == pytest.approx(np.pi, rel=1e-3)
-    two = region_below(
-        axis, axis, np.minimum(np.hypot(axis - 1, axis[:, None]), np.hypot(axis + 1, axis[:, None])), 0.5
-    )
+    x, y = region(axis, axis, z, 1.0, 1.5)  # a ring; the inner outline goes the other way round
+    x, y = np.nan_to_num(x), np.nan_to_num(y)
+    assert abs(np.sum(x * np.roll(y, 1) - y * np.roll(x, 1))) / 2 == pytest.approx(1.25 * np.pi, rel=1e-3)
+    apart = np.minimum(np.hypot(axis - 1, axis[:, None]), np.hypot(axis + 1, axis[:, None]))
+    two = region(axis, axis, apart, -np.inf, 0.5)
     assert np.isnan(two[0]).sum() == 1
 
 
+def named(view) -> dict[str, Text]:
+    """The words of a view on axes of 700 x 500 pixels, with those that its contours get."""
+    return {mark.key: mark for mark in outlined(view, np.array([700, 500])) if isinstance(mark, Text) and mark.said}
+
+
 def test_the_contours_of_the_area_have_their_values() -> None:
-    a = UniversalJointShaft().analyse()
-    _, (ax,) = drawn(a, diameters)
-    told = [t for t in ax.texts if (t.get_gid() or "").startswith("objective") and t.get_text()]
+    told = [t for key, t in named(sizes(UniversalJointShaft().analyse())).items() if key.startswith("objective")]
     assert len(told) > 4
     for label in told:
-        D, d = label.get_position()
-        assert np.pi * (D**2 - d**2) / 4 == pytest.approx(float(label.get_text()), rel=1e-3)
+        assert np.pi * (label.x**2 - label.y**2) / 4 == pytest.approx(float(label.words), rel=1e-3)
 
 
 def test_the_marks_of_the_plane() -> None:
-    a = UniversalJointShaft().analyse()
-    _, (ax,) = drawn(a, diameters)
+    view = sizes(UniversalJointShaft().analyse())
     best = lightest_shaft()
     corner = [[best.outer_diameter / mm], [best.inner_diameter / mm]]
-    assert xy(ax, "best") == pytest.approx(np.array(corner), rel=1e-7)
-    assert xy(ax, "closed form") == pytest.approx(np.array(corner), rel=1e-12)
-    assert xy(ax, "this tube") == pytest.approx(np.array([[128.64], [101.78]]))
-    assert _find(ax, "this tube").get_markerfacecolor() != WARNING
-    assert xy(ax, "EN 10210-2").shape == (2, 75)
-    told = {t.get_gid(): t.get_text() for t in ax.texts}
-    assert told["limit 1 name"] == "twist 1 deg/m"
-    assert told["kept"] == "kept all over: critical speed 1500 rpm"
-    assert told["nothing"] == ""
-    diameters(OTHERS[1].analyse(), ax)
-    assert _find(ax, "this tube").get_markerfacecolor() == WARNING
-    assert _find(ax, "nothing").get_text() == "nothing within the bounds\nkeeps every limit"
-    assert np.isnan(xy(ax, "best")).all()
+    for key, at, rel in (
+        ("best", corner, 1e-7),
+        ("closed form", corner, 1e-12),
+        ("here", [[128.64], [101.78]], 1e-9),
+    ):
+        assert np.array([view[key].x, view[key].y]) == pytest.approx(np.array(at), rel=rel)
+    assert np.isnan(view["here, missing"].x).all()
+    assert len(view["EN 10210-2"].x) == 75
+    assert named(view)["limit 1 name 0"].words == "twist 1 deg/m"
+    assert [mark.label for mark in view.marks if "kept" in mark.label] == ["critical speed 1500 rpm: kept"]
+    assert view["nothing"].words == ""
+    view = sizes(OTHERS[1].analyse())
+    assert np.isnan(view["here"].x).all()
+    assert np.isfinite(view["here, missing"].x).all()
+    assert view["here, missing"].role == "trouble"
+    assert view["nothing"].words == "nothing within the bounds\nkeeps every limit"
+    assert np.isnan(view["best"].x).all()
+
+
+def test_what_lies_beyond_the_bounds_is_veiled() -> None:
+    veil = sizes(UniversalJointShaft().analyse())["beyond"]
+    points = np.transpose([veil.x, veil.y])
+    outer, inner = (Path(part) for part in np.split(points[np.isfinite(points).all(1)], [5]))
+    x = np.random.default_rng(3).uniform([104, 84], [150, 124], (500, 2))
+    inside = ((x >= [108, 87]) & (x <= [140, 103])).all(1)
+    assert outer.contains_points(x).all()
+    assert (inner.contains_points(x) == inside).all()
 
 
 def test_the_names_of_limits_keep_apart() -> None:
     for shaft in (UniversalJointShaft(), OTHERS[0], UniversalJointShaft(length=3.3, power=150 * kW)):
-        figure, (ax, *_) = drawn(shaft.analyse(), *SHAFT_VIEWS)
+        figure, (ax, *_) = drawn(shaft.analyse(), sizes, utilisation, section)
         figure.canvas.draw()
-        names = [t for t in ax.texts if (t.get_gid() or "").endswith("name") and t.get_text()]
-        boxes = [t.get_window_extent() for t in names]
+        boxes = [t.get_window_extent() for t in ax.texts if " name " in t.get_gid()]
+        assert len(boxes) > 4
         assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
 
 
@@ -159,42 +199,46 @@ def test_the_bars_are_the_utilisations() -> None:
     shown = utilisation(a)
     for name, use in a.utilisation.items():
         assert shown[name].x[1] == pytest.approx(100 * use)
-        assert shown[f"{name} value"].words == f"{100 * use:.1f} %"
+        assert np.isnan(shown[f"{name}, missed"].x).all()
+        assert shown[f"{name} value"].said == f"{100 * use:.1f} %"
     shown = utilisation(OTHERS[0].analyse())
-    assert shown["twist"].x[1] == 125
-    assert shown["twist"].role == "trouble"
-    assert shown["critical speed"].role != "trouble"
+    assert shown["twist, missed"].x[1] == 125
+    assert shown["twist, missed"].role == "trouble"
+    assert np.isnan(shown["twist"].x).all()
+    assert np.isfinite(shown["critical speed"].x).all()
 
 
 def test_the_section_is_to_scale() -> None:
     a = UniversalJointShaft().analyse()
     shown = section(a)
-    assert shown["outside"].radius == pytest.approx(128.64 / 2)
-    assert shown["inside"].radius == pytest.approx(101.78 / 2)
+    for key, diameter in (("outside", 128.64), ("inside", 101.78)):
+        assert np.hypot(shown[key].x, shown[key].y) == pytest.approx(diameter / 2)
     assert shown.axes.equal
-    for series, tube in a.sizes.nearest(a.shaft).items():
-        radius = np.hypot(shown[series].x, shown[series].y)
-        assert np.nanmax(radius) == pytest.approx(tube.outer_diameter / mm / 2)
-        assert np.nanmin(radius) == pytest.approx(tube.inner_diameter / mm / 2)
-    assert shown["GB/T 17395"].label == "nearest GB/T 17395: 133 × 16 mm"
+    assert shown["sizes"].said == "D = 128.64 mm\nd = 101.78 mm\nwall 13.43 mm"
+    for name, ring in list(a.rings.items())[1:]:
+        radius = np.hypot(shown[name].x, shown[name].y)
+        assert np.nanmax(radius) == pytest.approx(ring[0] / mm / 2)
+        assert np.nanmin(radius) == pytest.approx(ring[1] / mm / 2)
+    assert shown["nearest GB/T 17395"].label == "nearest GB/T 17395: 133 × 16 mm"
     assert section(OTHERS[2].analyse()).axes.xlim[1] > 130
-    none = section(UniversalJointShaft(max_speed=5000 * rpm, length=5.0).analyse())["GB/T 17395"]
-    assert none.label == "no GB/T 17395 tube keeps every limit"
+    none = section(UniversalJointShaft(max_speed=5000 * rpm, length=5.0).analyse())["nearest GB/T 17395"]
+    assert none.label == "nearest GB/T 17395: none"
     assert np.isnan([none.x, none.y]).all()
 
 
 def test_named_tubes_on_a_part_of_the_plane() -> None:
-    view = on_the_plane(printed_designs(), [[125 * mm, 95 * mm], [133 * mm, 105 * mm]])
-    _, (ax,) = drawn(UniversalJointShaft().analyse(), view)
-    assert ax.get_xlim() == pytest.approx((125, 133))
-    assert xy(ax, "genetic algorithm").ravel().tolist() == pytest.approx([129, 101])
+    found = UniversalJointShaft().analyse().sizes
+    part = replace(found.plane, window=[[125 * mm, 95 * mm], [133 * mm, 105 * mm]])
+    shown = designs_on_plane(printed_designs(), found.limit_names)(part)
+    assert shown.axes.xlim == pytest.approx((125, 133))
+    assert (shown["genetic algorithm"].x, shown["genetic algorithm"].y) == pytest.approx((129, 101))
 
 
 def test_a_plane_of_another_study() -> None:
     study = tension_spring.study.replace(free={"coil": (0.25, 1.3), "turns": (2.0, 15.0)})
-    _, (ax,) = drawn(DesignMap(study), design_plane)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("coil D  []", "turns N  []")
-    assert {t.get_text() for t in ax.texts} >= {"deflection", "surge"}
+    shown = design_plane(DesignMap(study))
+    assert (shown.axes.xlabel, shown.axes.ylabel) == ("coil  D", "turns  N")
+    assert {t.words for t in named(shown).values()} >= {"deflection", "surge"}
 
 
 def test_the_pins_of_a_cross_stand_square_and_turn_as_computed() -> None:
@@ -248,7 +292,7 @@ def test_boxes_of_trials() -> None:
     for i, one in enumerate(some):
         needed = one.to(0.01)
         assert sorted(xy(ax, f"runs {i} 0.01")[0]) == sorted(needed[np.isfinite(needed)])
-        assert _find(ax, f"arrived {i} 0.01").get_text() == f"{np.isfinite(needed).sum()} of 30"
+        assert artist_of(ax, f"arrived {i} 0.01").get_text() == f"{np.isfinite(needed).sum()} of 30"
         half = xy(ax, f"median {i} 0.01")[0]
         assert half.tolist() == ([one.median(0.01)] * 2 if np.isfinite(one.median(0.01)) else [])
 
@@ -267,4 +311,4 @@ def test_the_share_of_runs_that_arrived() -> None:
 
 def test_a_picture_of_the_shaft_is_a_small_file() -> None:
     shaft = UniversalJointShaft(elastic_modulus=210 * GPa, max_speed=900 * rpm)
-    assert 20_000 < len(picture(shaft, *SHAFT_VIEWS)._repr_png_()) < 90_000
+    assert 20_000 < len(picture(shaft)._repr_png_()) < 90_000

@@ -14,7 +14,7 @@ from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import VALVE_MEASURES, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
-from camkit.render.artists import BLUE, WARNING, _find, moving
+from camkit.render.draw import artist_of, colour, moving
 from camkit.render.picture import draw, layout
 from camkit.units import deg, mm, rpm
 from camkit.views.front import ShownFront
@@ -48,7 +48,7 @@ def drawn(cam, *views, **position):
 
 
 def xy(ax, key):
-    return np.array(_find(ax, key).get_data(), dtype=float)
+    return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
 def data_of(ax):
@@ -142,13 +142,16 @@ def test_the_dot_on_the_lift_follows_the_cam():
 
 
 def test_the_least_radius_is_marked_and_warned_of():
-    for cam, colour in ((ValveCam(n=20, m=20), WARNING), (ValveCam(n=20, m=20, base_radius=25 * mm), BLUE)):
+    for cam, tint in (
+        (ValveCam(n=20, m=20), colour("trouble")),
+        (ValveCam(n=20, m=20, base_radius=25 * mm), colour("position")),
+    ):
         ax = drawn(cam, radius_of_curvature)
-        dot, flat = _find(ax, "least"), xy(ax, "flat")
+        dot, flat = artist_of(ax, "least"), xy(ax, "flat")
         ((x,), (y,)) = dot.get_data()
         assert_allclose((x, y), (12.571, 1.159 + cam.base_radius / mm - 21), atol=2e-3)
         assert_allclose(flat[1].min(), y, atol=0.02)
-        assert dot.get_color() == colour
+        assert dot.get_color() == tint
     assert_allclose(xy(ax, "limit")[1], 4.5)
 
 

@@ -14,7 +14,7 @@ from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.panels.kit import picture as live
 from camkit.panels.tolerances import MOVING, SETTLED, general_tolerances, tolerance_panel
 from camkit.quantities import Design, Quantity, quantity
-from camkit.render.artists import _find
+from camkit.render.draw import artist_of
 from camkit.study.tolerances import AnalysisCurve, Indices, Tolerances, general_tolerance
 from camkit.views import pressure_angle
 from camkit.views.front import shown_objectives
@@ -293,41 +293,41 @@ def test_the_views_show_the_numbers(study):
     curve = CURVES[0]
     ax, bars, drawn, off = picture(made, cloud(front), sobol_bars, band(curve), deviation(curve)).axes
     kept = made.evaluation.feasible
-    x, y = np.hstack([_find(ax, "kept").get_xydata().T, _find(ax, "missed").get_xydata().T])
+    x, y = np.hstack([artist_of(ax, "kept").get_xydata().T, artist_of(ax, "missed").get_xydata().T])
     assert_allclose(np.sort(x), np.sort(made.evaluation.f[:, 0]))
     assert_allclose(np.sort(y), np.sort(-made.evaluation.f[:, 1] / mm))
-    assert len(_find(ax, "missed").get_xydata()) == (~kept).sum() > 0
-    assert_array_equal(_find(ax, "front").get_xydata().T, shown_objectives(front))
+    assert len(artist_of(ax, "missed").get_xydata()) == (~kept).sum() > 0
+    assert_array_equal(artist_of(ax, "front").get_xydata().T, shown_objectives(front))
     assert ax.get_title(loc="left").startswith(f"{100 * made.share:.1f} % of parts keep all limits")
 
     shares = made.indices.first[0]
-    ends = [_find(bars, f"{name} 0").get_xdata()[-1] for name in LIFT]
+    ends = [artist_of(bars, f"{name} 0").get_xdata()[-1] for name in LIFT]
     assert_allclose(ends, 100 * np.cumsum(shares), atol=0.5)
-    assert_allclose(_find(bars, "together 0").get_xdata()[-1:] if shares.sum() < 1 else 100, 100)
+    assert_allclose(artist_of(bars, "together 0").get_xdata()[-1:] if shares.sum() < 1 else 100, 100)
 
     low, _, _, high = made.band(curve) / deg
-    outline = _find(drawn, "most").get_xy()
+    outline = artist_of(drawn, "most").get_xy()
     assert_allclose([outline[:, 1].min(), outline[:, 1].max()], [low.min(), high.max()])
     nominal = made.nominal.lift.pressure_angle / deg
-    assert_allclose(_find(off, "most").get_xy()[:361, 1], low - nominal, atol=1e-9)
+    assert_allclose(artist_of(off, "most").get_xy()[:361, 1], low - nominal, atol=1e-9)
     assert drawn.get_xlabel() == "cam angle  [deg]"
-    assert _find(drawn, "limit 0").get_ydata() == pytest.approx([44, 44])
-    assert _find(off, "limit 0") is None
+    assert artist_of(drawn, "limit 0").get_ydata() == pytest.approx([44, 44])
+    assert artist_of(off, "limit 0") is None
 
 
 def test_a_study_with_one_objective_shows_how_its_parts_are_distributed():
     made = Tolerances(a_study(total, at_most={total: 0.0}), {"x": 1.0}, parts=64)
     (ax,) = picture(made, cloud()).axes
-    points = np.vstack([_find(ax, "kept").get_xydata(), _find(ax, "missed").get_xydata()])
+    points = np.vstack([artist_of(ax, "kept").get_xydata(), artist_of(ax, "missed").get_xydata()])
     assert_allclose(np.diff(points[np.argsort(points[:, 0]), 1]), 100 / 64)
-    assert_allclose(_find(ax, "drawn").get_xydata(), [[0, 50]])
+    assert_allclose(artist_of(ax, "drawn").get_xydata(), [[0, 50]])
 
 
 def test_a_measure_that_does_not_vary_says_so():
     made = Tolerances(a_study(constant, total), {"x": 1.0}, parts=64)
     (ax,) = picture(made, sobol_bars).axes
-    assert [_find(ax, f"still {i}").get_text() for i in range(2)] == ["does not vary", ""]
-    assert len(_find(ax, "x 0").get_xdata()) == 0
+    assert [artist_of(ax, f"still {i}").get_text() for i in range(2)] == ["does not vary", ""]
+    assert len(artist_of(ax, "x 0").get_xdata()) == 0
 
 
 # ---------------------------------------------------------------- the panel
@@ -404,9 +404,9 @@ def test_what_cannot_be_made_is_said_in_place_of_the_picture(panel, typed, sente
 def test_a_tolerance_of_0_leaves_its_bar_out_and_comes_back(panel):
     panel.knobs["lift_arm"].box.value = 0.0
     assert panel.tolerances.names == ("lift_start_angle", "lift_centre_distance")
-    assert len(_find(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 0
+    assert len(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 0
     panel.knobs["lift_arm"].box.value = 2.0
-    assert len(_find(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 2
+    assert len(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 2
 
 
 def test_the_front_of_a_search_is_shown_when_it_changes(study):
@@ -424,7 +424,7 @@ def test_the_front_of_a_search_is_shown_when_it_changes(study):
     finder.front = nsga2(study, 12, 4, 1)
     finder.act()
     shown.settle()
-    assert_array_equal(_find(shown.picture.axes[0], "front").get_xydata().T, shown_objectives(finder.front))
+    assert_array_equal(artist_of(shown.picture.axes[0], "front").get_xydata().T, shown_objectives(finder.front))
 
 
 def test_everything_can_be_tried_and_read_without_a_kernel(panel):

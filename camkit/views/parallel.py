@@ -8,9 +8,8 @@ from textwrap import fill
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from .artists import BLUE, GREY, INK, PALE, SKY, area, line, new, text
+from .picture import Axes, Line, Mark, Picture, Polygon, Text
 
 
 @dataclass(frozen=True)
@@ -36,8 +35,8 @@ class Designs:
     values: np.ndarray
     bands: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     """Least and largest value to keep, by column."""
-    marked: Mapping[int, str] = field(default_factory=dict)
-    """Colours of some designs."""
+    marked: Mapping[int, int] = field(default_factory=dict)
+    """Some designs that stand out, with their places in the series."""
     selected: int | None = None
 
     @property
@@ -73,30 +72,27 @@ class Designs:
         return int(np.argmin(np.where(self.kept, abs(along - y), np.inf)))
 
 
-MOST_MARKED = 4
 LETTERS = 105
 """So many letters have room beside each other above the axes."""
 BAND = 0.11
 """Half of a band's width, where the axes are 1 apart."""
 
 
-def parallel_coordinates(shown: Designs, ax: Axes) -> Axes:
+def parallel_coordinates(shown: Designs) -> Picture:
     """A line for each design; what is outside a band is pale, winners stand out, the design in the sliders is dark."""
-    first, heights, kept = new(ax), shown.height(shown.values), shown.kept
-    line(ax, "left out", *_lines(heights[~kept]), color=PALE, linewidth=0.9, zorder=1)
-    line(ax, "kept", *_lines(heights[kept]), color=BLUE, linewidth=0.9, alpha=0.45, zorder=2)
-    for j in range(len(shown.columns)):
-        _axis(shown, ax, j)
-    marked = [*shown.marked.items(), *[(-1, INK)] * MOST_MARKED][:MOST_MARKED]
-    for i, (design, colour) in enumerate(marked):
-        chosen = heights[design : design + 1] if design >= 0 else heights[:0]
-        line(ax, f"marked {i}", *_lines(chosen), color=colour, linewidth=3, zorder=4).set_color(colour)
-    chosen = heights[:0] if shown.selected is None else heights[shown.selected : shown.selected + 1]
-    line(ax, "in the sliders", *_lines(chosen), color=INK, linewidth=1.6, linestyle=(0, (4, 2)), zorder=5)
-    if first:
-        ax.set(xlim=(-0.45, len(shown.columns) - 0.55), ylim=(-0.13, 1.44))
-        ax.set_axis_off()
-    return ax
+    heights, kept = shown.height(shown.values), shown.kept
+    chosen = [] if shown.selected is None else [shown.selected]
+    return Picture.of(
+        Axes(bare=True, xlim=(-0.45, len(shown.columns) - 0.55), ylim=(-0.13, 1.44)),
+        Line("left out", *_lines(heights[~kept]), role="ghost", stroke="thin", opacity=0.5),
+        Line("kept", *_lines(heights[kept]), role="position", stroke="thin", opacity=0.45),
+        [mark for j in range(len(shown.columns)) for mark in _axis(shown, j)],
+        [
+            Line(f"marked {design}", *_lines(heights[[design]]), role="series", index=index, stroke="bold")
+            for design, index in shown.marked.items()
+        ],
+        Line("in the sliders", *_lines(heights[chosen]), stroke="dashed"),
+    )
 
 
 def _lines(heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -106,18 +102,19 @@ def _lines(heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.tile(across, p), np.column_stack([heights, np.full(p, np.nan)]).ravel()
 
 
-def _axis(shown: Designs, ax: Axes, j: int) -> None:
+def _axis(shown: Designs, j: int) -> list[Mark]:
     """An upright axis with its name, its ends and its band."""
-    line(ax, f"axis {j}", [j, j], [0, 1], color=GREY, linewidth=1.2, zorder=3)
-    label = shown.columns[j].label(LETTERS // len(shown.columns))
-    text(ax, f"name {j}", j, 1.13, label, ha="center", va="bottom", color=INK, fontsize=9.5)
     low, high = shown.ends[:, j]
-    ends: Any = {"ha": "center", "color": INK, "fontsize": 9.5, "zorder": 6}
-    text(ax, f"low {j}", j, -0.03, f"{low:.4g}", va="top", **ends)
-    text(ax, f"high {j}", j, 1.03, f"{high:.4g}" if high > low else "", va="bottom", **ends)
-    x, y = [j - BAND, j + BAND, j + BAND, j - BAND], np.full(4, np.nan)
+    label = shown.columns[j].label(LETTERS // len(shown.columns))
+    marks: list[Mark] = [
+        Line(f"axis {j}", [j, j], [0, 1], role="guide"),
+        Text(f"name {j}", j, 1.13, label, anchor="bottom", size=9.5),
+        Text(f"low {j}", j, -0.03, f"{low:.4g}", anchor="top", size=9.5),
+        Text(f"high {j}", j, 1.03, f"{high:.4g}" if high > low else "", anchor="bottom", size=9.5),
+    ]
     if j in shown.bands:
         span = (high - low) or 1.0
         bottom, top = (np.clip((value - low) / span, 0, 1) for value in shown.bands[j])
-        y = np.array([bottom, bottom, top, top])
-    area(ax, f"band {j}", (x, y), facecolor=SKY, alpha=0.45, edgecolor=BLUE, linewidth=1.5, zorder=3)
+        x, y = [j - BAND, j + BAND, j + BAND, j - BAND], [bottom, bottom, top, top]
+        marks.append(Polygon(f"band {j}", x, y, role="flank", opacity=0.45, edged=True))
+    return marks
