@@ -54,6 +54,17 @@ class Disc(Body):
         return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
 
 
+def end_to_end(*stretches: Any) -> Any:
+    """Arrays one behind the other along their last axis, also where only some have a population axis.
+
+    >>> end_to_end(np.array([1.0, 2.0]), np.array([[3.0], [4.0]]))
+    array([[1., 2., 3.],
+           [1., 2., 4.]])
+    """
+    lead = np.broadcast_shapes(*(values.shape[:-1] for values in stretches))
+    return np.concatenate([np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches], axis=-1)
+
+
 def rotated(points: Any, angle: Any) -> np.ndarray:
     """``points`` turned counter-clockwise by ``angle`` (rad; one angle or one per point).
 

@@ -264,7 +264,7 @@ def test_peaks_of_a_high_speed_cam(law):
     few = cam.analyse(5)
     expected = {
         high_speed_study.max_pressure_angle: [abs(part.pressure_angle).max() for part in (rise, fall)],
-        high_speed_study.peak_force: [part.normal_force.max() for part in (rise, fall)],
+        high_speed_study.peak_force: [part.contact_force.max() for part in (rise, fall)],
         high_speed_study.peak_torque: [abs(part.cam_torque).max() for part in (rise, fall)],
         high_speed_study.peak_stress: [np.nanmax(part.stress_coefficient) / mm**0.5 for part in (rise, fall)],
         high_speed_study.peak_wear: [np.nanmax(part.wear_coefficient) / mm**0.5 for part in (rise, fall)],

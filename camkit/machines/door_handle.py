@@ -32,7 +32,7 @@ from ..cam.measures import (
 )
 from ..cam.oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
 from ..decision import Judgements
-from ..geometry import Body, angle_opposite, rotated
+from ..geometry import Body, angle_opposite, end_to_end, rotated
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
 from ..quantities.kinds import listed, refuse_arguments
@@ -188,7 +188,7 @@ class DoorHandleCam(Design):
         k = counted(n, "handle angles", least=6) // 3
         before = np.linspace(0, 1, k) * self.relief_cam_angle * (1 - 1e-9)
         after = self.relief_cam_angle + np.linspace(0, 1, n - k) * self.lift_cam_angle
-        return _behind(before, after), k
+        return end_to_end(before, after), k
 
 
 @dataclass(frozen=True)
@@ -256,9 +256,8 @@ class DoorHandleAnalysis:
 
         The transition arc is what the relief roller runs over while its crank dwells.
         """
-        return _behind(
-            self.from_relief(getattr(self.relief, name)), getattr(self.lift, name)[..., self.k :], points=True
-        )
+        both = self.from_relief(getattr(self.relief, name)), getattr(self.lift, name)[..., self.k :]
+        return np.stack([end_to_end(relief, lift) for relief, lift in zip(*both, strict=True)])
 
     @cached_property
     def stretch(self) -> np.ndarray:
@@ -269,7 +268,7 @@ class DoorHandleAnalysis:
     @property
     def profile_angle(self) -> np.ndarray:
         """The handle angle at which a roller touches each point of the groove, rad."""
-        return _behind(self.cam_angle, self.cam_angle[..., self.k :])
+        return end_to_end(self.cam_angle, self.cam_angle[..., self.k :])
 
     @cached_property
     def pitch(self) -> np.ndarray:
@@ -298,7 +297,7 @@ class DoorHandleAnalysis:
         return np.where(np.isinf(self.lift.sharpest(1).value), np.inf, most)[()]
 
     def _along(self, name: str) -> np.ndarray:
-        return _behind(getattr(self.relief, name), getattr(self.lift, name)[..., self.k :])
+        return end_to_end(getattr(self.relief, name), getattr(self.lift, name)[..., self.k :])
 
     @cached_property
     def curvature(self) -> np.ndarray:
@@ -332,14 +331,6 @@ class DoorHandleAnalysis:
 
 def _curvature(curve: OscillatingRollerAnalysis) -> np.ndarray:
     return curve.curvature
-
-
-def _behind(first: np.ndarray, second: np.ndarray, points: bool = False) -> np.ndarray:
-    """Two stretches in one array, also where only one of them has a population axis."""
-    if points:
-        return np.stack([_behind(a, b) for a, b in zip(first, second, strict=True)])
-    lead = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
-    return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in (first, second)], axis=-1)
 
 
 PAPER_JUDGEMENTS = Judgements(("pressure angle", "contact force", "cam torque"), (5, 5, 1))

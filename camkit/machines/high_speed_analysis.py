@@ -73,11 +73,6 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         preload = getattr(self.cam.load, "preload", None)
         return preload(self.cam.swing, self._rate) if preload else 0.0
 
-    @property
-    def normal_force(self) -> np.ndarray:
-        """``N = M / (l cos theta)`` between cam and roller, N; < 0 where the roller would lift off."""
-        return self.contact_force
-
     @cached_property
     def margin(self) -> np.ndarray:
         """``q = 1 - r kappa``: 0 or less where the roller undercuts the profile."""
@@ -92,7 +87,7 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     def ease(self) -> np.ndarray:
         """``r q / N = 1 / F_sigma^2``, m/N: smooth where ``F_sigma`` has a pole; ``nan`` without contact."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            touching = np.where(self.normal_force >= -self.rounding, abs(self.normal_force), np.nan)
+            touching = np.where(self.contact_force >= -self.rounding, abs(self.contact_force), np.nan)
             return self.cam.roller_radius * self.margin / touching
 
     @cached_property
@@ -103,12 +98,12 @@ class HighSpeedContact(OscillatingRollerAnalysis):
     @cached_property
     def wear_coefficient(self) -> np.ndarray:
         """``F_wear = N F_sigma``, N^1.5 mm^-0.5."""
-        return self.normal_force * self.stress_coefficient
+        return self.contact_force * self.stress_coefficient
 
     @cached_property
     def hertz_pressure(self) -> np.ndarray:
         """``p_0 = sqrt(N E* / (pi b rho_pr))``: largest pressure between cam and roller, Pa."""
-        return self._pressure(self.normal_force, 1 / self.reduced_radius)
+        return self._pressure(self.contact_force, 1 / self.reduced_radius)
 
     def _pressure(self, force: Any, curvature: Any) -> np.ndarray:
         pair = self.cam.contact
@@ -264,7 +259,7 @@ class HighSpeedAnalysis(HighSpeedContact):
     @cached_property
     def rounding(self) -> Any:
         """A force that is rounding, N."""
-        return 1e-9 * abs(self.moving.resolved.normal_force).max(-1, keepdims=True)
+        return 1e-9 * abs(self.moving.resolved.contact_force).max(-1, keepdims=True)
 
     @cached_property
     def resolution(self) -> Resolution:
@@ -276,11 +271,6 @@ class HighSpeedAnalysis(HighSpeedContact):
     def moving_angle(self) -> np.ndarray:
         """The cam angles of rise and fall that show their peaks, rad."""
         return self.moving.cam_angle
-
-    @property
-    def start_angle(self) -> Any:
-        """``psi_0``: the arm from the line of centres at its near dwell, rad."""
-        return number(self.cam.start_angle)
 
     @property
     def min_radius(self) -> Any:
@@ -356,11 +346,6 @@ class HighSpeedAnalysis(HighSpeedContact):
         return self._pressure(1.0, self.stress**2)
 
     @property
-    def is_undercut(self) -> Any:
-        """Whether the roller undercuts the profile."""
-        return self.undercut_margin <= 0
-
-    @property
     def _pulled(self) -> Any:
         """Whether the roller would have to be pulled somewhere, ``N < 0``: ``(..., 1)``."""
         return (self.forces < -self.rounding).any(-1, keepdims=True)
@@ -399,7 +384,7 @@ class HighSpeedAnalysis(HighSpeedContact):
     def flags(self) -> dict[str, Any]:
         """What is wrong with the cam, in words, and whether it is."""
         return {
-            "the roller undercuts the profile": self.is_undercut,
+            "the roller undercuts the profile": self.undercut_margin <= 0,
             "the roller loses contact": self.loses_contact,
             "the arm passes its start": self.passes_start,
             "the arm passes its end": self.passes_end,

@@ -20,7 +20,7 @@ import numpy as np
 from ..cam.directions import ROTATIONS
 from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
-from ..geometry import angle_opposite
+from ..geometry import angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
@@ -29,12 +29,6 @@ from .high_speed_load import ConstantTorque, InertialSpringLoad
 
 HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
-
-
-def joined(*stretches: Any) -> Any:
-    """Arrays of angles, one behind the other, also where only some have a population axis."""
-    lead = np.broadcast_shapes(*(values.shape[:-1] for values in stretches))
-    return np.concatenate([np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches], axis=-1)
 
 
 @dataclass(frozen=True)
@@ -162,7 +156,7 @@ class HighSpeedCam(FreeLawCam):
         share, dwell = np.linspace(0, 1 - HAIR, n), np.linspace(0, 1, n // 4 + 2) * self.dwell_angle
         rise, far = share * self.rise_angle, self.rise_angle + dwell
         fall, near = far[..., -1:] + share * self.return_angle, 2 * np.pi - self.dwell_angle + dwell
-        return joined(rise, far[..., :-1], fall, near), rise, fall
+        return end_to_end(rise, far[..., :-1], fall, near), rise, fall
 
     def analyse(self, n: int = 401) -> HighSpeedAnalysis:
         """Geometry and forces at ``n`` even cam angles of either interval, and some of the dwells."""

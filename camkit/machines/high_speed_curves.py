@@ -32,7 +32,7 @@ def tightness(part: Any) -> Any:
 
 def pull(part: Any) -> Any:
     """The force with which the roller would have to be pulled, N."""
-    return -part.normal_force
+    return -part.contact_force
 
 
 def strain(part: Any) -> Any:
@@ -43,7 +43,7 @@ def strain(part: Any) -> Any:
 def attrition(part: Any) -> Any:
     """``-1 / F_wear^2``."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return -part.ease / part.normal_force**2
+        return -part.ease / part.contact_force**2
 
 
 def before(part: Any) -> Any:

@@ -24,7 +24,7 @@ def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
     return PeakMeasure(name, unit, curve, angle=lambda a: a.moving_angle)
 
 
-_force = attrgetter("normal_force")
+_force = attrgetter("contact_force")
 
 
 def _steepness(part: Any) -> Any:

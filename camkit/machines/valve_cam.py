@@ -12,7 +12,7 @@ Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 11
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,7 +20,7 @@ import numpy as np
 from ..cam.force_closure import ContactPair
 from ..cam.slide import SlideFriction
 from ..motion import MotionProgram, Return, Rise
-from ..quantities import Design, Quantity, choice, counted, declarations, fails, quantity
+from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import one_number
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
@@ -87,6 +87,7 @@ class ValveCam(Design):
                 f"the base radius is {self.base_radius / mm:.4g} mm and the ramp {self.ramp_height / mm:.4g} mm high; "
                 "the base circle must keep some radius"
             )
+        self.keep(self._exponents_differ & self._fits_the_turn & (self.base_radius > self.ramp_height))
 
     @property
     def _exponents(self) -> tuple[Any, ...]:
@@ -101,14 +102,6 @@ class ValveCam(Design):
     @property
     def _fits_the_turn(self) -> Any:
         return self.half_angle + self.ramp_angle <= np.pi * (1 + 1e-12)
-
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the design can be built, one answer or ``(p, 1)``."""
-        numbers = {k: q for k, q in declarations(self).items() if isinstance(q, Quantity)}
-        allowed = [declared.allows(getattr(self, name)) for name, declared in numbers.items()]
-        whole = [self._exponents_differ, self._fits_the_turn, self.base_radius > self.ramp_height]
-        return reduce(np.logical_and, [*allowed, *whole])
 
     @property
     def seating_slope(self) -> Any:
@@ -126,7 +119,7 @@ class ValveCam(Design):
         """The lift's polynomial, for a lift of 1; ``nan`` where a member of a population cannot be built."""
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = self.seating_slope * self.half_angle / self.max_lift
-        return Flank.of(self._exponents, np.where(self.buildable, slope, np.nan)[()])
+        return Flank.of(self._exponents, slope)
 
     @cached_property
     def motion(self) -> MotionProgram:
@@ -134,9 +127,9 @@ class ValveCam(Design):
 
         The ramps and the base circle have negative lift.
         """
-        aside, height = np.pi - self.half_angle, np.where(self.buildable, self.ramp_height, np.nan)[()]
+        aside, height = np.pi - self.half_angle, self.ramp_height
         with np.errstate(divide="ignore", invalid="ignore"):
-            ramp = Ramp(np.where(self.buildable, self.ramp_angle / aside, np.nan)[()])
+            ramp = Ramp(self.ramp_angle / aside)
         return MotionProgram(
             (
                 *self.opening.segments,

@@ -105,7 +105,7 @@ def _peak(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
 
 def _why_none(part: Any) -> str:
     """Why a stress is missing somewhere in an interval."""
-    if not np.isfinite(part.normal_force).all():  # no spring follows an arm that passes its start
+    if not np.isfinite(part.contact_force).all():  # no spring follows an arm that passes its start
         return "arm passes\nits start"
     return "undercut\n" if part.undercut.any() else "loses\ncontact"
 
