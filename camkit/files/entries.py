@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -21,7 +21,7 @@ from ..quantities import Choice, Design, Quantity, declarations, declared_in, un
 from ..quantities.kinds import kind_words
 from ..units import factor, in_unit
 from .json_file import shown
-from .renamed import Given, Renaming, is_earlier
+from .renamed import Given, Renaming, fields_renamed, is_earlier
 
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
@@ -144,7 +144,11 @@ class Reading:
             return entry
         kind = self._kind(entry, hint)
         inner = {k: v for k, v in entry.items() if k != "kind"}
-        given = self.renaming.entries(kind.__name__ if is_earlier(kind.__name__, inner) else "", inner)
+        where = kind.__name__ if is_earlier(kind.__name__, inner) else ""
+        given = self.renaming.entries(where, inner)
+        for before, today in fields_renamed(where).items():
+            if not any(now in given or _says(entry, now) for now in today):
+                self.missing.append(f"{before!r} of the {kind_words(kind)}")
         deeper = {k: g for k, g in given.items() if g.name != k and "." in k.partition(" [")[0]}
         _refuse_both(entry, deeper)
         values = self._fields(kind, {k: g for k, g in given.items() if k not in deeper}, deeper)
@@ -256,17 +260,17 @@ def _unknown(name: str, kind: type) -> ValueError:
 def _refuse_both(entry: Mapping[str, Any], deeper: Mapping[str, Given]) -> None:
     """What stands both under an earlier name and, deeper in the file, where it stands today."""
     for path, given in deeper.items():
-        plain, bracket, unit = path.partition(" [")
-        *branches, last = plain.split(".")
-        if _says(entry, [*branches, last + bracket + unit]):
+        if _says(entry, path):
             raise ValueError(f"the file has {shown(given.name)} and {shown(path)}, which are one and the same")
 
 
-def _says(entry: Any, steps: Sequence[str]) -> bool:
-    """Whether a file says what stands at the end of ``steps``; of a program it says everything."""
-    if not steps or not isinstance(entry, dict):
-        return not steps
-    return "segments" in entry or (steps[0] in entry and _says(entry[steps[0]], steps[1:]))
+def _says(entry: Any, path: str) -> bool:
+    """Whether a file says what stands at ``path`` within ``entry``; of a program it says everything."""
+    if not isinstance(entry, dict) or "segments" in entry:
+        return isinstance(entry, dict)
+    plain, bracket, unit = path.partition(" [")
+    step, dot, below = plain.partition(".")
+    return step in entry and _says(entry[step], below + bracket + unit) if dot else path in entry
 
 
 def is_number(value: Any) -> bool:

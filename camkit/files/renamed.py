@@ -130,6 +130,16 @@ def is_earlier(where: str, entries: Iterable[str]) -> bool:
     return any((where, name) in RENAMED and not RENAMED[where, name].startswith(f"{name}.") for name in entries)
 
 
+def fields_renamed(where: str) -> dict[str, list[str]]:
+    """Earlier names of the fields of a class, each with those of today.
+
+    >>> fields_renamed("HighSpeedCam")["family"], fields_renamed("DoorHandleCam")["flap_torque [N m]"]
+    (['rise_law.family', 'return_law.family'], ['relief_load.torque [N m]'])
+    """
+    rows = ((before, now.split(", ")) for (there, before), now in RENAMED.items() if there == where)
+    return {before: [each.removeprefix("-") for each in several] for before, several in rows}
+
+
 def _parted(name: str) -> tuple[str, str]:
     """A name in a file without its unit, and the unit."""
     plain, _, unit = name.removesuffix("]").partition(" [")

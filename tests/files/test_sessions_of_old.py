@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import HighSpeedCam, TranslatingRollerCam
+from camkit import DoorHandleCam, HighSpeedCam, TranslatingRollerCam
 from camkit.files import Session, read_json, renamed, to_json
 from camkit.files.entries import kinds
 from camkit.files.json_file import UNMARKED
@@ -226,6 +226,18 @@ def test_a_free_quantity_of_old_comes_with_its_unit_and_sign():
     assert_allclose(session.study.free["lift_load.speed"], [np.deg2rad(50), np.deg2rad(120)])
     assert session.study.free["relief_load.torque"] == (-2.0, 0.0)
     assert_allclose(session.front.x[:, -2:], [[np.pi / 2, -0.5]] * len(session.front.x))
+
+
+@pytest.mark.parametrize(
+    ("lacking", "default"),
+    [(SPEED, "lift_load.speed"), ("friction", "friction.coefficient"), ("lift_arm [mm]", "lift_arm")],
+)
+def test_what_a_file_of_old_lacks_takes_the_default_of_today_with_a_remark(lacking, default):
+    content = json.loads(text("sessions_0.1.0", "door_handle_front"))
+    del content["work"]["design"][lacking]
+    found = read_json(json.dumps(content))
+    assert value_of(found.thing.design, default) == value_of(DoorHandleCam(), default)
+    assert any(f"lacks {lacking!r} of the door handle cam" in remark for remark in found.remarks)
 
 
 def test_a_limit_by_both_names_of_its_measure_is_refused(monkeypatch):
