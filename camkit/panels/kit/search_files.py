@@ -1,13 +1,12 @@
 """Searches that have not ended: a checkpoint each, and beside it the page that it belongs to.
 
-Whoever runs a search locks its page, so that no other kernel and no other panel writes the same checkpoint.  The
-system opens the lock when a kernel is killed.  Nothing is written or read through a link, and nothing is overwritten
+Whoever runs a search holds its lock, so that no other kernel and no other panel writes the same checkpoint; the lock of
+a kernel that was killed is open.  Nothing is written or read through a link, and nothing is overwritten
 that is not a search's own.
 """
 
 from __future__ import annotations
 
-import errno
 import os
 import stat
 import sys
@@ -16,48 +15,33 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from ...search.checkpoint import remove_parts
+from filelock import FileLock, Timeout
 
-if sys.platform == "win32":
-    import msvcrt
-else:
-    import fcntl
+from ...search.checkpoint import remove_parts
 
 FOLDER = Path(".camkit")
 """A folder beside the notebook that git does not see."""
 LONGEST = 2**20
 """Characters of a page."""
-TAKEN = (errno.EWOULDBLOCK, errno.EACCES, errno.EDEADLK)
-"""What the system says of a file that somebody else holds."""
-BEYOND = 2**30
-"""Windows keeps others from reading what is locked; so a byte is locked that no page has."""
 
 
 class Kept:
     """The files of one search, held until `release` or `remove`; ``OSError`` if somebody else holds them."""
 
-    def __init__(self, page: Path, mode: str = "r+") -> None:
+    def __init__(self, page: Path) -> None:
         self.page, self.checkpoint = page, page.with_suffix(".npz")
-        self._file = open(page, mode, encoding="utf-8", opener=_open_no_link)  # noqa: SIM115
+        self._lock = FileLock(
+            page.with_suffix(".lock"), timeout=0, thread_local=False
+        )  # the search's thread lets it go
         try:
-            self._lock()
-        except OSError as error:
-            self._file.close()
-            if error.errno in TAKEN:
-                raise OSError("the very same search runs already") from None
-            raise
-
-    def _lock(self) -> None:
-        if sys.platform == "win32":
-            self._file.seek(BEYOND)
-            msvcrt.locking(self._file.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            self._lock.acquire()
+        except Timeout:
+            raise OSError("the very same search runs already") from None
 
     def text(self) -> str:
         """What the page says; ``ValueError`` if it is no text or too long."""
-        self._file.seek(0)
-        text = self._file.read(LONGEST + 1)
+        with open(self.page, encoding="utf-8", opener=_open_no_link) as file:
+            text = file.read(LONGEST + 1)
         if len(text) > LONGEST:
             raise ValueError(f"the file {self.page.name} is longer than a page")
         return text
@@ -65,24 +49,23 @@ class Kept:
     def begin(self, text: str) -> None:
         """Keep another search from now on."""
         self.checkpoint.unlink(missing_ok=True)
-        self._file.truncate(0)
-        self._file.seek(0)
-        self._file.write(text)
-        self._file.flush()
+        with open(self.page, "w", encoding="utf-8", opener=_open_no_link) as file:
+            file.write(text)
 
     def release(self) -> None:
         """Leave the search to whoever resumes it."""
         with suppress(OSError):
-            self._file.close()
+            Path(self._lock.lock_file).unlink(missing_ok=True)  # while it is held, so that it is nobody else's
+        with suppress(OSError):
+            self._lock.release()
 
     def remove(self) -> None:
         """The search has ended."""
         remove_parts(self.checkpoint)
-        with suppress(OSError):
-            self.checkpoint.unlink(missing_ok=True)
-        self.release()  # Windows removes no file that is open
-        with suppress(OSError):
-            self.page.unlink(missing_ok=True)
+        for path in filter(_is_file, (self.checkpoint, self.page)):  # a link is not the search's own
+            with suppress(OSError):
+                path.unlink(missing_ok=True)
+        self.release()
 
 
 def _open_no_link(path: str, flags: int) -> int:
@@ -101,7 +84,7 @@ def keep(name: str, text: str) -> Kept:
     _check(folder)
     with suppress(FileExistsError), (folder / ".gitignore").open("x", encoding="utf-8") as ignored:
         ignored.write("*\n")
-    kept = Kept(folder / f"{name}.json", "a+")
+    kept = Kept(folder / f"{name}.json")
     try:
         kept.begin(text)
     except OSError:
@@ -118,7 +101,7 @@ def pending(kind: str) -> Kept | None:
         _sweep(folder)
         for checkpoint in sorted(folder.glob(f"{kind}-*.npz"), key=_written, reverse=True):
             kept = _held(checkpoint.with_suffix(".json"))
-            if kept and checkpoint.exists():  # else it has just ended
+            if kept and _is_file(checkpoint) and _is_file(kept.page):  # else it has just ended
                 return kept
             if kept:
                 kept.release()
@@ -151,11 +134,8 @@ def _sweep(folder: Path) -> None:
     """Remove what kernels that were killed have left half written: nobody holds its page."""
     for part in folder.glob(".*.npz.*.part"):
         checkpoint = folder / part.name[1:].rsplit(".", 2)[0]
-        page = checkpoint.with_suffix(".json")
-        kept = _held(page)
-        if kept or not page.exists():
+        if kept := _held(checkpoint.with_suffix(".json")):
             remove_parts(checkpoint)
-        if kept:
             kept.release()
 
 
@@ -165,6 +145,10 @@ def _held(page: Path) -> Kept | None:
         return Kept(page)
     except OSError:
         return None
+
+
+def _is_file(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink()
 
 
 def _written(path: Path) -> float:
