@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..quantities import Design, Measure, kinds
+from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
 from .checks import mapping
 from .entries import Reading, entry_of
@@ -35,15 +35,8 @@ class Read:
 def write(thing: Any, path: str | Path) -> None:
     """Write a design, a front or a `Session` to a JSON file; one that is there stays until the new one is whole."""
     text, path = to_json(thing), _path(path)
-    part = path.with_name(f".{path.name}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    except OSError as error:  # of the file that was asked for, not of the part that nobody knows
-        raise OSError(error.errno, error.strerror or str(error), str(path)) from None
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
+    remove_parts(path)
+    write_whole(path, text.encode())
 
 
 def _path(path: Any) -> Path:
@@ -101,7 +94,7 @@ def _content(thing: Any) -> dict[str, Any]:
     if isinstance(thing, Session):
         return {"session": session_entry(thing)}
     if isinstance(thing, Front):
-        return {"front": front_entry(thing)}
+        return {"front": front_entry(thing, thing.study)}
     raise ValueError(f"this is {kinds.shown(thing)}; a design, a front or a Session can be saved")
 
 

@@ -24,7 +24,7 @@ SETTINGS: dict[str, type] = {"population": int, "generations": int, "seed": int,
 COUNTS = {"population": (1, 100_000), "generations": (1, 1_000_000), "designs": (0, 10**12), "seed": (0, 10**12)}
 """What a file may say of a search."""
 
-STUDY = ("at_most", "at_least", "sums", "made", "angles")
+NEEDED = ("start", "free", "minimise")
 DEFAULTS: dict[str, Any] = {
     "at_most": {},
     "at_least": {},
@@ -39,10 +39,8 @@ DEFAULTS: dict[str, Any] = {
 """What a study is read with where its file says nothing."""
 QUIETLY = {"sums", "made", "record"}
 """Which of them are no matter for a remark: a file has them only where there is something to say."""
-HELD = {
-    "session": {"start", "free", "minimise", "design", "methods", "message", *DEFAULTS},
-    "front": {"start", "free", "minimise", "front", "record", "message", *STUDY},
-}
+SESSION = {"design", "judgements", "methods", "search"}
+"""What a front alone does not have."""
 
 
 @dataclass(frozen=True)
@@ -75,44 +73,33 @@ def empty_front(study: Study, message: str = "", record: Mapping[str, Any] | Non
 
 def session_entry(session: Session) -> dict[str, Any]:
     """A session as JSON knows it."""
-    front = session.front
+    judged = session.judgements.items()
     return {
-        **study_entry(session.study),
+        **front_entry(session.front, session.study),
         "design": entry_of(session.design),
-        "judgements": {name: _judgements_entry(judged) for name, judged in session.judgements.items()},
+        "judgements": {n: {"names": [*j.names], "above": [*j.above], "method": j.method} for n, j in judged},
         "search": {name: entry_of(value) for name, value in session.search.items()},
-        "front": rows(session.study, front.x),
-        "record": _record_entry(front.record),
-        "message": front.message,
     }
 
 
-def front_entry(front: Any) -> dict[str, Any]:
-    """A front alone as JSON knows it."""
+def front_entry(front: Front, study: Study) -> dict[str, Any]:
+    """A front of a study as JSON knows it."""
     return {
-        **study_entry(front.study),
-        "front": rows(front.study, front.x),
-        "record": _record_entry(front.record),
+        **study_entry(study),
+        "front": rows(study, front.x),
+        "record": {k: dict(v) if isinstance(v, Mapping) else entry_of(v) for k, v in front.record.items()},
         "message": front.message,
     }
-
-
-def _record_entry(record: Mapping[str, Any]) -> dict[str, Any]:
-    return {k: dict(v) if isinstance(v, Mapping) else entry_of(v) for k, v in record.items()}
-
-
-def _judgements_entry(judgements: Judgements) -> dict[str, Any]:
-    return {"names": list(judgements.names), "above": list(judgements.above), "method": judgements.method}
 
 
 def entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
     """All entries of a study, those that are lacking with their defaults."""
-    given, known = mapping(entry, held), HELD[held]
+    given, known = mapping(entry, held), {*NEEDED, *DEFAULTS, *SESSION, "message"}
+    known -= SESSION if held == "front" else set()
     for wrong in given.keys() - known:
         raise ValueError(f"the file has {shown(wrong)}, which a saved study does not have")
-    for lacking in ("start", "free", "minimise"):
-        if lacking not in given:
-            raise ValueError(f"the file is damaged: it lacks {lacking!r} of the study")
+    for lacking in [name for name in NEEDED if name not in given]:
+        raise ValueError(f"the file is damaged: it lacks {lacking!r} of the study")
     reading.missing.extend(f"{name!r} of the study" for name in DEFAULTS if name in known - given.keys() - QUIETLY)
     if held == "session" and "design" not in given:
         reading.missing.append("'design' of the study")

@@ -102,11 +102,7 @@ class Checkpoint:
     crowding: np.ndarray
 
     def write(self, path: str | Path) -> None:
-        """Put it in the place of the file that is there; whoever reads sees the old one or the new one, whole.
-
-        Raises ``OSError`` if that cannot be done; the old one is then still there, and nothing else.
-        """
-        path = Path(path)
+        """Write it as `write_whole` does, or raise ``OSError`` if that cannot be done or it would be too long."""
         arrays: Any = {name: np.ascontiguousarray(getattr(self, name), dtype=float) for name in ARRAYS}
         if sum(array.nbytes for array in arrays.values()) > LARGEST // 2:
             raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))
@@ -114,14 +110,23 @@ class Checkpoint:
         about = json.dumps({"schema": SCHEMA, **entries})
         content = io.BytesIO()
         np.savez(content, about=np.array(about), digest=np.array(_digest(about, arrays)), **arrays)
-        part = path.with_name(f".{path.name}.{os.getpid()}.part")
-        try:
-            part.write_bytes(content.getbuffer())
-            part.replace(path)
-        except BaseException:
-            with suppress(OSError):
-                part.unlink()
-            raise
+        write_whole(Path(path), content.getbuffer())
+
+
+def write_whole(path: Path, content: bytes | memoryview) -> None:
+    """Put it in the place of the file that is there; whoever reads sees the old one or the new one, whole.
+
+    Raises ``OSError``, which names ``path``, if that cannot be done; the old one is then still there, and nothing else.
+    """
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        part.write_bytes(content)
+        part.replace(path)
+    except OSError as error:  # of the file that was asked for, not of the part that nobody knows
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from None
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 def why(error: OSError) -> str:

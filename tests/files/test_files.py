@@ -783,15 +783,17 @@ def test_a_disk_that_fills_up_keeps_the_file_that_was_there(tmp_path, monkeypatc
     path = tmp_path / "design.json"
     write(DoorHandleCam(), path)
 
-    def full(self, text, **_):
+    def full(self, content):
         self.touch()
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space left"):
         write(DoorHandleCam(lift_arm=48 * mm), path)
     monkeypatch.undo()
     assert read(path) == DoorHandleCam()
+    (tmp_path / ".design.json.1.part").write_text("half")  # of a process that was killed
+    write(DoorHandleCam(), path)
     assert [p.name for p in tmp_path.iterdir()] == ["design.json"]
 
 
