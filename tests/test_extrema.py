@@ -91,13 +91,13 @@ def expected(cam):
             undercut_margin: 1 - cam.roller_radius * bent.max(),
         }
     if not (a.undercut.any() or a.outer_undercut.any()):
-        value[peak_pressure(PAIR)] = contact_along(a, PAIR).pressure.max()
+        value[peak_pressure] = contact_along(a, PAIR).pressure.max()
     return value
 
 
 def right(cam, n):
     """Ten times better than 0.1 %: at a needle, a radius of 0.1 mm, the table itself is no better than 5e-5."""
-    found, values = cam.analyse(n), expected(cam)
+    found, values = cam.replace(contact=PAIR).analyse(n), expected(cam)
     sizes = {undercut_margin: 1, min_profile_radius: values[base_radius], min_force: values[peak_force]}
     for measure, value in values.items():
         close = 1e-4 * (abs(value) + sizes.get(measure, 0)) if np.isfinite(value) else 0

@@ -127,7 +127,7 @@ GIVEN = {
     Sweep: (STUDY,),
     DesignMap: (shaft_study(),),
     Tolerances: (STUDY, {"base_radius": 0.001}),
-    SliderLoad: (0.2, 100.0, abs, 1.0),
+    SliderLoad: (0.2, 100.0, 1.0, abs),
     AnalysisCurve: ("pressure_angle", "deg", "pressure angle"),
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
     Choice: ("law", LAW, (LAW,), "the law"),

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +22,10 @@ from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
 from ..quantities.kinds import columns
 from . import bodies, groove, statics
+from .force_closure import ContactPair, contact_along
 
+OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
+"""The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
 JUMP = 1e-6
 """A jump of position or speed below this share of the largest one is rounding."""
 
@@ -35,21 +38,15 @@ class CamAnalysis(ABC):
     computed when first asked for.  ``nan`` where a member of a population cannot be built.
     """
 
-    offers: ClassVar[tuple[str, ...]] = (
-        "bodies",
-        "motion",
-        "pressure_angle",
-        "contact_force",
-        "cam_torque",
-        "curvature",
-        "efficiency",
-    )
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
-
     cam: Any
     cam_angle: np.ndarray
     rough: bool = field(default=False, kw_only=True)
     """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
+
+    @property
+    def offers(self) -> tuple[str, ...]:
+        """The shapes and curves that are shown of it where nobody chooses, in this order."""
+        return (*OFFERS, *self.cam.contact.offers)
 
     @property
     @abstractmethod
@@ -246,6 +243,12 @@ class CamAnalysis(ABC):
     def cam_torque(self) -> np.ndarray:
         """Torque on the cam without friction, N m: power in = power out."""
         return self.resistance * self.velocity
+
+    @cached_property
+    def contact_pressure(self) -> np.ndarray:
+        """Largest Hertz pressure between cam and follower, Pa (see `contact_along`); ``nan`` without a ``contact``."""
+        pair = self.cam.contact
+        return contact_along(self, pair).pressure if isinstance(pair, ContactPair) else np.nan * self.contact_force
 
     @cached_property
     def rubbing(self) -> statics.Rubbing:

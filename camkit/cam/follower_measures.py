@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Measure
-from .force_closure import ContactPair, contact_along, jump_speed, torque_balance
+from .force_closure import ContactPair, jump_speed, torque_balance
 from .measures import CURVE, base_radius, groove_gap, max_pressure_angle, mean_efficiency, peak, peak_force, peak_torque
 
 _force = attrgetter("contact_force")
@@ -37,10 +37,9 @@ def _overspeed(analysis: Any) -> Any:
 jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)
 
 
-def peak_pressure(pair: ContactPair) -> Measure:
-    """The largest Hertz pressure along the cam for a pair of materials; ``nan`` if a flank is undercut."""
-    return Measure("peak contact pressure", "MPa", peak(lambda a: contact_along(a, pair).pressure))
-
+peak_pressure = Measure("peak contact pressure", "MPa", peak(attrgetter("contact_pressure")))
+"""The largest Hertz pressure along a cam whose contact is given; ``nan`` if a flank is undercut."""
+ContactPair.measures = (peak_pressure,)
 
 _CLOSING = (min_force, mean_torque, jump_margin)
 ROLLER_CURVE = (*CURVE, groove_gap, min_profile_radius, undercut_place, *_CLOSING)

@@ -11,12 +11,13 @@ there speeds are such shares, and 1.2 is 20 % above the rated speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ..contact import LineContact, contact_modulus, line_contact
-from ..quantities import Design, fails, quantity
+from ..data.materials import MATERIALS
+from ..quantities import Design, choice, fails, quantity
 from ..quantities.kinds import applied, numbers, refuse_arguments, shown
 
 
@@ -112,20 +113,67 @@ def torque_balance(cam_angle: Any, torque: Any) -> TorqueBalance:
     return TorqueBalance(mean, surplus, surplus.max(-1) - surplus.min(-1))
 
 
+OWN = "own numbers"
+MENU = {OWN: OWN, **{name: name for name in MATERIALS}}
+"""A material by its name, or the numbers that stand beside it."""
+
+
 @dataclass(frozen=True)
 class ContactPair(Design):
-    """The materials of cam and follower and the width on which they touch."""
+    """The materials of cam and follower and the width on which they touch.
+
+    A material is one of `MATERIALS` by its name, or its modulus and Poisson's ratio are given.
+
+    >>> soft = ContactPair(cam_material="EN AW-6082 T6", follower_material="42CrMo")
+    >>> print(f"{soft.modulus / 1e9:.2f} GPa")
+    57.38 GPa
+    """
 
     width: float = quantity("b", 15, 2, 60, "mm", "width of the contact")
     cam_modulus: float = quantity("E_1", 210, 50, 220, "GPa", "elastic modulus of the cam")
     follower_modulus: float = quantity("E_2", 210, 50, 650, "GPa", "elastic modulus of the follower")
     cam_poisson: float = quantity("nu_1", 0.3, 0, 0.5, "", "Poisson's ratio of the cam", at_least=0)
     follower_poisson: float = quantity("nu_2", 0.3, 0, 0.5, "", "Poisson's ratio of the follower", at_least=0)
+    cam_material: str = choice("M_1", OWN, MENU, "what the cam is made of")
+    follower_material: str = choice("M_2", OWN, MENU, "what the follower is made of")
+
+    name: ClassVar[str] = "along a line"
+    offers: ClassVar[tuple[str, ...]] = ("contact_pressure",)
+
+    def following(self) -> dict[str, str]:
+        """What a material of the menu gives."""
+        return {
+            f"{body}_{name}": f"it is that of the {body}_material"
+            for body in ("cam", "follower")
+            for name in ("modulus", "poisson")
+            if getattr(self, f"{body}_material") != OWN
+        }
+
+    def _elastic(self, body: str) -> tuple[Any, Any]:
+        """Elastic modulus (Pa) and Poisson's ratio of ``cam`` or ``follower``."""
+        material = MATERIALS.get(getattr(self, f"{body}_material"))
+        if material:
+            return material.elastic_modulus, material.poisson
+        return getattr(self, f"{body}_modulus"), getattr(self, f"{body}_poisson")
 
     @property
     def modulus(self) -> Any:
         """``E*``, Pa."""
-        return contact_modulus(self.cam_modulus, self.follower_modulus, self.cam_poisson, self.follower_poisson)
+        (cam, cam_poisson), (follower, follower_poisson) = self._elastic("cam"), self._elastic("follower")
+        return contact_modulus(cam, follower, cam_poisson, follower_poisson)
+
+
+@dataclass(frozen=True)
+class NoContact(Design):
+    """Nothing is said of materials and width: no pressure is worked out."""
+
+    name: ClassVar[str] = "not given"
+    offers: ClassVar[tuple[str, ...]] = ()
+
+
+def contact_choice() -> Any:
+    """A dataclass field for the contact of cam and follower, which a design need not give."""
+    return choice("C", NoContact(), (NoContact(), ContactPair()), "materials and width, for the pressure between them")
 
 
 def contact_along(analysis: Any, pair: ContactPair) -> LineContact:

@@ -31,11 +31,17 @@ class ArmLoad(Design):
     """Pairs of arm travel (from the motion's level 0) [rad] and resisting torque [N m], in order; straight between."""
     cam_angle_table: tuple[tuple[float, float], ...] = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
+    table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse_table("torque table", "travel", "torque", self.torque_table)
         refuse_table("cam angle table", "cam angle", "torque", self.cam_angle_table)
+
+    def following(self) -> dict[str, str]:
+        """Without a table its factor has no effect."""
+        tables = len(self.travel_table) + len(self.cam_angle_table)
+        return {} if tables else {"table_factor": "there is no table of the load"}
 
     @property
     def travel_table(self) -> Table:
@@ -50,7 +56,8 @@ class ArmLoad(Design):
         """Torque about the arm's pivot without its inertia, N m (``travel`` from the motion's level 0, rad)."""
         weight = self.mass * self.gravity * arm_length / 2 * np.sin(arm_angle + self.up_angle)
         static = self.torque + self.preload + self.spring_rate * travel + weight
-        return static + tabulated(self.torque_table, travel) + tabulated(self.cam_angle_table, cam_angle)
+        k = self.table_factor
+        return static + k * tabulated(self.torque_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
     def resisting_torque(
         self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any, cam_angle: Any = 0.0

@@ -29,6 +29,7 @@ from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .follower_measures import FLAT_CURVE
+from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
 from .sizing import if_possible, refuse_radius
 from .statics import Pivot
@@ -71,6 +72,7 @@ class OscillatingFlatCam(Design):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: ArmLoad = field(default_factory=_closed)
     friction: Friction = field(default_factory=Friction)
+    contact: ContactPair | NoContact = contact_choice()
 
     @property
     def roller_radius(self) -> float:

@@ -26,6 +26,7 @@ from . import bodies
 from .analysis import RollerAnalysis
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
+from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE
 from .statics import Pivot
@@ -64,6 +65,7 @@ class OscillatingRollerCam(Design):
     friction: Friction = field(default_factory=Friction)
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
+    contact: ContactPair | NoContact = contact_choice()
 
     def analyse(self, n: int = 721) -> OscillatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""

@@ -33,11 +33,17 @@ class SlideLoad(Design):
     """Pairs of travel (from the motion's level 0) [m] and resisting force [N], in order; straight lines between."""
     cam_angle_table: Table = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
+    table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse_table("force table", "travel", "force", self.force_table)
         refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
+
+    def following(self) -> dict[str, str]:
+        """Without a table its factor has no effect."""
+        tables = len(self.travel_table) + len(self.cam_angle_table)
+        return {} if tables else {"table_factor": "there is no table of the load"}
 
     @property
     def travel_table(self) -> Table:
@@ -53,7 +59,8 @@ class SlideLoad(Design):
         """Force along the travel without inertia, N (``travel`` from the motion's level 0, m)."""
         weight = self.mass * self.gravity * np.cos(self.up_angle)
         static = self.force + self.preload + self.spring_rate * travel + weight
-        return static + tabulated(self.force_table, travel) + tabulated(self.cam_angle_table, cam_angle)
+        k = self.table_factor
+        return static + k * tabulated(self.force_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
     def resisting_force(self, travel: Any, acceleration: Any, cam_angle: Any = 0.0) -> Any:
         """Force along the travel, N."""

@@ -25,6 +25,7 @@ from .analysis import FlatAnalysis, lowest
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .follower_measures import FLAT_CURVE
+from .force_closure import ContactPair, NoContact, contact_choice
 from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
@@ -52,6 +53,7 @@ class TranslatingFlatCam(Design):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
+    contact: ContactPair | NoContact = contact_choice()
 
     @property
     def roller_radius(self) -> float:

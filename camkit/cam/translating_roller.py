@@ -26,6 +26,7 @@ from .analysis import RollerAnalysis, highest
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .follower_measures import ROLLER_CURVE
+from .force_closure import ContactPair, NoContact, contact_choice
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
@@ -72,6 +73,7 @@ class TranslatingRollerCam(Design):
     friction: SlideFriction = field(default_factory=SlideFriction)
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
+    contact: ContactPair | NoContact = contact_choice()
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Design, Measure, quantities_of
+from ..quantities import Design, Measure, measures_of, quantities_of
 from ..quantities.kinds import kind_words
 from ..study.study import Study, WeightedSum, refuse_bounds, weighted
 from ..units import factor
@@ -134,7 +134,7 @@ def _key(measure: Measure) -> str:
 
 
 def _declared_measures(start: Any) -> dict[str, Measure]:
-    return {_key(m): m for m in type(start).measures}
+    return {_key(m): m for m in measures_of(start)}
 
 
 def _made(k: str, entry: Given, start: Any) -> Measure:

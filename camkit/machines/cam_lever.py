@@ -111,7 +111,7 @@ class CamLever(FreeLawCam):
         shared = {f.name: getattr(self, f.name) for f in fields(FreeLawCam)}
         return HighSpeedCam(
             **shared,
-            load=SliderLoad(self.lever, self.weight, self.force, self.inertia_speed2),
+            load=SliderLoad(self.lever, self.weight, self.inertia_speed2, self.force),
             centre_distance=np.hypot(self.slider_distance - self.lever, self.pivot_height),
             swing=self.swing,
             rise_angle=self.rise_angle,

@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..cam import bodies, groove
+from ..cam.analysis import OFFERS
 from ..cam.loads import ArmLoad, Friction
 from ..cam.measures import (
     CURVE,
@@ -198,7 +199,7 @@ class DoorHandleAnalysis:
     ``cam_angle[..., :k]`` is the relief crank's motion, the rest the lift crank's.
     """
 
-    offers: ClassVar[tuple[str, ...]] = OscillatingRollerAnalysis.offers
+    offers: ClassVar[tuple[str, ...]] = OFFERS
     """The shapes and curves that are shown of it where nobody chooses: those of each of its curves."""
 
     cam: DoorHandleCam

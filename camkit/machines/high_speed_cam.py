@@ -25,10 +25,14 @@ from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
-from .high_speed_load import ConstantTorque, InertialSpringLoad
+from .high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
 
 HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
+
+
+LOADS = InertialSpringLoad(), ConstantTorque(), SliderLoad()
+"""What the arm can resist with, for a menu."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,7 @@ class HighSpeedCam(FreeLawCam):
     Raises ``ValueError`` for sizes that cannot be built: the sentence says which and what is possible.
     """
 
-    load: Any = choice("M", InertialSpringLoad(), (InertialSpringLoad(), ConstantTorque()), "what the arm resists with")
+    load: Any = choice("M", InertialSpringLoad(), LOADS, "what the arm resists with")
     centre_distance: float = quantity("L", 200, 100, 400, "mm", "cam axis to arm pivot")
     swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm")
     rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away")

@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..cam.loads import Table, refuse_table, tabulated
 from ..motion import Kinematics
-from ..quantities import Design, quantity, words
-from ..quantities.kinds import a_number, refuse_kinds
+from ..quantities import Design, quantity
 
 
 @dataclass(frozen=True)
@@ -59,25 +59,30 @@ class ConstantTorque(Design):
 
 
 @dataclass(frozen=True)
-class SliderLoad:
+class SliderLoad(Design):
     """A lever of length ``x`` that lifts a slider and swings evenly about the level.
 
     ``M = [G + P(s)] x cos(psi - PS / 2) + J omega^2 psi''``: ``G`` weight, ``P`` force of the work at the slider's
     way ``s = x [sin(psi - PS / 2) + sin(PS / 2)]``.  No spring: the weight keeps the roller on the cam.
     """
 
-    lever: Any
-    weight: Any
-    force: Callable[[Any], Any]
-    """``P`` in N of ``s`` in m."""
-    inertia_speed2: Any
+    lever: float = quantity("x", 250, 200, 300, "mm", "lever: pivot to slider")
+    weight: float = quantity("G", 147, 10, 1000, "N", "weight of the slider")
+    inertia_speed2: float = quantity(
+        "J omega^2", 25, 0.1, 100, "N m", "inertia of the lever by rated speed squared", at_most=1e12
+    )
+    force: Table | Callable[[Any], Any] = ()
+    """``P`` in N of ``s`` in m: a function, or a table of pairs joined by straight lines."""
 
     name: ClassVar[str] = "slider on a lever"
 
     def __post_init__(self) -> None:
-        refuse_kinds(self)
-        for name in ("lever", "weight", "inertia_speed2"):
-            object.__setattr__(self, name, a_number(getattr(self, name), f"the {words(name)} of the slider's load"))
+        super().__post_init__()
+        if not callable(self.force):
+            refuse_table("force", "way", "force", self.force)
+
+    def _force(self, way: Any) -> Any:
+        return self.force(way) if callable(self.force) else tabulated(self.force, way)
 
     def way(self, motion: Kinematics, swing: Any) -> Any:
         """``s``: of the slider from its lowest position, m."""
@@ -85,6 +90,6 @@ class SliderLoad:
 
     def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
         """About the lever's pivot, N m."""
-        static = self.weight + self.force(self.way(motion, swing))
+        static = self.weight + self._force(self.way(motion, swing))
         inertia = self.inertia_speed2 * speed**2 * motion.a
         return static * self.lever * np.cos(motion.s - swing / 2) + inertia

@@ -14,45 +14,15 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..data import load
+from ..data.materials import MATERIALS
 from ..quantities import Design, Measure, declarations, fails, quantities_of, quantity, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.design_map import DesignMap
 from ..study.study import Space, Study
-from ..units import GPa, MPa, deg, kg, kW, m, mm, rpm
+from ..units import deg, kW, mm, rpm
 
 TORQUE_NUMBER = 9550
 """Handbooks' ``M [N m] = 9550 P [kW] / n [rpm]``; exact is 30000 / pi = 9549.2966, the paper uses 9550."""
-
-
-@dataclass(frozen=True)
-class Material:
-    """What a shaft is made of, SI, with the source of each number."""
-
-    name: str
-    elastic_modulus: float
-    shear_modulus: float
-    density: float
-    yield_strength: float
-    source: str
-
-    @property
-    def allowable_shear(self) -> float:
-        """Yield in shear (von Mises, ``sigma / sqrt(3)``) over the safety that the paper's 98 MPa give 20Cr, Pa."""
-        return 98 * MPa * self.yield_strength / (540 * MPa)
-
-
-MATERIALS = {
-    row["name"]: Material(
-        row["name"],
-        row["elastic_modulus"] * GPa,
-        row["shear_modulus"] * GPa,
-        row["density"] * kg / m**3,
-        row["yield_strength"] * MPa,
-        row["source"],
-    )
-    for row in load("materials")["materials"]
-}
-"""Materials by name."""
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ from .declaration import (
     unremarked,
     words,
 )
-from .design import Design
+from .design import Design, measures_of
 from .measure import Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 
@@ -69,6 +69,7 @@ __all__ = [
     "declarations",
     "declared_in",
     "fails",
+    "measures_of",
     "members",
     "numbered",
     "quantities_of",

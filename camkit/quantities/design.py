@@ -18,7 +18,7 @@ class Design(Declared):
     """What every design shares: its numbers are checked, can be replaced, and show as a table."""
 
     measures: ClassVar[tuple[Measure, ...]] = ()
-    """Every measure of such a design, for tables and files."""
+    """Every measure of all such designs, for tables and files (see `measures_of`)."""
     makers: ClassVar[Mapping[str, Callable[..., Measure]]] = {}
     """Functions that make further measures of numbers and words, by the names that `Measure.made` gives them."""
 
@@ -38,6 +38,17 @@ class Design(Declared):
             for path, d in declared_in(self).items()
         ]
         return table((), rows, type(self).__name__)
+
+
+def measures_of(design: Any) -> tuple[Measure, ...]:
+    """Every measure of a design: those of all of its kind, and those of the parts that it holds, such as a contact.
+
+    >>> from camkit import ContactPair, TranslatingRollerCam
+    >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
+    ['overspeed before the follower jumps', 'peak contact pressure']
+    """
+    parts = design.branches().values()
+    return (*getattr(type(design), "measures", ()), *(measure for part in parts for measure in measures_of(part)))
 
 
 def _left(text: str) -> Html:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..geometry import Body, Disc
 from ..quantities import Measure
-from ..units import deg, mm
+from ..units import MPa, deg, mm
 from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
 
 ANGLE = "cam angle  [deg]"
@@ -157,6 +157,17 @@ def efficiency(analysis: Any) -> Picture:
             published = gaps(100 * curve.published_efficiency, moves)
             marks.append(Line(f"{name} published", x, published, stroke="thin dashed", **style))
     return Picture.of(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
+
+
+def contact_pressure(analysis: Any) -> Picture:
+    """Largest Hertz pressure between cam and follower; trouble: undercut, or the follower would have to be pulled."""
+    marks = []
+    for i, (name, curve) in enumerate(analysis.curves.items()):
+        x, y = curve.cam_angle / deg, curve.contact_pressure / MPa
+        there = np.isfinite(y)
+        marks.append(Line(name, x, gaps(y, there), role="series", index=i))
+        marks.append(Line(f"{name} none", x, gaps(0 * x, ~there), role="trouble"))
+    return Picture.of(Axes(title="Contact pressure", xlabel=ANGLE, ylabel="p_0  [MPa]"), marks)
 
 
 CAM_VIEWS = (mechanism, motion, pressure_angle, contact_force, cam_torque, curvature, efficiency)

@@ -19,6 +19,7 @@ VIEW_OF: dict[str, View] = {
     "cam_torque": cam.cam_torque,
     "curvature": cam.curvature,
     "efficiency": cam.efficiency,
+    "contact_pressure": cam.contact_pressure,
     "stress_coefficient": high_speed.contact_stress,
     "wear_coefficient": high_speed.wear,
     "hertz_pressure": high_speed.hertz_pressure,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import OscillatingRollerCam
+from camkit import OscillatingRollerCam, Session, Study
 from camkit.cam.follower_measures import jump_margin, mean_torque, min_force, peak_pressure
 from camkit.cam.force_closure import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
 from camkit.cam.loads import ArmLoad
@@ -14,6 +14,7 @@ from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.contact import contact_modulus, line_contact
+from camkit.files import from_json, to_json
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_train import ValveLoad
 from camkit.motion import (
@@ -26,8 +27,10 @@ from camkit.motion import (
     Return,
     Rise,
 )
-from camkit.quantities import unremarked
+from camkit.quantities import measures_of, quantities_of, unremarked, with_quantities
 from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
+from camkit.views.cam import contact_pressure
+from camkit.views.defaults import default_views
 
 
 def program(lift, law=ModifiedTrapezoid()):  # noqa: B008
@@ -241,7 +244,8 @@ PAIR = ContactPair(12 * mm, 210 * GPa, 70 * GPa, 0.3, 0.33)
 @every_cam
 def test_pressure_along_the_cam(cam):
     """Hertz's formula with the radii of both bodies at the contact, of points of the profile."""
-    analysis = cam.replace(load=cam.load.replace(preload=40.0 if isinstance(cam.load, ArmLoad) else 400.0)).analyse()
+    pressed = cam.load.replace(preload=40.0 if isinstance(cam.load, ArmLoad) else 400.0)
+    analysis = cam.replace(load=pressed, contact=PAIR).analyse()
     E = 1 / ((1 - 0.3**2) / (210 * GPa) + (1 - 0.33**2) / (70 * GPa))
     assert PAIR.modulus == pytest.approx(E)
     roller = 1 / cam.roller_radius if cam.roller_radius else 0.0
@@ -253,8 +257,9 @@ def test_pressure_along_the_cam(cam):
     assert_allclose(found.half_width, half, rtol=1e-12)
     assert_allclose(found.shear / found.pressure, 0.3003, rtol=1e-4)
     assert_allclose(found.shear_depth / found.half_width, 0.7862, rtol=1e-4)
-    assert peak_pressure(PAIR)(analysis) == pytest.approx(found.pressure.max(), rel=1e-4)
-    assert peak_pressure(PAIR)(analysis) >= found.pressure.max() * (1 - 1e-12)
+    assert_array_equal(analysis.contact_pressure, found.pressure)
+    assert peak_pressure(analysis) == pytest.approx(found.pressure.max(), rel=1e-4)
+    assert peak_pressure(analysis) >= found.pressure.max() * (1 - 1e-12)
 
 
 def test_a_published_contact():
@@ -290,12 +295,62 @@ def test_no_pressure_where_a_face_lifts_off_or_a_roller_undercuts():
 
 def test_pressures_of_a_population():
     bases = np.array([[30.0], [-4.0], [60.0]]) * mm
-    many = CAMS[0].replace(base_radius=bases).analyse(91)
-    found = peak_pressure(PAIR)(many)
+    cam = CAMS[0].replace(contact=PAIR)
+    found = peak_pressure(cam.replace(base_radius=bases).analyse(91))
     assert np.isnan(found[1])
     for i in (0, 2):
-        single = CAMS[0].replace(base_radius=float(bases[i, 0])).analyse(91)
-        assert found[i] == pytest.approx(peak_pressure(PAIR)(single), rel=1e-12)
+        single = cam.replace(base_radius=float(bases[i, 0])).analyse(91)
+        assert found[i] == pytest.approx(peak_pressure(single), rel=1e-12)
+
+
+def resting(cam, force):
+    """A cam on which the follower rests under a force."""
+    return cam.replace(motion=MotionProgram((Dwell(360 * deg),)), load=SlideLoad(0, preload=force, spring_rate=0))
+
+
+def test_a_face_on_a_circle_worked_by_hand():
+    """300 N on 15 mm, steel on steel: w = 20 N/mm, E* = 210/1.82 GPa, R = 30 mm: p_0^2 = w E* / (pi R)."""
+    cam = resting(TranslatingFlatCam(base_radius=30 * mm, contact=ContactPair()), 300 * N)
+    assert peak_pressure(cam.analyse()) / MPa == pytest.approx(156.478, rel=1e-5)
+    flatter = cam.replace(base_radius=3e3 * mm)  # towards two flat faces
+    assert peak_pressure(flatter.analyse()) / MPa == pytest.approx(156.478 / 10, rel=1e-5)
+    for change, times in (({"contact.width": 60 * mm}, 0.5), ({"load.preload": 1200 * N}, 2.0)):
+        assert peak_pressure(with_quantities(cam, change).analyse()) / MPa == pytest.approx(times * 156.478, rel=1e-5)
+
+
+def test_a_knife_edge_bears_no_force():
+    cam = resting(TranslatingRollerCam(roller_radius=0.0, contact=ContactPair()), 300 * N)
+    assert peak_pressure(cam.analyse()) == np.inf
+    assert np.isfinite(peak_pressure(cam.replace(roller_radius=1e-6).analyse()))
+
+
+def test_materials_of_the_menu():
+    """20Cr: nu = 206 / (2 79.4) - 1 = 0.29723; EN AW-6082 T6: 70 / (2 27) - 1 = 0.29630."""
+    pair = ContactPair(cam_material="20Cr", follower_material="EN AW-6082 T6")
+    by_hand = 1 / ((1 - 0.297229**2) / 206 + (1 - 0.296296**2) / 70)
+    assert pair.modulus / GPa == pytest.approx(by_hand, rel=1e-5)
+    assert [path for path in quantities_of(pair)] == ["width"]
+    half = ContactPair(cam_material="20Cr", follower_modulus=100 * GPa, follower_poisson=0.25)
+    assert half.modulus / GPa == pytest.approx(1 / ((1 - 0.297229**2) / 206 + (1 - 0.25**2) / 100), rel=1e-5)
+    with pytest.raises(ValueError, match=r"^'cam_modulus' is no path of ContactPair: it is that of the cam_material$"):
+        with_quantities(half, {"cam_modulus": 1.0})
+    with pytest.raises(
+        ValueError, match=r"^the cam material is 'cheese'; it must be one of 'own numbers' .own numbers."
+    ):
+        ContactPair(cam_material="cheese")
+
+
+@every_cam
+def test_a_contact_adds_its_measure_and_its_curve(cam):
+    given = with_quantities(cam, {"contact": "along a line"})
+    assert set(measures_of(given)) - set(measures_of(cam)) == {peak_pressure}
+    assert given.analyse(31).offers == (*cam.analyse(31).offers, "contact_pressure")
+    assert default_views(given.analyse(31))[-1] is contact_pressure
+    shown = contact_pressure(given.analyse(91))
+    assert_allclose(shown["cam"].y * MPa, contact_along(given.analyse(91), ContactPair()).pressure)
+    assert np.isnan(peak_pressure(cam.analyse(31)))
+    study = Study(given, ["contact.width"], [peak_pressure])
+    assert from_json(to_json(Session(study, given))).study.minimise == (peak_pressure,)
 
 
 # ---------------------------------------------------------------- a groove, and jumps of the speed
