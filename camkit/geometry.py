@@ -1,4 +1,4 @@
-"""Plane geometry shared by the mechanisms; points are ``(2, ..., n)``, components first."""
+"""Geometry shared by the mechanisms; points are ``(2, ..., n)``, in space ``(3, ..., n)``: components first."""
 
 from __future__ import annotations
 
@@ -105,3 +105,13 @@ def offset_curvature(curvature: Any, distance: Any) -> Any:
     """
     with np.errstate(divide="ignore"):
         return np.divide(curvature, 1 + distance * curvature)
+
+
+def dot(a: np.ndarray, b: np.ndarray) -> Any:
+    """Scalar product of vectors whose components come first."""
+    return (a * b).sum(0)
+
+
+def inclination(a: np.ndarray, b: np.ndarray) -> Any:
+    """Angle between two lines, 0 .. pi/2 rad."""
+    return np.arctan2(np.sqrt((np.cross(a, b, axis=0) ** 2).sum(0)), abs(dot(a, b)))

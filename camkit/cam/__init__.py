@@ -1,9 +1,18 @@
 """Disk cams with a follower on a straight guide or an arm, with a roller or a flat face; their loads and measures."""
 
-from .analysis import CamAnalysis, FlatAnalysis, RollerAnalysis
+from .analysis import CamAnalysis
 from .conjugate import PairForces, opposite, pair_forces
+from .flat_analysis import FlatAnalysis
 from .follower_measures import face_width, jump_margin, mean_torque, min_force, min_profile_radius, peak_pressure
-from .force_closure import ContactPair, TorqueBalance, contact_along, jump_speed, preload_needed, torque_balance
+from .force_closure import (
+    ContactPair,
+    NoContact,
+    TorqueBalance,
+    contact_along,
+    jump_speed,
+    preload_needed,
+    torque_balance,
+)
 from .loads import ArmLoad, Contact, Friction
 from .measures import (
     base_radius,
@@ -22,6 +31,7 @@ from .measures import (
 )
 from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from .roller_analysis import RollerAnalysis
 from .slide import SlideFriction, SlideLoad
 from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
 from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
@@ -33,6 +43,7 @@ __all__ = [
     "ContactPair",
     "FlatAnalysis",
     "Friction",
+    "NoContact",
     "OscillatingFlatAnalysis",
     "OscillatingFlatCam",
     "OscillatingRollerAnalysis",

@@ -9,7 +9,17 @@ import numpy as np
 
 from ..quantities import Measure
 from .force_closure import ContactPair, jump_speed, torque_balance
-from .measures import CURVE, base_radius, groove_gap, max_pressure_angle, mean_efficiency, peak, peak_force, peak_torque
+from .measures import (
+    CURVE,
+    base_radius,
+    groove_gap,
+    max_pressure_angle,
+    mean_efficiency,
+    number,
+    peak,
+    peak_force,
+    peak_torque,
+)
 
 _force = attrgetter("contact_force")
 
@@ -31,7 +41,7 @@ mean_torque = Measure("mean cam torque with friction", "N mm", _mean_torque)
 def _overspeed(analysis: Any) -> Any:
     """How much faster the cam may run before the follower jumps, as a share; ``inf`` for a cam at rest."""
     with np.errstate(divide="ignore"):
-        return jump_speed(analysis) / np.atleast_1d(analysis.cam.load.speed)[..., 0] - 1
+        return jump_speed(analysis) / number(analysis.cam.load.speed) - 1
 
 
 jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)

@@ -38,7 +38,7 @@ def radius_of(curvature: Any) -> Any:
 def _groove_margin(analysis: Any) -> Any:
     """``1 - r_T kappa`` on the inner flank, ``1 + r_T kappa`` on a groove's outer one too, at its least."""
     sides = (1, -1) if analysis.groove else (1,)
-    r, most = np.atleast_1d(analysis.cam.roller_radius)[..., 0], [analysis.sharpest(side).value for side in sides]
+    r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in sides]
     with np.errstate(invalid="ignore"):
         margin = 1 - r * reduce(np.maximum, most)
     return np.where((r == 0) & np.isinf(most).any(0), 1.0, margin)[()]  # a knife edge fits into every corner

@@ -23,12 +23,12 @@ from ..quantities import Design, choice, counted, quantity
 from ..quantities.kinds import a_number
 from ..units import deg, mm
 from . import bodies
-from .analysis import RollerAnalysis
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE
+from .roller_analysis import RollerAnalysis
 from .statics import Pivot
 
 

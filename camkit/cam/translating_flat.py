@@ -21,9 +21,10 @@ from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import a_number
 from ..units import mm
 from . import bodies
-from .analysis import FlatAnalysis, lowest
+from .analysis import lowest
 from .conjugate import opposite
 from .directions import ROTATIONS
+from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE
 from .force_closure import ContactPair, NoContact, contact_choice
 from .sizing import if_possible, refuse_radius

@@ -22,11 +22,13 @@ from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import a_number
 from ..units import deg, mm
 from . import bodies
-from .analysis import RollerAnalysis, highest
+from .analysis import highest
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .follower_measures import ROLLER_CURVE
 from .force_closure import ContactPair, NoContact, contact_choice
+from .measures import number
+from .roller_analysis import RollerAnalysis
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
 from .statics import Guide
@@ -128,7 +130,7 @@ class TranslatingRollerCam(Design):
 
         analysis = TranslatingRollerAnalysis(self, self.motion.resolution.angle)
         height = highest(analysis, start_height).value
-        e, r = (np.atleast_1d(x)[..., 0] for x in (self.offset, self.roller_radius))
+        e, r = (number(x) for x in (self.offset, self.roller_radius))
         size = np.maximum(np.hypot(np.maximum(height, 0), e) - r, 0)
         if min_radius is None:
             return size

@@ -25,7 +25,8 @@ from .measures import (
     room_in,
     swing,
 )
-from .rssr import RSSR, RSSRAnalysis
+from .rssr import RSSR
+from .rssr_analysis import RSSRAnalysis
 from .space import Box
 from .universal_joint import DoubleUniversalJoint, DoubleUniversalJointAnalysis, UniversalJoint, UniversalJointAnalysis
 

@@ -15,6 +15,13 @@ import numpy as np
 
 SAMPLES = 2 * np.pi * np.arange(5) / 5
 """Five angles are enough to know a function with two harmonics."""
+ROUNDING = 1e-12
+"""A discriminant that is negative by no more than this is a linkage stretched out or folded."""
+
+
+def reaches(a: Any, b: Any, k: Any) -> Any:
+    """Whether ``a sin(x) + b cos(x) + k = 0`` has a solution, rounding forgiven."""
+    return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
 
 
 def harmonics(function: Callable[[Any], Any]) -> np.ndarray:

@@ -10,39 +10,17 @@ constant and the rocker's direction of motion put right, and checked against bru
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property, reduce
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
-from ..quantities import Design, Quantity, counted, declarations, fails, quantity
+from ..quantities import Design, Quantity, counted, declarations, quantity
 from ..quantities.kinds import number, numbers, shown
-from ..units import deg, mm
 from . import limits
 from .load import RockerLoad
-
-NEXT_TO = 1e-7
-"""How far before a limit angle a linkage can be shown, rad: the angle itself is known to a few digits less."""
-
-ROUNDING = 1e-12
-"""A discriminant that is negative by no more than this is a linkage stretched out or folded."""
-
-
-def dot(a: np.ndarray, b: np.ndarray) -> Any:
-    """Scalar product of vectors whose components come first."""
-    return (a * b).sum(0)
-
-
-def inclination(a: np.ndarray, b: np.ndarray) -> Any:
-    """Angle between two lines, 0 .. pi/2 rad."""
-    return np.arctan2(np.sqrt((np.cross(a, b, axis=0) ** 2).sum(0)), abs(dot(a, b)))
-
-
-def reaches(a: Any, b: Any, k: Any) -> Any:
-    """Whether ``a sin(x) + b cos(x) + k = 0`` has a solution, rounding forgiven."""
-    return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
-
+from .rssr_analysis import RSSRAnalysis
 
 FEWEST = 61
 """Positions of a whole turn: with fewer, what is worst between them would be missed."""
@@ -122,7 +100,7 @@ class RSSR(Links):
 
     def assembles(self, crank_angle: Any) -> Any:
         """Whether the coupler reaches from crank to rocker, crank angle by crank angle."""
-        return reaches(*self.closure(crank_angle))
+        return limits.reaches(*self.closure(crank_angle))
 
     @cached_property
     def _harmonics(self) -> np.ndarray:
@@ -150,7 +128,7 @@ class RSSR(Links):
     def full_turn(self) -> Any:
         """Whether the crank can turn all the way round: the discriminant is positive everywhere; ``(p,)`` for ``p``."""
         extremes = np.where(np.isnan(self.extreme_angles), 0.0, self.extreme_angles)
-        return self.discriminant(extremes).min(-1) > ROUNDING
+        return self.discriminant(extremes).min(-1) > limits.ROUNDING
 
     def possible_crank_angles(self) -> np.ndarray:
         """Ranges of crank angles, one design, ``(k, 2)``, rad: ``[[0, 2 pi]]`` for a full turn, ``k = 0`` for none.
@@ -224,307 +202,3 @@ class RSSR(Links):
         analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)
         analysis.refuse_impossible()
         return analysis
-
-
-@dataclass(frozen=True)
-class RSSRAnalysis:
-    """What follows from an `RSSR` linkage at the given crank angles on one branch.
-
-    Arrays are ``(n,)`` for one design and ``(p, n)`` for ``p``; points and vectors ``(3, n)`` and ``(3, p, n)``.
-    Each is computed when first asked for.  A member of a population that cannot be assembled at one of the crank
-    angles is ``nan`` at all of them; its ``discriminant`` still says by how much.
-    """
-
-    offers: ClassVar[tuple[str, ...]] = (
-        "chain",
-        "rocker_angle",
-        "crank_pressure_angle",
-        "ratio",
-        "acceleration_ratio",
-        "crank_torque",
-        "coupler_force",
-    )
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
-
-    linkage: RSSR
-    crank_angle: np.ndarray
-    branch: int = 1
-    load: RockerLoad = field(default_factory=RockerLoad)
-    through: bool = False
-    """Whether the crank passes all angles between the given ones."""
-
-    @cached_property
-    def _closure(self) -> tuple[Any, Any, Any]:
-        return self.linkage.closure(self.crank_angle)
-
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether the linkage can be assembled at every crank angle, ``(..., 1)``."""
-        can = self.linkage.has_possible_sizes & reaches(*self._closure).all(-1, keepdims=True)
-        if not self.through:
-            return can
-        return can & self.linkage.assembles(self._extremes_passed).all(-1, keepdims=True)
-
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be assembled."""
-        if not fails(self.buildable[..., 0]):
-            return
-        possible = self.linkage.possible_crank_angles()
-        if not len(possible):
-            low, high = self._joint_distances()
-            raise ValueError(
-                f"the coupler of {self.linkage.coupler / mm:.5g} mm cannot be assembled at any crank angle; "
-                f"from crank to rocker it is {low / mm:.5g} to {high / mm:.5g} mm"
-            )
-        ranges = " and ".join(f"{low / deg:.5g} to {high / deg:.5g}" for low, high in possible)
-        if self.through:
-            start, end = self.crank_angle[[0, -1]] / deg
-            raise ValueError(
-                f"the crank cannot sweep from {start:.5g} to {end:.5g} deg: "
-                f"the linkage can be assembled from {ranges} deg only"
-            )
-        first = self.crank_angle[~reaches(*self._closure)][0]
-        raise ValueError(
-            f"at a crank angle of {first / deg:.5g} deg the linkage cannot be assembled; possible are {ranges} deg"
-        )
-
-    @cached_property
-    def _room_to_turn(self) -> tuple[Any, Any, Any]:
-        """A crank angle clear of the limits, and how far each way the next limit lies, ``(..., 1)``; ``nan``: none."""
-        clearest = np.argmax(np.broadcast_to(self.discriminant, self._shape), axis=-1)[..., None]
-        clear = np.take_along_axis(self._turn, clearest, -1)
-        ends = self.linkage.all_limit_angles
-        ways = np.mod(clear - ends, 2 * np.pi), np.mod(ends - clear, 2 * np.pi)
-        below, above = (np.fmin.reduce(way, axis=-1, keepdims=True) for way in ways)
-        return clear, below, above
-
-    @property
-    def possible_turn(self) -> Any:
-        """How far the crank can turn on its branch, from limit to limit, rad, ``(..., 1)``; 2 pi: all the way round."""
-        _, below, above = self._room_to_turn
-        turn = np.where(np.isnan(below), 2 * np.pi, below + above)
-        return np.where(self.buildable, turn, np.nan)
-
-    @cached_property
-    def turn_range(self) -> tuple[float, float]:
-        """How far the crank can turn from its sweep, one design, rad: to the limits, or a turn about the middle."""
-        (clear,), (below,), (above,) = self._room_to_turn
-        if np.isnan(below):
-            middle = float(self.crank_angle.min() + self.crank_angle.max()) / 2
-            return middle - np.pi, middle + np.pi
-        return float(clear - max(below - NEXT_TO, 0)), float(clear + max(above - NEXT_TO, 0))
-
-    def at(self, crank_angle: float, branch: int | None = None) -> RSSRAnalysis:
-        """The same linkage at one crank angle, or at the limit before it; on its own branch unless said otherwise."""
-        return self.linkage.analyse(np.clip(crank_angle, *self.turn_range), branch or self.branch, self.load)
-
-    def one_turn(self, branch: int | None = None, n: int = 361) -> RSSRAnalysis:
-        """One turn of the crank about the middle of the sweep, position by position.
-
-        Arrays are ``(n, 1)``, with more positions beside the limits, and ``nan`` where it cannot be assembled.
-        """
-        start = (self.crank_angle.min() + self.crank_angle.max()) / 2 - np.pi
-        ends = start + np.mod(self.linkage.limit_angles() - start, 2 * np.pi)
-        beside = np.add.outer(ends, [-NEXT_TO, NEXT_TO])
-        angles = np.sort(np.append(start + 2 * np.pi * np.linspace(0, 1, n), beside))
-        return RSSRAnalysis(self.linkage, angles[:, None], branch or self.branch, self.load)
-
-    def _joint_distances(self) -> tuple[float, float]:
-        """The least and the largest distance from any place of the crank's ball joint to any of the rocker's."""
-        a, b, k = self.linkage.closure(np.linspace(0, 2 * np.pi, 3601))
-        twice = 2 * self.linkage.crank * self.linkage.rocker
-        squared = self.linkage.coupler**2 + twice * k
-        reach = twice * np.sqrt(a**2 + b**2)
-        return np.sqrt(max((squared - reach).min(), 0)), np.sqrt((squared + reach).max())
-
-    @cached_property
-    def discriminant(self) -> np.ndarray:
-        """``A^2 + B^2 - K^2``: 0 where the linkage is stretched out or folded and the branches meet."""
-        a, b, k = self._closure
-        return a**2 + b**2 - k**2
-
-    @cached_property
-    def _extremes_passed(self) -> np.ndarray:
-        """Crank angles of the sweep, also between the given ones, where the discriminant is least or largest.
-
-        ``(..., 4)``, filled up with the lowest crank angle.
-        """
-        low, high = (end(self.crank_angle, axis=-1, keepdims=True) for end in (np.min, np.max))
-        extremes = low + np.mod(self.linkage.extreme_angles - low, 2 * np.pi)
-        return np.where(extremes <= high, extremes, low)
-
-    @cached_property
-    def min_discriminant(self) -> Any:
-        """The least discriminant over the whole sweep, also between its crank angles, ``(..., 1)``.
-
-        Above 0 both branches are continuous over the sweep and never meet.
-        """
-        between = self.linkage.discriminant(self._extremes_passed).min(-1, keepdims=True)
-        return np.minimum(self.discriminant.min(-1, keepdims=True), between)
-
-    @cached_property
-    def rocker_angle(self) -> np.ndarray:
-        """``phi_3 = atan2(A, B) +- arccos(-K / sqrt(A^2 + B^2))``, rad; it begins in [0, 2 pi) and never jumps."""
-        a, b, k = self._closure
-        between = np.arctan2(np.sqrt(np.maximum(self.discriminant, 0)), -k)
-        angle = np.unwrap(np.arctan2(a, b) + self.branch * between, axis=-1)
-        angle = angle - 2 * np.pi * np.floor(angle[..., :1] / (2 * np.pi))
-        return np.broadcast_to(np.where(self.buildable, angle, np.nan), self._shape)
-
-    @cached_property
-    def crank_joint(self) -> np.ndarray:
-        """``B``: the ball joint of crank and coupler, m."""
-        return self._everywhere(self.linkage.crank_root) + self._crank_arm
-
-    @cached_property
-    def rocker_joint(self) -> np.ndarray:
-        """``C``: the ball joint of rocker and coupler, m."""
-        return self._everywhere(self.linkage.rocker_root) + self._rocker_arm
-
-    @cached_property
-    def _shape(self) -> tuple[int, ...]:
-        """``(n,)`` or ``(p, n)``."""
-        numbers = (*self.linkage.sizes, *vars(self.load).values(), self.crank_angle)
-        return np.broadcast_shapes(*map(np.shape, numbers))
-
-    @property
-    def _turn(self) -> np.ndarray:
-        """The crank angle of every member of a population."""
-        return np.broadcast_to(self.crank_angle, self._shape)
-
-    def _everywhere(self, vector: np.ndarray) -> np.ndarray:
-        """A vector of the design, ``(3,)`` or ``(3, p, 1)``, at every crank angle."""
-        own = vector if vector.ndim > 1 else vector.reshape(3, *(1 for _ in self._shape))
-        return np.broadcast_to(own, (3, *self._shape))
-
-    @property
-    def _crank_arm(self) -> np.ndarray:
-        return self.linkage.crank * self.linkage.crank_direction(self._turn)
-
-    @property
-    def _rocker_arm(self) -> np.ndarray:
-        return self.linkage.rocker * self.linkage.rocker_direction(self.rocker_angle)
-
-    @cached_property
-    def chain(self) -> np.ndarray:
-        """The ends of the links in order, ``(3, 4, ..., n)``: crank root, both ball joints, rocker root, m."""
-        first, last = self._everywhere(self.linkage.crank_root), self._everywhere(self.linkage.rocker_root)
-        return np.stack([first, self.crank_joint, self.rocker_joint, last], axis=1)
-
-    @cached_property
-    def coupler_direction(self) -> np.ndarray:
-        """``F``: unit vector along the coupler from crank to rocker, the line of its force."""
-        return (self.rocker_joint - self.crank_joint) / self.linkage.coupler
-
-    @cached_property
-    def crank_motion(self) -> np.ndarray:
-        """``v_B``: unit vector in which the crank's ball joint moves while the crank angle grows."""
-        return self.linkage.crank_direction(self._turn + np.pi / 2)
-
-    @cached_property
-    def rocker_motion(self) -> np.ndarray:
-        """``v_C``: unit vector in which the rocker's ball joint moves while the rocker angle grows."""
-        return self.linkage.rocker_direction(self.rocker_angle + np.pi / 2)
-
-    @cached_property
-    def crank_pressure_angle(self) -> np.ndarray:
-        """``alpha_1``: between the coupler and the motion of the crank's ball joint, 0 .. pi/2 rad."""
-        return inclination(self.coupler_direction, self.crank_motion)
-
-    @cached_property
-    def rocker_pressure_angle(self) -> np.ndarray:
-        """``alpha_2``: between the coupler and the motion of the rocker's ball joint, 0 .. pi/2 rad."""
-        return inclination(self.coupler_direction, self.rocker_motion)
-
-    @property
-    def crank_transmission_angle(self) -> np.ndarray:
-        """``pi/2 - alpha_1``, rad."""
-        return np.pi / 2 - self.crank_pressure_angle
-
-    @property
-    def rocker_transmission_angle(self) -> np.ndarray:
-        """``pi/2 - alpha_2``, rad."""
-        return np.pi / 2 - self.rocker_pressure_angle
-
-    @cached_property
-    def ratio(self) -> np.ndarray:
-        """``dphi_3 / dphi_1 = l_1 F.v_B / (l_3 F.v_C)``; infinite at a limit angle."""
-        return self._over_reach(self.linkage.crank * dot(self.coupler_direction, self.crank_motion))
-
-    def _over_reach(self, value: Any) -> Any:
-        """``value / (l_3 F.v_C)``: over the coupler's lever about the rocker's axis."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return value / (self.linkage.rocker * dot(self.coupler_direction, self.rocker_motion))
-
-    @cached_property
-    def acceleration_ratio(self) -> np.ndarray:
-        """``d2phi_3 / dphi_1^2``, 1/rad: the rocker's angular acceleration over the crank's speed squared.
-
-        The closure ``G(phi_1, phi_3) = 0`` differentiated twice, with ``v`` the `ratio`:
-        ``G_11 + 2 G_13 v + G_33 v^2 + G_3 a = 0``.
-        """
-        a, b, k = self._closure
-        sin, cos = np.sin(self.crank_angle), np.cos(self.crank_angle)
-        sin3, cos3, v = np.sin(self.rocker_angle), np.cos(self.rocker_angle), self.ratio
-        l3, L = self.linkage.rocker, self.linkage.axis_angle
-        bend = (self.linkage.rocker_offset * np.sin(L) * sin + self.linkage.axis_distance * cos) / l3
-        g11 = np.cos(L) * sin * sin3 + cos * cos3 + bend
-        g13 = -np.cos(L) * cos * cos3 - sin * sin3
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return -(g11 + 2 * g13 * v + k * v**2) / (a * cos3 - b * sin3)
-
-    @cached_property
-    def resisting_torque(self) -> np.ndarray:
-        """Torque about the rocker's axis that the coupler has to overcome, N m, positive against a growing angle."""
-        return self.load.resisting_torque(self.rocker_angle)
-
-    @cached_property
-    def coupler_force(self) -> np.ndarray:
-        """Force along the coupler, N, compression positive; infinite at a limit angle.  The links weigh nothing."""
-        return self._over_reach(self.resisting_torque)
-
-    @cached_property
-    def crank_torque(self) -> np.ndarray:
-        """Torque on the crank, N m, in the sense of a growing crank angle: ``S l_1 F.v_B``."""
-        return self.coupler_force * self.linkage.crank * dot(self.coupler_direction, self.crank_motion)
-
-    @cached_property
-    def crank_bearing_force(self) -> np.ndarray:
-        """Force of the frame on the crank, N."""
-        return self.coupler_force * self.coupler_direction
-
-    @cached_property
-    def crank_bearing_moment(self) -> np.ndarray:
-        """Moment of the frame on the crank, across its axis, about its root, N m."""
-        moment = np.cross(self._crank_arm, self.crank_bearing_force, axis=0)
-        return moment - self._everywhere(self.linkage.crank_axis) * self.crank_torque
-
-    @cached_property
-    def weight(self) -> np.ndarray:
-        """Weight of what turns with the rocker as a vector, N."""
-        load, linkage = self.load, self.linkage
-        downhill = self._everywhere(linkage.rocker_direction(load.downhill))
-        up = self._everywhere(linkage.rocker_axis)
-        return load.mass * load.gravity * (np.sin(load.lean) * downhill - np.cos(load.lean) * up)
-
-    @cached_property
-    def centre_of_gravity(self) -> np.ndarray:
-        """Centre of gravity of what turns with the rocker, m."""
-        return self._everywhere(self.linkage.rocker_root) + self._load_arm
-
-    @property
-    def _load_arm(self) -> np.ndarray:
-        along = self.load.rise * self._everywhere(self.linkage.rocker_axis)
-        return along + self.load.reach * self.linkage.rocker_direction(self.rocker_angle + self.load.mass_angle)
-
-    @cached_property
-    def rocker_bearing_force(self) -> np.ndarray:
-        """Force of the frame on the rocker, N: against the coupler's force and the weight."""
-        return -self.coupler_force * self.coupler_direction - self.weight
-
-    @cached_property
-    def rocker_bearing_moment(self) -> np.ndarray:
-        """Moment of the frame on the rocker, across its axis, about its root, N m."""
-        push = self.coupler_force * self.coupler_direction
-        moment = np.cross(self._rocker_arm, push, axis=0) + np.cross(self._load_arm, self.weight, axis=0)
-        return self._everywhere(self.linkage.rocker_axis) * self.load.torque - moment

@@ -26,7 +26,8 @@ from ..linkage.measures import (
     room_in,
     swing,
 )
-from ..linkage.rssr import RSSR, Links, RSSRAnalysis
+from ..linkage.rssr import RSSR, Links
+from ..linkage.rssr_analysis import RSSRAnalysis
 from ..linkage.space import Box
 from ..quantities import Measure, choice, counted, fails, quantity
 from ..quantities.kinds import refuse_arguments, shown

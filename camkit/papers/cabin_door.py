@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..data import as_printed, load
-from ..linkage.rssr import RSSR, RSSRAnalysis, inclination
+from ..geometry import inclination
+from ..linkage.rssr import RSSR
+from ..linkage.rssr_analysis import RSSRAnalysis
 from ..machines.cabin_door import CabinDoorLinkage, rssr_study
 from ..search.polish import polish
 from ..units import deg, mm

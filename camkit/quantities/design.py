@@ -43,7 +43,7 @@ class Design(Declared):
 def measures_of(design: Any) -> tuple[Measure, ...]:
     """Every measure of a design: those of all of its kind, and those of the parts that it holds, such as a contact.
 
-    >>> from camkit import ContactPair, TranslatingRollerCam
+    >>> from camkit.cam import ContactPair, TranslatingRollerCam
     >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
     ['overspeed before the follower jumps', 'peak contact pressure']
     """

@@ -11,7 +11,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import camkit.cam
-from camkit import LAW_MENU, ContactPair, Dwell, MotionProgram, Return, Rise, Study, Tolerances, deg, explore, mm
+from camkit import MotionProgram, Study, Tolerances, deg, explore, mm
+from camkit.cam import ContactPair
 from camkit.cam.directions import ROTATIONS
 from camkit.cam.loads import ArmLoad
 from camkit.cam.measures import work_efficiency
@@ -21,6 +22,7 @@ from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.files import read, write
+from camkit.motion import LAW_MENU, Dwell, Return, Rise
 from camkit.quantities import (
     Choice,
     Declared,
@@ -163,7 +165,7 @@ def test_a_population_over_all_its_paths_is_its_members(design):
     study = Study(design, box(design), measures_of(design)[:1], angles=61)
     low, high = study.bounds
     x = low + (high - low) * np.random.default_rng(3).random((4, len(low)))
-    many = study.analyse(x)
+    many = study.analysis(x)
     for i, row in enumerate(x):
         one = study.design(row).analyse(61)
         for measure in measures_of(design):

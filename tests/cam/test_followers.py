@@ -11,8 +11,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import OscillatingRollerCam, Study, views
-from camkit.cam.analysis import FlatAnalysis
 from camkit.cam.conjugate import opposite, pair_forces
+from camkit.cam.flat_analysis import FlatAnalysis
 from camkit.cam.loads import ArmLoad, Friction
 from camkit.cam.measures import max_pressure_angle, mean_efficiency, peak_force
 from camkit.cam.oscillating_flat import OscillatingFlatCam

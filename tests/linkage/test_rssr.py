@@ -8,7 +8,8 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from camkit import Measure, Study, minimise
-from camkit.linkage.rssr import RSSR, inclination
+from camkit.geometry import inclination
+from camkit.linkage.rssr import RSSR
 from camkit.papers.cabin_door import adams_linkage
 from camkit.units import deg, mm
 

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from camkit.linkage.rssr import NEXT_TO, RSSR
+from camkit.linkage.rssr import RSSR
+from camkit.linkage.rssr_analysis import NEXT_TO
 from camkit.machines.cabin_door import Branch, CabinDoorLinkage
 from camkit.units import deg, mm
 
