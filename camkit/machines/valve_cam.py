@@ -159,7 +159,7 @@ class ValveCam(Design):
 
         Its preload is ``preload_share`` of its force at full lift.
 
-        >>> from camkit.cam.force_closure import jump_speed
+        >>> from camkit.cam import jump_speed
         >>> cam = ValveCam().with_spring()
         >>> print(f"{jump_speed(cam.analyse()) / cam.load.speed:.4f}")
         1.1500
