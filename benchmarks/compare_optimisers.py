@@ -33,10 +33,10 @@ from scipy.optimize import NonlinearConstraint, differential_evolution, minimize
 
 from camkit import __version__
 from camkit.machines.shaft import lightest_shaft, shaft_study
-from camkit.papers.problems import KNOWN_PROBLEMS
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.study import Evaluation, Study
+from known_problems import KNOWN_PROBLEMS
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "optimiser_comparison.json"
 BUDGET = 10_000

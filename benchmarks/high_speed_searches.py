@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 import pymoo
 import scipy
-from test_minimax import METHODS, PROBLEMS, ten_trials
 
 from camkit import __version__
 from camkit.papers.high_speed_cam import trade_off_studies
@@ -29,6 +28,7 @@ from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.nsga2 import nsga2_steps
 from camkit.search.protocol import Step
 from camkit.units import mm
+from test_minimax import METHODS, PROBLEMS, ten_trials
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "high_speed_searches.json"
 POINTS, POPULATION, RECHECK = 33, 100, 4001

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from live_front_searches import PROBLEMS, pygmo_nsga2
 
 from camkit import DoorHandleCam, door_handle_study, mm
 from camkit.data import load
@@ -22,6 +21,7 @@ from camkit.search.epsilon_constraint import trade_off
 from camkit.search.fast_front import Archive, _thinned, quick_front
 from camkit.search.front import Front, front_of, reference_point
 from camkit.study.study import Study
+from live_front_searches import PROBLEMS, pygmo_nsga2
 
 Report = Callable[[str, str], None]
 CACHED = load("live_front_searches")["problems"]

@@ -329,39 +329,48 @@ def curves_of(analysis):
 STRESSES = (high_speed_study.peak_stress, high_speed_study.peak_wear, lever_stress, lever_wear)
 
 
-def tops_of(analysis, curves, n=2001, hills=4, rounds=2):
+def tops_of(analysis, curves):
     """The largest value of each curve over rise and fall: of a fine table of each piece, then of its hills closer."""
-    program, tables = analysis.cam.motion, []
+    program, pieces = analysis.cam.motion, []
     for i in (0, 2):
         for low, high in pairwise((0.0, *program.segments[i].kinks, 1.0)):
-            share = low + (high - low) * np.linspace(1e-9, 1 - 1e-9, n)
-            tables.append(program.starts[i] + share * program.segments[i].angle)
-    seen = [analysis.at(table) for table in tables]
-    return {
-        measure: max(zoomed(analysis, curve, at, hills, rounds) for at in seen) for measure, curve in curves.items()
-    }
+            share = low + (high - low) * np.linspace(1e-9, 1 - 1e-9, 2001)
+            table = program.starts[i] + share * program.segments[i].angle
+            pieces.append(zoomed(analysis, curves, table))
+    return {measure: np.max([piece[measure] for piece in pieces]) for measure in curves}
 
 
-def zoomed(analysis, curve, at, hills, rounds):
-    values, x = curve(at), at.cam_angle
+def hills_of(values, most=4):
+    """Where a curve is no lower than beside: its highest places."""
     padded = np.concatenate([[-np.inf], values, [-np.inf]])
     tops = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
-    found = values.max()
-    for k in tops[np.argsort(values[tops])[-hills:]]:
-        low, high = x[max(k - 1, 0)], x[min(k + 1, len(x) - 1)]
-        for _ in range(rounds):
-            near = np.linspace(low, high, 101)
-            closer = curve(analysis.at(near))
-            best = int(closer.argmax())
-            low, high, found = near[max(best - 1, 0)], near[min(best + 1, 100)], max(found, closer[best])
+    return tops[np.argsort(values[tops])[-most:]]
+
+
+def zoomed(analysis, curves, table):
+    """The largest value of each curve in a table, and twice closer around its hills; those of all curves at once."""
+    at, last = analysis.at(table), len(table) - 1
+    values = {measure: curve(at) for measure, curve in curves.items()}
+    found = {measure: value.max() for measure, value in values.items()}
+    hills = [(measure, k) for measure, value in values.items() for k in hills_of(value)]
+    low, high = (table[[min(max(k + step, 0), last) for _, k in hills]] for step in (-1, 1))
+    for _ in range(2):
+        near = np.linspace(low, high, 101, axis=-1)
+        at = analysis.at(near.ravel())
+        closer = {measure: curve(at).reshape(near.shape) for measure, curve in curves.items()}
+        best = np.array([closer[measure][row].argmax() for row, (measure, _) in enumerate(hills)])
+        for row, (measure, _) in enumerate(hills):
+            found[measure] = max(found[measure], closer[measure][row, best[row]])
+        rows = np.arange(len(hills))
+        low, high = near[rows, np.maximum(best - 1, 0)], near[rows, np.minimum(best + 1, 100)]
     return found
 
 
 def right_everywhere(analysis, measures):
     """The measures of one high-speed cam against their curves: to 0.1 %."""
     with np.errstate(all="ignore"):
-        tops = tops_of(analysis, curves_of(analysis))
-        (pull,) = tops_of(analysis, {"pull": lambda at: -at.resisting_torque}).values()
+        tops = tops_of(analysis, curves_of(analysis) | {"pull": lambda at: -at.resisting_torque})
+    pull = tops.pop("pull")
     pressed = tops[-high_speed_study.undercut_margin] < 0 and pull < 0
     assert set(tops) <= {*measures, *(-m for m in measures)}
     for measure, top in tops.items():

@@ -12,7 +12,7 @@ from scipy.optimize import differential_evolution
 from camkit.data import load
 from camkit.machines.shaft import lightest_shaft
 from camkit.papers.optimiser_trials import Trials, measured_trials, probability_faster, trial_table
-from camkit.papers.problems import KNOWN_PROBLEMS
+from known_problems import KNOWN_PROBLEMS
 
 INF = np.inf
 DATA = load("optimiser_comparison")

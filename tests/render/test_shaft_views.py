@@ -10,7 +10,6 @@ from camkit import GPa, deg, kW, mm, picture, rpm
 from camkit.linkage.universal_joint import DoubleUniversalJoint
 from camkit.machines.shaft import PLANE_WINDOW, UniversalJointShaft, lightest_shaft, shaft_study
 from camkit.papers.optimiser_trials import measured_trials
-from camkit.papers.problems import tension_spring
 from camkit.papers.shaft import printed_designs
 from camkit.render.contours import level_curve, outlined, region
 from camkit.render.draw import artist_of, moving
@@ -25,6 +24,7 @@ from camkit.views.picture import Text
 from camkit.views.progress import candidates
 from camkit.views.sizes import section, sizes, utilisation
 from camkit.views.universal_joint import JOINT_VIEWS, drive, pins
+from known_problems import tension_spring
 
 OTHERS = (
     UniversalJointShaft(power=400 * kW),

@@ -7,7 +7,10 @@ from pymoo.optimize import minimize
 from pymoo.problems import get_problem
 
 from camkit.machines.shaft import WIDE_SPACE, lightest_shaft, shaft_study
-from camkit.papers.problems import (
+from camkit.search.competitive import CompetitiveAlgorithm
+from camkit.search.evolution import StudyProblem
+from camkit.units import mm
+from known_problems import (
     KNOWN_PROBLEMS,
     SpeedReducer,
     TensionSpring,
@@ -15,9 +18,6 @@ from camkit.papers.problems import (
     speed_reducer,
     tension_spring,
 )
-from camkit.search.competitive import CompetitiveAlgorithm
-from camkit.search.evolution import StudyProblem
-from camkit.units import mm
 
 OPTIMUM = lightest_shaft().analyse().area
 

@@ -22,7 +22,6 @@ from camkit.machines.high_speed_measures import (
 )
 from camkit.motion.families.shaped import SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import STRESS_CAP, lever_problems, problems, with_printed_sizes
-from camkit.papers.problems import KNOWN_PROBLEMS
 from camkit.quantities import Design, PeakMeasure, quantity
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.epsilon_constraint import trade_off
@@ -30,6 +29,7 @@ from camkit.search.minimise import METHODS, minimise
 from camkit.search.protocol import search
 from camkit.study.study import Study, weighted
 from camkit.units import cm, deg, mm, rpm
+from known_problems import KNOWN_PROBLEMS
 
 # ---------------------------------------------------------------- closed forms
 
@@ -304,12 +304,12 @@ def test_more_freedom_never_ends_worse(optima):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("objective", [peak_stress, peak_wear], ids=lambda m: m.name)
-def test_every_law_coefficient_that_is_freed_helps_or_does_nothing(objective):
-    """Sizes, then one coefficient after the other: each search begins where the last one ended."""
+def test_law_coefficients_that_are_freed_help_or_do_nothing(objective):
+    """Sizes, then four coefficients, then all eight: each search begins where the last one ended."""
     whole = high_speed_study(objective=objective, free_laws=True)
     sizes, laws = ({n: b for n, b in whole.free.items() if (n in COEFFICIENTS) is free} for free in (False, True))
     f, start = [], whole.start
-    for k in range(0, len(laws) + 1, 2):
+    for k in range(0, len(laws) + 1, 4):
         best = minimise(whole.replace(start=start, free={**sizes, **dict(list(laws.items())[:k])}))
         f.append(best.f)
         start = best.design
@@ -378,9 +378,9 @@ def test_differential_evolution_finds_no_better_geometry(optima):
 
 
 @pytest.mark.slow
-def test_ten_starts_with_eleven_variables_agree():
-    best = minimise(high_speed_study(free_laws=True), starts=10)
-    assert sum(end == pytest.approx(best.f, rel=1e-3) for end in best.ends) >= 8
+def test_five_starts_with_eleven_variables_agree():
+    best = minimise(high_speed_study(free_laws=True), starts=5)
+    assert sum(end == pytest.approx(best.f, rel=1e-3) for end in best.ends) >= 4
     assert best.f * mm**0.5 == pytest.approx(1.1826, abs=1e-4)
 
 
@@ -397,8 +397,8 @@ SPLINES = ShapedLaw(family=SPLINE)
 )
 def test_several_starts_with_splines_agree(study, unit, least):
     """No coefficient is held by its bound: the family has the room that it needs and random designs can be built."""
-    best = minimise(study, starts=3)
-    assert np.array(best.ends) * unit**0.5 == pytest.approx([least] * 3, abs=1e-3)
+    best = minimise(study, starts=2)
+    assert np.array(best.ends) * unit**0.5 == pytest.approx([least] * 2, abs=1e-3)
     assert not [a.name for a in best.active if " c" in a.name]
 
 

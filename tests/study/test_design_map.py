@@ -6,8 +6,8 @@ import pytest
 from camkit import DoorHandleCam, Study, deg, door_handle_study, kW, mm
 from camkit.cam.measures import max_pressure_angle
 from camkit.machines.shaft import PLANE_WINDOW, UniversalJointShaft, lightest_shaft, shaft_study
-from camkit.papers.problems import speed_reducer
 from camkit.study.design_map import DesignMap
+from known_problems import speed_reducer
 
 
 def plane(n: int = 41, **data: float) -> DesignMap:

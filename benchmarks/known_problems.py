@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Design, Measure, Quantity, declarations, fails, quantity
-from ..study.study import Study
+from camkit.quantities import Design, Measure, Quantity, declarations, fails, quantity
+from camkit.study.study import Study
 
 
 @dataclass(frozen=True)
