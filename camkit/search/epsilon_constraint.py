@@ -13,12 +13,15 @@ from ..quantities import counted
 from ..quantities.kinds import numbers, refuse_arguments
 from ..study.study import Study
 from .front import Front
-from .minimise import minimise_steps
+from .minimise import ROUGH, minimise_steps
 from .minimum import Minimum
 from .protocol import Step
 
-ROOM = 1e-6
-"""How far above its least value, as a share, the second objective may lie at the end of the front."""
+ROOM = 4 * ROUGH
+"""How far above its least value, as a share, the second objective may lie at the end of the front.
+
+It is twice what a rough descent keeps from its limits: with less room it would find no design that keeps them.
+"""
 
 
 def trade_off(study: Study, points: int = 9, **search: Any) -> Iterator[Minimum]:
