@@ -13,8 +13,8 @@ AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 # Two processes, each with a file of tests at a time: what a file's tests share is made once.
 PYTEST := $(BIN)/python -m pytest -n 2 --dist loadscope
 
-# Coverage is asked of the maths alone: watching makes the tests of panels and pictures slower by half.
-PANELS := tests/panels tests/render
+# Coverage is asked of the maths alone, and not of its long searches: watching makes these tests slower by half.
+UNWATCHED := tests/panels tests/render tests/search/test_minimise_cams.py tests/test_extrema.py
 
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
@@ -44,9 +44,9 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(PYTEST) -m "not browser" $(addprefix --ignore=,$(PANELS)) --cov --cov-report=term-missing:skip-covered
-	@echo "== tests of panels and pictures (pytest)"
-	$(PYTEST) $(PANELS)
+	$(PYTEST) -m "not browser" $(addprefix --ignore=,$(UNWATCHED)) --cov --cov-report=term-missing:skip-covered
+	@echo "== tests of panels, pictures and long searches (pytest)"
+	$(PYTEST) $(UNWATCHED)
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(PYTEST) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
