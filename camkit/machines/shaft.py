@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, reduce
-from typing import Any, ClassVar
+from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
 from ..data import load
 from ..data.materials import MATERIALS
-from ..quantities import Design, Measure, declarations, fails, quantities_of, quantity, value_of, words
+from ..quantities import Design, Measure, fails, quantities_of, quantity, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.design_map import DesignMap
 from ..study.study import Space, Study
 from ..units import deg, kW, mm, rpm
+from .shaft_analysis import ShaftAnalysis, nearest_of
 
 TORQUE_NUMBER = 9550
 """Handbooks' ``M [N m] = 9550 P [kW] / n [rpm]``; exact is 30000 / pi = 9549.2966, the paper uses 9550."""
@@ -68,6 +69,8 @@ class UniversalJointShaft(Design):
             raise ValueError(
                 f"the joint angle beta is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
             )
+        in_order = (self.inner_diameter < self.outer_diameter) & (self.speed <= self.max_speed)
+        self.keep(in_order & (self.joint_angle < np.pi / 2))
 
     def made_of(self, name: str) -> UniversalJointShaft:
         """The same shaft of another of `MATERIALS`: moduli, density and allowable shear stress change.
@@ -119,166 +122,40 @@ class UniversalJointShaft(Design):
         """Outer diameter up to which a tube that is stiff enough is strong enough, m: ``2 tau_p / (G theta_p)``."""
         return 2 * self.allowable_shear / (self.shear_modulus * self.allowable_twist)
 
+    @property
+    def sizes(self) -> TubeSizes:
+        """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
+        return _sizes(self.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
+
     def analyse(self, n: int = 1) -> ShaftAnalysis:
         """Stresses, twist and speeds; ``n`` is there so that every design is analysed alike (a tube has no angle)."""
         return ShaftAnalysis(self)
 
 
-@dataclass(frozen=True)
-class ShaftAnalysis:
-    """What follows from a `UniversalJointShaft`: numbers for one design, ``(p, 1)`` for ``p`` designs.
-
-    ``nan`` where a member of a population cannot be built.
-    """
-
-    offers: ClassVar[tuple[str, ...]] = ("sizes", "utilisation", "rings")
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
-
-    shaft: UniversalJointShaft
-
-    @cached_property
-    def buildable(self) -> Any:
-        """Whether every quantity is possible, the bore inside the tube, speeds in order and the joint able to turn."""
-        s = self.shaft
-        possible = [q.allows(getattr(s, name)) for name, q in declarations(s).items()]
-        in_order = (s.inner_diameter < s.outer_diameter) & (s.speed <= s.max_speed) & (s.joint_angle < np.pi / 2)
-        return reduce(np.logical_and, possible, in_order)
-
-    @cached_property
-    def _outer(self) -> Any:
-        return np.where(self.buildable, self.shaft.outer_diameter, np.nan)[()]
-
-    @cached_property
-    def area(self) -> Any:
-        """``A = pi (D^2 - d^2) / 4``, m^2."""
-        return np.pi * (self._outer**2 - self.shaft.inner_diameter**2) / 4
-
-    @cached_property
-    def polar_moment(self) -> Any:
-        """``I_p = pi (D^4 - d^4) / 32``, m^4; the second moment of area ``I`` is half of it."""
-        return np.pi * (self._outer**4 - self.shaft.inner_diameter**4) / 32
-
-    @cached_property
-    def mass(self) -> Any:
-        """Of the tube between the joints, kg."""
-        return self.shaft.density * self.area * self.shaft.length
-
-    @cached_property
-    def inertia(self) -> Any:
-        """About the tube's own axis, ``rho L I_p``, kg m^2."""
-        return self.shaft.density * self.shaft.length * self.polar_moment
-
-    @property
-    def torque(self) -> Any:
-        """Before the joint, ``M = 9550 K_A P / n``, N m."""
-        return self.shaft.torque
-
-    @cached_property
-    def tube_torque(self) -> Any:
-        """The largest in the tube, ``M / cos(beta)``, N m (see `UniversalJointShaft.tube_torque`)."""
-        return np.where(self.buildable, self.shaft.tube_torque, np.nan)[()]
-
-    @cached_property
-    def shear_stress(self) -> Any:
-        """At the tube's surface, ``tau = M_t / W_n``, ``W_n = pi D^3 [1 - (d / D)^4] / 16 = 2 I_p / D``, Pa.
-
-        ``M_t`` is the `tube_torque`; no bending couple makes more of it.
-        """
-        return self.tube_torque * self._outer / (2 * self.polar_moment)
-
-    @cached_property
-    def twist(self) -> Any:
-        """Over the length at the largest torque, ``theta = M_t / (G I_p)``, rad/m."""
-        return self.tube_torque / (self.shaft.shear_modulus * self.polar_moment)
-
-    @cached_property
-    def critical_speed(self) -> Any:
-        """``sqrt(g / y)``, ``y = 5 Q L^3 / (384 E I)`` the sag of the tube under its weight ``Q``, rad/s.
-
-        The paper prints 348.  Gravity cancels: ``sqrt(76.8 E I / (rho A L^4))``, 11 % below the exact
-        ``pi^2 sqrt(E I / (rho A L^4))`` of a tube on two supports, so the paper's limit is a cautious one.
-        """
-        s = self.shaft
-        return np.sqrt(76.8 * s.elastic_modulus * self.polar_moment / 2 / (s.density * self.area * s.length**4))
-
-    @cached_property
-    def buckling_stress(self) -> Any:
-        """Shear stress at which a long tube's wall buckles, ``tau_c = 0.292 E ((D - d) / D)^1.5``, Pa.
-
-        ``0.272 E (t / r)^1.5 / (1 - nu^2)^0.75`` with ``nu = 0.3``, wall ``t`` and outer radius ``r``.
-        """
-        return 0.292 * self.shaft.elastic_modulus * ((self._outer - self.shaft.inner_diameter) / self._outer) ** 1.5
-
-    @cached_property
-    def shear_utilisation(self) -> Any:
-        """Shear stress over what is allowed."""
-        return self.shear_stress / self.shaft.allowable_shear
-
-    @cached_property
-    def twist_utilisation(self) -> Any:
-        """Twist over what is allowed."""
-        return self.twist / self.shaft.allowable_twist
-
-    @cached_property
-    def speed_utilisation(self) -> Any:
-        """Highest speed over what the critical speed allows, ``s n_max / n_1``."""
-        return self.shaft.speed_margin * self.shaft.max_speed / self.critical_speed
-
-    @cached_property
-    def buckling_utilisation(self) -> Any:
-        """Shear stress over the stress at which the wall buckles."""
-        return self.shear_stress / self.buckling_stress
-
-    @property
-    def utilisation(self) -> dict[str, Any]:
-        """Every limit's load over what is allowed, by name; above 1 the limit is broken."""
-        return {
-            "shear stress": self.shear_utilisation,
-            "twist": self.twist_utilisation,
-            "critical speed": self.speed_utilisation,
-            "buckling": self.buckling_utilisation,
-        }
-
-    @property
-    def sizes(self) -> TubeSizes:
-        """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
-        return _sizes(self.shaft.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
-
-    @property
-    def here(self) -> np.ndarray:
-        """Where the tube is on the plane of its sizes, ``(2,)`` m."""
-        return np.array([self.shaft.outer_diameter, self.shaft.inner_diameter])
-
-    @property
-    def rings(self) -> dict[str, np.ndarray]:
-        """Both diameters by name, m: of the tube, of the nearest of each series that keeps every limit, or ``nan``."""
-        nearest = {
-            f"nearest {series}": _nearest(self.here, tubes) if len(tubes) else np.full(2, np.nan)
-            for series, tubes in self.sizes.holding.items()
-        }
-        return {"this tube": self.here, **nearest}
+def _measure(name: str, unit: str, of: Callable[[ShaftAnalysis], Any]) -> Measure:
+    return Measure(name, unit, lambda a: np.max(of(a), axis=-1))
 
 
-def _measure(name: str, unit: str, attribute: str) -> Measure:
-    return Measure(name, unit, lambda a: np.max(getattr(a, attribute), axis=-1))
+def _utilisation(of: str, limit: str) -> Measure:
+    return _measure(f"utilisation of the {of}", "%", lambda a: a.utilisation[limit])
 
 
 def _margin(use: Measure) -> Measure:
     return Measure(use.name.replace("utilisation", "margin"), "%", lambda a: 1 - use(a))
 
 
-tube_area = _measure("area of the tube", "mm^2", "area")
-tube_mass = _measure("mass of the tube", "kg", "mass")
-tube_torque = _measure("largest torque in the tube", "N m", "tube_torque")
-shear_stress = _measure("shear stress", "MPa", "shear_stress")
-twist = _measure("twist", "deg/m", "twist")
-critical_speed = _measure("critical speed", "rpm", "critical_speed")
-buckling_stress = _measure("buckling stress", "GPa", "buckling_stress")
+tube_area = _measure("area of the tube", "mm^2", lambda a: a.area)
+tube_mass = _measure("mass of the tube", "kg", lambda a: a.mass)
+tube_torque = _measure("largest torque in the tube", "N m", lambda a: a.tube_torque)
+shear_stress = _measure("shear stress", "MPa", lambda a: a.shear_stress)
+twist = _measure("twist", "deg/m", lambda a: a.twist)
+critical_speed = _measure("critical speed", "rpm", lambda a: a.critical_speed)
+buckling_stress = _measure("buckling stress", "GPa", lambda a: a.buckling_stress)
 
-shear_utilisation = _measure("utilisation of the shear stress", "%", "shear_utilisation")
-twist_utilisation = _measure("utilisation of the twist", "%", "twist_utilisation")
-speed_utilisation = _measure("utilisation of the critical speed", "%", "speed_utilisation")
-buckling_utilisation = _measure("utilisation of the buckling stress", "%", "buckling_utilisation")
+shear_utilisation = _utilisation("shear stress", "shear stress")
+twist_utilisation = _utilisation("twist", "twist")
+speed_utilisation = _utilisation("critical speed", "critical speed")
+buckling_utilisation = _utilisation("buckling stress", "buckling")
 
 UTILISATIONS = (shear_utilisation, twist_utilisation, speed_utilisation, buckling_utilisation)
 """What each limit is used up by; 100 % is the limit."""
@@ -347,7 +224,7 @@ def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Space | N
         stiffest = start.replace(outer_diameter=widest, inner_diameter=min_bore).analyse()
         raise ValueError(
             f"even the stiffest tube within the bounds, {widest / mm:.6g} mm outside and {min_bore / mm:.6g} mm "
-            f"inside, takes {100 * stiffest.twist_utilisation:.4g} % of its limit on twist"
+            f"inside, takes {100 * stiffest.utilisation['twist']:.4g} % of its limit on twist"
         )
     bore = min(bore, (widest**4 - start.stiff_difference) ** 0.25)
     tube = start.replace(outer_diameter=max(start.stiff_diameter(bore), narrowest), inner_diameter=bore)
@@ -412,12 +289,8 @@ def nearest_tube(shaft: UniversalJointShaft, tubes: np.ndarray) -> UniversalJoin
     holding = tubes_that_hold(shaft, tubes)
     if not len(holding):
         raise ValueError(f"none of the {len(tubes)} standard tubes keeps every limit")
-    D, d = _nearest(np.array([shaft.outer_diameter, shaft.inner_diameter]), holding)
+    D, d = nearest_of(np.array([shaft.outer_diameter, shaft.inner_diameter]), holding)
     return shaft.replace(outer_diameter=float(D), inner_diameter=float(d))
-
-
-def _nearest(here: np.ndarray, tubes: np.ndarray) -> np.ndarray:
-    return np.asarray(tubes[np.argmin(np.hypot(*(tubes - here).T))])
 
 
 def lightest_tube(study: Study, tubes: np.ndarray) -> UniversalJointShaft:
