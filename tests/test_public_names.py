@@ -100,7 +100,7 @@ def _public():
         ]
         found |= {(module.__name__, name) for name in own if name[0] != "_"}
     every = ((getattr(import_module(module), name, None), name) for module, name in sorted(found))
-    things = {thing: name for thing, name in every if callable(thing)}
+    things = {thing: name for thing, name in every if callable(thing) and not inspect.isabstract(thing)}
     tested = {thing.__qualname__ for thing in (*CLASSES, *FUNCTIONS)}
     return {
         f"{thing.__module__.removeprefix('camkit.')}.{name}": thing
