@@ -31,6 +31,7 @@ from .measures import (
 )
 from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from .pair import ConjugatePair, ConjugatePairAnalysis
 from .roller_analysis import RollerAnalysis
 from .slide import SlideFriction, SlideLoad
 from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
@@ -39,6 +40,8 @@ from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
 __all__ = [
     "ArmLoad",
     "CamAnalysis",
+    "ConjugatePair",
+    "ConjugatePairAnalysis",
     "Contact",
     "ContactPair",
     "FlatAnalysis",

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -74,6 +74,8 @@ class OscillatingFlatCam(Design):
     load: ArmLoad = field(default_factory=_closed)
     friction: Friction = field(default_factory=Friction)
     contact: ContactPair | NoContact = contact_choice()
+
+    name: ClassVar[str] = "rocking face"
 
     @property
     def roller_radius(self) -> float:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -66,6 +66,8 @@ class OscillatingRollerCam(Design):
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
     contact: ContactPair | NoContact = contact_choice()
+
+    name: ClassVar[str] = "rocking roller"
 
     def analyse(self, n: int = 721) -> OscillatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -55,6 +55,8 @@ class TranslatingFlatCam(Design):
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
     contact: ContactPair | NoContact = contact_choice()
+
+    name: ClassVar[str] = "sliding face"
 
     @property
     def roller_radius(self) -> float:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -76,6 +76,8 @@ class TranslatingRollerCam(Design):
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
     contact: ContactPair | NoContact = contact_choice()
+
+    name: ClassVar[str] = "sliding roller"
 
     def __post_init__(self) -> None:
         super().__post_init__()

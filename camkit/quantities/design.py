@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -11,7 +11,7 @@ from .declaration import Choice, Declared, Quantity, declarations, words
 from .kinds import refuse_kinds, refuse_lengths
 from .markup import Html, html, table
 from .measure import Measure
-from .tree import declared_in, value_of
+from .tree import declared_in, refuse_no_design, value_of
 
 
 class Design(Declared):
@@ -47,8 +47,15 @@ def measures_of(design: Any) -> tuple[Measure, ...]:
     >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
     ['overspeed before the follower jumps', 'peak contact pressure']
     """
-    parts = design.branches().values()
-    return (*getattr(type(design), "measures", ()), *(measure for part in parts for measure in measures_of(part)))
+    refuse_no_design(design)
+    return (*getattr(type(design), "measures", ()), *_measures_below(design))
+
+
+def _measures_below(part: Any) -> Iterator[Measure]:
+    """Those of the parts that it holds; what is analysed on its own, such as a cam of a pair, keeps its own."""
+    for held in part.branches().values():
+        yield from () if hasattr(held, "analyse") else getattr(type(held), "measures", ())
+        yield from _measures_below(held)
 
 
 def _left(text: str) -> Html:

@@ -76,10 +76,15 @@ def _walk(part: Any, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
                 yield path, leaf
 
 
-def _leaves_of(design: Any) -> dict[str, Leaf]:
-    """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
+def refuse_no_design(design: Any) -> None:
+    """``ValueError`` for what is no design, nor a part of one."""
     if not isinstance(design, Declared) or not dataclasses.is_dataclass(design):
         raise ValueError(f"the design is {shown(design)}; it must be a design, such as a cam, or a part of one")
+
+
+def _leaves_of(design: Any) -> dict[str, Leaf]:
+    """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
+    refuse_no_design(design)
     return dict(_walk(design, {}))
 
 

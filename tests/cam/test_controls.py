@@ -18,6 +18,7 @@ from camkit.cam.loads import ArmLoad
 from camkit.cam.measures import work_efficiency
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.oscillating_roller import OscillatingRollerCam
+from camkit.cam.pair import CAMS, ConjugatePair
 from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
@@ -28,7 +29,6 @@ from camkit.quantities import (
     Declared,
     Design,
     Quantity,
-    can_be_analysed,
     declared_in,
     measures_of,
     quantities_of,
@@ -88,7 +88,6 @@ def test_the_family_is_all_there():
 def every_variant():
     for kind in designs_of_the_family():
         design = kind()
-        assert can_be_analysed(design)
         yield design
         if "contact" in {f.name for f in dataclasses.fields(kind)}:
             yield design.replace(contact=ContactPair())
@@ -125,6 +124,8 @@ CASES = {
     "a plate under a rocking roller": OscillatingRollerCam(groove=False, load=ArmLoad(spring_rate=5, preload=2)),
     "sliding knife edge": TranslatingRollerCam(roller_radius=0.0),
     "rocking knife edge": OscillatingRollerCam(roller_radius=0.0),
+    **{f"pair, {cam.name}, {sigma}": ConjugatePair(cam.replace(rotation=sigma)) for cam in CAMS for sigma in (1, -1)},
+    "pair with a contact": ConjugatePair(CAMS[2].replace(contact=ContactPair())),
     "tables on a slide": TranslatingRollerCam(load=SLIDE_TABLES),
     "tables on an arm": OscillatingRollerCam(load=ARM_TABLES),
     "gravity on a slide": TranslatingFlatCam(load=SlideLoad(gravity=9.81, up_angle=20 * deg)),
