@@ -139,7 +139,7 @@ those of one design in proportion to their lengths: peaks agree to 1e-6, means b
 every_case = pytest.mark.parametrize("design", CASES.values(), ids=CASES)
 
 
-def spread(design, share=1e-3):
+def spread(design, share=1.0713e-3):
     """Half widths of all quantities: a share of what their sliders offer."""
     return {path: share * (q.high - q.low) * q.factor for path, q in quantities_of(design).items()}
 
