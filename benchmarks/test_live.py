@@ -29,7 +29,7 @@ CELLS = [
     """
 from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore
 from camkit.machines.door_handle import CURVE_TABLE, WORSE_CURVE
-from camkit.views import CAM_VIEWS
+from camkit.views import default_views
 
 paper = DoorHandleCam(lift_load=ArmLoad(torque=10))
 study = door_handle_study(paper)
@@ -38,7 +38,7 @@ sliders = ["lift_arm", "lift_start_angle", "relief_arm", "lift_centre_distance",
            "lift_load.mass", "lift_load.speed", "lift_load.torque", "lift_load.spring_rate", "relief_load.mass",
            "relief_load.torque", "friction.coefficient", "friction.cam_axis", "friction.roller_pin",
            "friction.arm_pivot"]
-app = explore(paper, *CAM_VIEWS, free=sliders, measures=(*WORSE_CURVE.values(), *CURVE_TABLE),
+app = explore(paper, free=sliders, measures=(*WORSE_CURVE.values(), *CURVE_TABLE),
               at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app""",
     """
@@ -55,7 +55,7 @@ def redraw(lift_arm):
     analysis = DoorHandleCam(lift_arm=lift_arm * mm).analyse()
     with rc_context(theme_style()):
         figure = plt.figure(figsize=(12.6, 7.0), dpi=100)
-        draw(analysis, [figure.add_axes(place) for place in places], CAM_VIEWS, turn=75 * deg)
+        draw(analysis, [figure.add_axes(place) for place in places], default_views(analysis), turn=75 * deg)
         plt.show()
 
 interact(redraw, lift_arm=FloatSlider(50, min=40, max=62, step=0.01));""",

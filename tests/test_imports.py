@@ -168,7 +168,7 @@ try:
     camkit.panels
 except ImportError as refused:
     print(refused)
-print(camkit.views.CAM_VIEWS[0].__name__)
+print(camkit.views.mechanism.__name__)
 """
 
 

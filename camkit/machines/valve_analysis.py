@@ -145,7 +145,7 @@ class ValveAnalysis(CamAnalysis):
         return np.where(on_ramp, np.char.add(side, part), "base circle")
 
     @property
-    def valve_open(self) -> np.ndarray:
+    def is_open(self) -> np.ndarray:
         """Where the cam holds the valve open; on ramp and base circle the lash is open instead."""
         return self.lift >= -ROUNDING
 
@@ -154,11 +154,11 @@ class ValveAnalysis(CamAnalysis):
 
         0 where the valve is shut; negative where the follower would have to be pulled: there it jumps.
         """
-        return np.where(self.valve_open, self.spring_force - self.needed_at(speed), 0 * self.lift)
+        return np.where(self.is_open, self.spring_force - self.needed_at(speed), 0 * self.lift)
 
     def needed_at(self, speed: Any) -> np.ndarray:
         """Spring force that keeps the train on the cam at ``speed``, N; negative where the cam lifts it anyway."""
-        return np.where(self.valve_open, -self.cam.load.mass * speed**2 * self.acceleration, 0 * self.lift)
+        return np.where(self.is_open, -self.cam.load.mass * speed**2 * self.acceleration, 0 * self.lift)
 
     @cached_property
     def spring_force(self) -> np.ndarray:

@@ -85,7 +85,6 @@ class Explorer(Panel):
         self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
             m: (v, -1) for m, v in (at_least or {}).items()
         }
-        self._at_most = dict(at_most or {})
         self._first = [float(m(self.analysis)) for m in self.measures]
         self._followers: list[Callable[[Any], None]] = []
         views = tuple(views) or default_views(self.analysis)
@@ -268,7 +267,8 @@ class Explorer(Panel):
         numbers = self._table_html()
         self._fit_turn()
         position = {name: knob.value for name, knob in self.positions.items()}
-        self.picture.show(self.analysis, limits=self._at_most, **position)
+        limits = {measure: value for measure, (value, _) in self._limits.items()}
+        self.picture.show(self.analysis, limits=limits, **position)
         self._fit_controls(self.design)
         self._table.value = numbers
         self._reveal()

@@ -126,3 +126,9 @@ def front_points(front: Any) -> Comparison:
         for a, full in zip(value["acceleration"], value["fullness"], strict=True)
     ]
     return Comparison("The front of fullness against peak positive acceleration", FORMULAS, rows, APART)
+
+
+def known_front() -> np.ndarray:
+    """Points of the front of fullness against peak positive acceleration, evaluated apart, ``(2, 5)``, m/s^2."""
+    points = _of_formulas("front")
+    return np.array([points["fullness"], points["acceleration"]])

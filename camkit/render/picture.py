@@ -89,8 +89,8 @@ def positions_of(view: View) -> tuple[str, ...]:
 def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
-    ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` that are at most allowed (a
-    mapping from measures to SI), so that a picture shows the limit that its panel or its study has.
+    ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` (a mapping from measures to
+    SI), so that a picture shows the limit that its panel or its study has.
     """
     with rc_context(theme_style()):
         for view, ax in zip(views, axes, strict=True):

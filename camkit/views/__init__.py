@@ -1,17 +1,103 @@
 """Views: ``view(analysis) -> Picture``.  They compute no physics, and know numpy and units only."""
 
-from .cam import CAM_VIEWS as CAM_VIEWS
-from .cam import cam_torque as cam_torque
-from .cam import contact_force as contact_force
-from .cam import curvature as curvature
-from .cam import efficiency as efficiency
-from .cam import mechanism as mechanism
-from .cam import motion as motion
-from .cam import pressure_angle as pressure_angle
-from .design_map import ShownPlane as ShownPlane
-from .design_map import design_plane as design_plane
-from .design_map import designs_on_plane as designs_on_plane
-from .design_map import objective_plane as objective_plane
-from .picture import Picture as Picture
-from .picture import View as View
-from .progress import candidates as candidates
+from .beside import Beside, cams_beside, curves_beside
+from .cam import cam_torque, contact_force, contact_pressure, curvature, efficiency, mechanism, motion, pressure_angle
+from .decision import ShownDecision, brushed_designs, front_winners, judgement_bars, winners_by_weight
+from .defaults import curve_view, default_views
+from .design_map import ShownPlane, design_plane, designs_on_plane, objective_plane
+from .event import cam_and_follower, lift, radius_of_curvature, spring_and_inertia, stress_over_event
+from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_pareto, pareto, searches_compared
+from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
+from .laws import LAW_VIEWS, ShownProgram, ShownVibration, vibration_left
+from .optimiser_trials import evaluations_needed, solved_within
+from .picture import Area, Axes, Band, Circle, Contour, Line, Picture, Points, Polygon, Region, Text, View
+from .progress import candidates, convergence, least_over_bound
+from .shafts import drive
+from .sizes import plane_of_sizes, section, utilisation
+from .sketch import flat_face_sketch, roller_cam_sketch, two_radii_sketch
+from .space import linkage_in_space, output_angle, pressure_angles, velocity_ratio
+from .space_sketch import linkage_sketch
+from .sweep import limit_sweep, sweep_view
+from .tolerances import band, cloud, deviation, sobol_bars
+
+__all__ = [
+    "LAW_VIEWS",
+    "Area",
+    "Axes",
+    "Band",
+    "Beside",
+    "Circle",
+    "Contour",
+    "Line",
+    "LiveFront",
+    "Picture",
+    "Points",
+    "Polygon",
+    "Region",
+    "ShownDecision",
+    "ShownFront",
+    "ShownFronts",
+    "ShownPlane",
+    "ShownProgram",
+    "ShownVibration",
+    "Text",
+    "View",
+    "band",
+    "brushed_designs",
+    "cam_and_follower",
+    "cam_torque",
+    "cams_beside",
+    "candidates",
+    "cloud",
+    "contact_force",
+    "contact_pressure",
+    "contact_stress",
+    "convergence",
+    "curvature",
+    "curve_view",
+    "curves_beside",
+    "default_views",
+    "design_plane",
+    "designs_on_plane",
+    "deviation",
+    "drive",
+    "efficiency",
+    "evaluations_needed",
+    "flat_face_sketch",
+    "front_winners",
+    "fronts_overlaid",
+    "hertz_pressure",
+    "judgement_bars",
+    "least_over_bound",
+    "lift",
+    "limit_sweep",
+    "linkage_in_space",
+    "linkage_sketch",
+    "live_pareto",
+    "load_over_way",
+    "mechanism",
+    "motion",
+    "objective_plane",
+    "output_angle",
+    "pareto",
+    "plane_of_sizes",
+    "pressure_angle",
+    "pressure_angles",
+    "radius_of_curvature",
+    "roller_cam_sketch",
+    "searches_compared",
+    "section",
+    "sobol_bars",
+    "solved_within",
+    "spring_and_inertia",
+    "stress_over_event",
+    "stress_over_way",
+    "sweep_view",
+    "two_radii_sketch",
+    "utilisation",
+    "velocity_ratio",
+    "vibration_left",
+    "wear",
+    "wear_over_way",
+    "winners_by_weight",
+]

@@ -168,7 +168,3 @@ def contact_pressure(analysis: Any) -> Picture:
         marks.append(Line(name, x, gaps(y, there), role="series", index=i))
         marks.append(Line(f"{name} none", x, gaps(0 * x, ~there), role="trouble"))
     return Picture.of(Axes(title="Contact pressure", xlabel=ANGLE, ylabel="p_0  [MPa]"), marks)
-
-
-CAM_VIEWS = (mechanism, motion, pressure_angle, contact_force, cam_torque, curvature, efficiency)
-"""What a designer of a cam wants to see at once."""

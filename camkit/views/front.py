@@ -11,7 +11,7 @@ import numpy as np
 from ..decision import Judgements
 from ..quantities.kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
 from ..units import factor
-from .picture import Axes, Line, Mark, Picture, Points, Text
+from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,8 @@ class ShownFront:
     winner: int | None = None
     start: Any = None
     """Objectives of the starting design, ``(k,)``."""
+    known: Any = None
+    """Points of the front that are known, as they are read, ``(2, m)``."""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
@@ -61,8 +63,11 @@ def _axes(title: str, objectives: Any) -> Axes:
 
 def pareto(shown: ShownFront) -> Picture:
     """The front of the first two objectives, the start, the design in the sliders and the winner."""
-    objectives = shown.front.study.minimise
-    return Picture.of(_axes("Pareto front", objectives), _front(shown))
+    known = np.zeros((2, 0)) if shown.known is None else shown.known
+    style: Any = {"mark": "diamond", "size": 9, "fill": "none", "role": "allowed"}
+    label = "" if shown.known is None else "known points"
+    axes = _axes("Pareto front", shown.front.study.minimise)
+    return Picture.of(axes, _front(shown), Points("known", *known, label=label, **style))
 
 
 def _front(shown: ShownFront) -> list[Mark]:
@@ -168,11 +173,11 @@ def weight_bars(judgements: Judgements) -> Picture:
     marks: list[Mark] = []
     for i, (name, weight) in enumerate(zip(names, judgements.weights, strict=True)):
         marks.append(Line(name, [0, 100 * weight], [-i, -i], role="position", stroke="bar"))
-        marks.append(Text(f"{name} value", 100 * weight + 1.5, -i, f"{100 * weight:.1f} %", anchor="left", size=11))
+        share = 100 * weight
+        marks.append(Text(f"{name} value", share + 1.5, -i, "{:.1f} %", values=(share,), anchor="left", size=11))
     ratio = judgements.consistency_ratio
-    bad = [1.0][: int(ratio > 0.1)]
-    marks.append(Points("inconsistent", [100 * one for one in bad], [0.62 * one for one in bad], role="trouble"))
-    marks.append(Text("ratio", 98, 0.62, f"consistency ratio {ratio:.3f}", anchor="right", size=11))
+    marks.append(Points("inconsistent", gaps(100.0, ratio > 0.1), 0.62, role="trouble"))
+    marks.append(Text("ratio", 98, 0.62, "consistency ratio {:.3f}", values=(ratio,), anchor="right", size=11))
     axes = Axes(
         title="Weights",
         xlabel="weight  [%]",

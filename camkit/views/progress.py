@@ -10,8 +10,7 @@ import numpy as np
 from ..quantities import Measure, Quantity, declarations, words
 from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..units import deg, factor, in_unit
-from .high_speed import two_lines
-from .picture import Axes, Band, Line, Mark, Picture, Points, View
+from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View
 
 ROOM = 0.5
 """How far above the first design, as a share of it, designs that a search looked at are shown."""
@@ -132,3 +131,29 @@ def _free(study: Any, name: str) -> _Shown:
 def _objective(study: Any) -> _Shown:
     measure: Measure = study.minimise[0]
     return _Shown(measure.name.capitalize(), measure.label, factor(measure.unit))
+
+
+def least_over_bound(name: str) -> View:
+    """A view of several results of `minimise`: the least objective over the upper bound that a free quantity had."""
+    refuse_arguments(least_over_bound, locals())
+
+    def view(found: Sequence[Any]) -> Picture:
+        refuse_empty(found, "results")
+        measure, declared = found[0].study.minimise[0], found[0].study.declared[name]
+        bound = np.array([best.study.free[name][1] for best in found]) / declared.factor
+        least = np.array([best.f for best in found]) / factor(measure.unit)
+        told = [
+            Text(f"at {x:g}", x, y, " {:.2f}", values=(y,), anchor="left bottom", size=11)
+            for x, y in zip(bound, least, strict=True)
+        ]
+        label = f"bound of the {words(name)}  [{declared.unit}]"
+        axes = Axes(title=f"What a larger {words(name)} buys", xlabel=label, ylabel=two_lines(measure))
+        results = Points("results", bound, least, role="position")
+        return Picture.of(axes, Line("least", bound, least, role="position"), results, told)
+
+    return view
+
+
+def two_lines(measure: Any) -> str:
+    """Name and unit of a measure in two lines, for a short axis."""
+    return f"{measure.name}\n[{measure.unit}]" if measure.unit else str(measure.name)

@@ -15,7 +15,7 @@ MOST = 125.0
 """A bar ends here, percent of its limit."""
 
 
-def sizes(analysis: Any) -> Picture:
+def plane_of_sizes(analysis: Any) -> Picture:
     """The plane of two sizes: limits, a catalogue, the optimum, and this design; trouble: it misses a limit."""
     found = analysis.sizes
     units = units_of(found.plane)

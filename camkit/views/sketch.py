@@ -104,8 +104,8 @@ def _arm_angle(pivot: Any, psi: Any) -> list[Mark]:
     return [arc("psi", pivot, 17.0, np.pi - psi, np.pi), letter("psi name", at, r"$\psi$")]
 
 
-def high_speed_sketch(analysis: Any, turn: float = 0.0) -> Picture:
-    """A high-speed cam with the letters of its formulas, at cam angle ``turn``."""
+def two_radii_sketch(analysis: Any, turn: float = 0.0) -> Picture:
+    """A plate cam between its two radii, with the letters of its formulas, at cam angle ``turn``."""
     i, cam = position(analysis, turn), analysis.cam
     profile, pivot = _turned(analysis, i, "profile"), analysis.cranks["arm"][0] / mm
     centre, radius = analysis.roller_centre[:, i] / mm, _radius(analysis)
@@ -162,8 +162,8 @@ def _force_and_way(centre: Any, normal: Any, t: Any) -> list[Mark]:
     ]
 
 
-def valve_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
-    """A valve cam under a flat face with the letters of the formulas, at cam angle ``turn``."""
+def flat_face_sketch(analysis: Any, turn: float = 0.0) -> Picture:
+    """A cam with a nose under a flat face, with the letters of the formulas, at cam angle ``turn``."""
     whole, cam = analysis.whole, analysis.cam
     i = position(whole, turn)
     alpha, r0, h = whole.cam_angle[i], cam.base_radius / mm, whole.lift[i] / mm

@@ -12,7 +12,7 @@ from ..quantities.kinds import refuse_arguments
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
 from .front import shown_objectives
-from .picture import Area, Axes, Line, Mark, Picture, Points, Text, View
+from .picture import Area, Axes, Line, Mark, Picture, Points, Text, View, gaps
 
 
 def band(curve: AnalysisCurve) -> View:
@@ -107,14 +107,15 @@ def sobol_bars(tolerances: Tolerances) -> Picture:
         style: Any = {"role": "guide"} if name == "together" else {"role": "series", "index": j}
         for i in range(len(measures)):
             start, end = shares[i, :j].sum(), shares[i, : j + 1].sum()
-            ends = [start, end] if end > start else []
             label = words(name) if i == 0 else ""
-            marks.append(Line(f"{name} {i}", ends, [-i] * len(ends), stroke="bar", label=label, **style))
-            told = f"{end - start:.0f}" if end - start > 8 else ""
-            marks.append(Text(f"{name} {i} value", (start + end) / 2, -i, told, role="paper", bold=True, size=11))
+            ends = gaps(np.stack([start, end]), end > start)
+            marks.append(Line(f"{name} {i}", ends, [-i, -i], stroke="bar", label=label, **style))
+            look: Any = {"role": "paper", "bold": True, "size": 11, "values": (end - start,)}
+            middle = gaps((start + end) / 2, end - start > 8)
+            marks.append(Text(f"{name} {i} value", middle, -i, "{:.0f}", **look))
     for i in range(len(measures)):
-        told = "" if shares[i].any() else "does not vary"
-        marks.append(Text(f"still {i}", 2, -i, told, role="guide", anchor="left", size=11))
+        still = gaps(2.0, ~shares[i].any())
+        marks.append(Text(f"still {i}", still, -i, "does not vary", role="guide", anchor="left", size=11))
     axes = Axes(
         title="Which tolerance matters",
         xlabel="share of the variance  [%]",

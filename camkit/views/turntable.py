@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text
+from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, gaps
 
 NEAR = 10.0
 """Height in the drawing of what lies at the middle of a scene; nearer things come later, flat things before."""
@@ -101,11 +101,12 @@ class Turntable:
         """A line through ``point``, ``along`` being direction and half its length."""
         self.path(key, np.stack([point - along, point + along], axis=1), at=4.0, stroke="dashdot", **style)
 
-    def box(self, key: str, low: Any, high: Any, **style: Any) -> None:
-        """The edges of a box from corner ``low`` to corner ``high``."""
+    def box(self, key: str, low: Any, high: Any, where: Any = True, **style: Any) -> None:
+        """The edges of a box from corner ``low`` to corner ``high``, if ``where`` holds."""
         corners = np.array(list(product(*zip(low, high, strict=True))))
-        edges = [(a, b) for a in corners for b in corners if (a < b).sum() == 1 == (a != b).sum()]
-        self.path(key, np.concatenate([[a, b, [np.nan] * 3] for a, b in edges]).T, **style)
+        edges = [(i, i | axis) for i in range(8) for axis in (1, 2, 4) if not i & axis]
+        path = np.concatenate([[corners[i], corners[j], [np.nan] * 3] for i, j in edges]).T
+        self.path(key, gaps(path, where), **style)
 
     def floor(self, key: str, step: float) -> None:
         """A square grid below the scene, with lines ``step`` apart."""

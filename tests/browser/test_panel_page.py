@@ -13,10 +13,9 @@ from lab import LabServer, cell_output, eventually, kernel_value, open_notebook,
 EXPLORER = """
 from camkit import DoorHandleCam, Judgements, ahp_panel, deg, door_handle_study, explore
 from camkit.machines.door_handle import CURVE_TABLE
-from camkit.views import CAM_VIEWS
 
 study = door_handle_study()
-app = explore(DoorHandleCam(), *CAM_VIEWS, free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,
+app = explore(DoorHandleCam(), free=["lift_arm", "relief_arm", "motion_law"], measures=CURVE_TABLE,
               at_most=study.at_most, turn=75 * deg)
 moves = []
 app.on_change(lambda design: moves.append(design.lift_arm))

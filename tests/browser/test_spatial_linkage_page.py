@@ -15,7 +15,7 @@ from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study
 from camkit.render.draw import colour
 from camkit.units import deg, mm
-from camkit.views.linkage import scene_of
+from camkit.views.space import scene_of
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
 
 STUDY = ninety_degree_study()

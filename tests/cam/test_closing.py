@@ -175,7 +175,7 @@ def test_a_valve_train_jumps_where_a_scan_of_speeds_says(angles):
     least = float(preload_needed(analysis, fast))
     assert cam.replace(load=ValveLoad(preload=least)).analyse(20001).force_at(fast).min() == pytest.approx(0, abs=1e-2)
     pressure = contact_along(analysis, cam.contact).pressure
-    assert_allclose(pressure[analysis.valve_open], analysis.contact_stress[analysis.valve_open], rtol=1e-12)
+    assert_allclose(pressure[analysis.is_open], analysis.contact_stress[analysis.is_open], rtol=1e-12)
 
 
 @pytest.mark.parametrize(("speed", "said"), [(-1.5, "-1.5"), (np.nan, "nan"), (np.inf, "inf")])

@@ -960,7 +960,9 @@ def test_every_analysis_offers_the_same(cam):
 
 
 @every_cam
-@pytest.mark.parametrize("view", views.CAM_VIEWS, ids=lambda view: view.__name__)
+@pytest.mark.parametrize(
+    "view", views.default_views(OscillatingRollerCam().analyse(91)), ids=lambda view: view.__name__
+)
 def test_every_view_draws_every_cam(cam, view):
     assert len(picture(cam, view, turn=40 * deg, width=4, height=3)._repr_png_()) > 1000
 

@@ -214,7 +214,7 @@ def test_time_derivatives_are_those_of_the_turning_cam():
 def test_the_spring_that_is_needed_is_what_the_resistance_lacks():
     event = ValveCam().analyse().event
     for speed in (event.cam.load.speed, event.top_speed):
-        open_ = event.valve_open
+        open_ = event.is_open
         assert_allclose((event.spring_force - event.needed_at(speed))[open_], event.force_at(speed)[open_], atol=1e-9)
         assert (event.needed_at(speed)[~open_] == 0).all()
 
@@ -387,8 +387,8 @@ def test_the_sized_spring_holds_up_to_the_margin_and_no_further(share):
     assert_allclose(min_force(cam, 1.2), 0, atol=1e-4)
     assert min_force(cam, 1.2 * 1.001) < -0.1
     whole = cam.analyse(3601).whole
-    assert (whole.resistance[whole.valve_open] > 0).all()
-    assert (whole.resistance[~whole.valve_open] == 0).all()
+    assert (whole.resistance[whole.is_open] > 0).all()
+    assert (whole.resistance[~whole.is_open] == 0).all()
 
 
 @pytest.mark.parametrize(("changed", "needed"), [("preload", preload_for), ("spring_rate", lambda a: a.rate_needed)])
@@ -440,7 +440,7 @@ def test_under_either_follower_it_is_a_cam_of_the_family(follower):
     ours = cam.analyse().at(family.cam_angle)
     for name in ("profile", "profile_curvature", "pressure_angle", "undercut", "lift"):
         assert_allclose(getattr(ours, name), getattr(family, "travel" if name == "lift" else name), atol=1e-15)
-    open_ = ours.valve_open
+    open_ = ours.is_open
     assert_allclose(ours.contact_force[open_], family.contact_force[open_], rtol=1e-12)
     assert cam.motion.periodic
     assert all(joint.order is None for joint in cam.motion.transitions())

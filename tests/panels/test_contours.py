@@ -21,7 +21,7 @@ from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
 from camkit.units import mm, rpm
 from camkit.views.design_map import SHADES, ShownPlane, objective_plane
-from camkit.views.valve import lift
+from camkit.views.event import lift
 
 WIDE = ValveCam(base_radius=24.5 * mm)
 

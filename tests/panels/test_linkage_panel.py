@@ -10,7 +10,7 @@ from camkit.files import from_json, to_json
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, Branch, CabinDoorLinkage, ninety_degree_study
 from camkit.units import deg, mm
-from camkit.views.linkage import CURVES, linkage_in_space
+from camkit.views.space import linkage_in_space, output_angle
 
 START = ninety_degree_study().start
 FREE = ("crank", "coupler", "branch", "load.mass", "load.lean", "load.torque")
@@ -20,7 +20,7 @@ FREE = ("crank", "coupler", "branch", "load.mass", "load.lean", "load.torque")
 def one_panel():
     view = partial(linkage_in_space, inside=HOUSING)
     panel = explore(
-        START, view, CURVES[0], free=FREE, measures=(max_pressure_angle, room_in(HOUSING), *SWEEP), turn=1.0
+        START, view, output_angle, free=FREE, measures=(max_pressure_angle, room_in(HOUSING), *SWEEP), turn=1.0
     )
     yield panel
     panel.picture.settle()  # no picture is left to be drawn after the tests

@@ -27,7 +27,7 @@ from camkit.search.minimum import Minimum
 from camkit.search.protocol import search, stepwise
 from camkit.study.study import KEPT, Study
 from camkit.units import cm, deg, mm
-from camkit.views.high_speed import contact_stress
+from camkit.views.intervals import contact_stress
 
 FIRST = HighSpeedCam()
 GOALS = {"stress": peak_stress, "wear": peak_wear}

@@ -14,9 +14,10 @@ from camkit.render.draw import moving
 from camkit.render.picture import draw, positions_of
 from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
-from camkit.views.linkage import CURVES, LINKAGE_VIEWS, linkage_in_space, output_angle, pressure_angles
-from camkit.views.linkage_sketch import rssr_sketch
+from camkit.views.defaults import default_views
 from camkit.views.progress import convergence
+from camkit.views.space import linkage_in_space, output_angle, pressure_angles
+from camkit.views.space_sketch import linkage_sketch
 from camkit.views.turntable import Turntable
 
 EXAMPLE = CabinDoorLinkage()
@@ -35,6 +36,10 @@ def data(picture, key):
 
 def shown(design, view=linkage_in_space, **position):
     return view(design.analyse(), **position)
+
+
+LINKAGE_VIEWS = default_views(CabinDoorLinkage().analyse(91))
+CURVES = LINKAGE_VIEWS[1:]
 
 
 @pytest.mark.parametrize("view", LINKAGE_VIEWS)
@@ -105,9 +110,9 @@ def test_links_in_space_are_where_the_analysis_has_them(design, azimuth, elevati
     faint = projected(design, turn, other, azimuth * deg, elevation * deg)
     np.testing.assert_allclose(np.diff(data(ax, "other branch")), np.diff(faint), atol=1e-9)
     numbers = f"crank {turn / deg:.1f}°   rocker {here.rocker_angle[0] / deg:.1f}°"
-    assert ax["numbers"].words == numbers
+    assert ax["numbers"].said == numbers
     for name, angle in (("α₁", here.crank_pressure_angle), ("α₂", here.rocker_pressure_angle)):
-        assert ax[name].words == f"{name} {angle[0] / deg:.0f}°"
+        assert ax[name].said == f"{name} {angle[0] / deg:.0f}°"
 
 
 def test_seen_from_above_circles_and_pressure_angles_are_true():
@@ -146,18 +151,21 @@ def test_where_the_crank_cannot_go_is_shown():
     assert 360 * np.isfinite(never[0]).mean() == pytest.approx(360 - np.ptp(possible), abs=6)
     assert data(ax, "limits").shape == (2, 2)
     high = PRACTICAL.analyse().turn_range[1] / deg
-    assert ax["numbers"].words.startswith(f"crank {high:.1f}°")
+    assert ax["numbers"].said.startswith(f"crank {high:.1f}°")
     assert ax["never"].role == "trouble"
 
 
 def test_a_box_is_in_trouble_when_a_link_breaks_it():
     pipe = Box((-60 * mm, 90 * mm, 60 * mm), (-40 * mm, 110 * mm, 110 * mm), "the pipe")
     for design in (PRACTICAL, EXAMPLE, PRACTICAL):
-        edges = linkage_in_space(design.analyse(), inside=HOUSING)["the housing"]
-        broken = room_in(HOUSING)(design.analyse()) < 0
-        assert (edges.role, edges.label) == ("trouble" if broken else "guide", "the housing")
+        view = linkage_in_space(design.analyse(), inside=HOUSING)
+        broken = bool(room_in(HOUSING)(design.analyse()) < 0)
+        for key, seen in (("the housing", not broken), ("the housing, broken", broken)):
+            assert np.isfinite(view[key].x).sum() == (24 if seen else 0)  # both ends of twelve edges
+        assert view["the housing, broken"].role == "trouble"
+        assert view["the housing"].label == "the housing"
     optimum = rssr_study().design(np.array([80, 141.914, 130, 136.787, 100.344]) * mm)
-    assert shown(optimum, partial(linkage_in_space, outside=pipe))["the pipe"].role == "trouble"
+    assert np.isfinite(shown(optimum, partial(linkage_in_space, outside=pipe))["the pipe, broken"].x).any()
 
 
 # The curves.
@@ -219,7 +227,7 @@ def test_curves_show_the_analysis_with_units(view, curves):
 def test_the_sketch_has_every_letter():
     ax = shown(
         CabinDoorLinkage(80 * mm, 180 * mm, 90 * mm, 130 * mm, 110 * mm, 120 * mm, 75 * deg, 45 * deg, 55 * deg),
-        rssr_sketch,
+        linkage_sketch,
         turn=50 * deg,
     )
     letters = {mark.words.strip("$") for mark in ax.marks if hasattr(mark, "words")}

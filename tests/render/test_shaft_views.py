@@ -22,8 +22,8 @@ from camkit.views.design_map import design_plane, designs_on_plane
 from camkit.views.optimiser_trials import evaluations_needed, solved_within
 from camkit.views.picture import Text
 from camkit.views.progress import candidates
-from camkit.views.sizes import section, sizes, utilisation
-from camkit.views.universal_joint import JOINT_VIEWS, drive, pins
+from camkit.views.shafts import drive, pins
+from camkit.views.sizes import plane_of_sizes, section, utilisation
 from known_problems import tension_spring
 
 OTHERS = (
@@ -67,7 +67,7 @@ def redrawn_in_place(first, others, views, **position) -> None:
 @pytest.mark.filterwarnings("error")
 def test_the_shafts_views_move_what_they_drew() -> None:
     """Names on curves come and go with the room for them."""
-    first, views = UniversalJointShaft(), (sizes, utilisation, section)
+    first, views = UniversalJointShaft(), (plane_of_sizes, utilisation, section)
     assert default_views(first.analyse()) == views
     _, axes = drawn(first.analyse(), *views)
     for other in (*OTHERS, first):
@@ -87,7 +87,7 @@ def test_the_joints_views_move_what_they_drew() -> None:
         DoubleUniversalJoint(phase=30 * deg, inertia=2.0).analyse(),
         DoubleUniversalJoint(first_angle=0.0).analyse(),
     ]
-    redrawn_in_place(DoubleUniversalJoint().analyse(), others, JOINT_VIEWS, turn=40 * deg)
+    redrawn_in_place(DoubleUniversalJoint().analyse(), others, default_views(others[0]), turn=40 * deg)
 
 
 def curve(view, key: str) -> np.ndarray:
@@ -99,14 +99,14 @@ def curve(view, key: str) -> np.ndarray:
 
 def test_the_twist_curve_is_the_closed_form() -> None:
     a = UniversalJointShaft().analyse()
-    D, d = curve(sizes(a), "limit 1")
+    D, d = curve(plane_of_sizes(a), "limit 1")
     assert len(D) > 40
     np.testing.assert_allclose(D, a.shaft.stiff_diameter(d * mm) / mm, rtol=0, atol=0.01)
 
 
 def test_every_limits_curve_is_where_it_is_just_kept() -> None:
     for a in (UniversalJointShaft().analyse(), *(s.analyse() for s in OTHERS[:2])):
-        view = sizes(a)
+        view = plane_of_sizes(a)
         for i in range(4):
             x = curve(view, f"limit {i}").T * mm
             g = a.sizes.plane.study.evaluate(x).g[:, i] if len(x) else np.zeros(1)
@@ -146,14 +146,15 @@ def named(view) -> dict[str, Text]:
 
 
 def test_the_contours_of_the_area_have_their_values() -> None:
-    told = [t for key, t in named(sizes(UniversalJointShaft().analyse())).items() if key.startswith("objective")]
+    words = named(plane_of_sizes(UniversalJointShaft().analyse()))
+    told = [text for key, text in words.items() if key.startswith("objective")]
     assert len(told) > 4
     for label in told:
         assert np.pi * (label.x**2 - label.y**2) / 4 == pytest.approx(float(label.words), rel=1e-3)
 
 
 def test_the_marks_of_the_plane() -> None:
-    view = sizes(UniversalJointShaft().analyse())
+    view = plane_of_sizes(UniversalJointShaft().analyse())
     best = lightest_shaft()
     corner = [[best.outer_diameter / mm], [best.inner_diameter / mm]]
     for key, at, rel in (
@@ -167,7 +168,7 @@ def test_the_marks_of_the_plane() -> None:
     assert named(view)["limit 1 name 0"].words == "twist 1 deg/m"
     assert [mark.label for mark in view.marks if "kept" in mark.label] == ["critical speed 1500 rpm: kept"]
     assert view["nothing"].words == ""
-    view = sizes(OTHERS[1].analyse())
+    view = plane_of_sizes(OTHERS[1].analyse())
     assert np.isnan(view["here"].x).all()
     assert np.isfinite(view["here, missing"].x).all()
     assert view["here, missing"].role == "trouble"
@@ -176,7 +177,7 @@ def test_the_marks_of_the_plane() -> None:
 
 
 def test_what_lies_beyond_the_bounds_is_veiled() -> None:
-    veil = sizes(UniversalJointShaft().analyse())["beyond"]
+    veil = plane_of_sizes(UniversalJointShaft().analyse())["beyond"]
     points = np.transpose([veil.x, veil.y])
     outer, inner = (Path(part) for part in np.split(points[np.isfinite(points).all(1)], [5]))
     x = np.random.default_rng(3).uniform([104, 84], [150, 124], (500, 2))
@@ -187,7 +188,7 @@ def test_what_lies_beyond_the_bounds_is_veiled() -> None:
 
 def test_the_names_of_limits_keep_apart() -> None:
     for shaft in (UniversalJointShaft(), OTHERS[0], UniversalJointShaft(length=3.3, power=150 * kW)):
-        figure, (ax, *_) = drawn(shaft.analyse(), sizes, utilisation, section)
+        figure, (ax, *_) = drawn(shaft.analyse(), plane_of_sizes, utilisation, section)
         figure.canvas.draw()
         boxes = [t.get_window_extent() for t in ax.texts if " name " in t.get_gid()]
         assert len(boxes) > 4
@@ -266,7 +267,7 @@ def test_the_drawing_turns_and_can_be_seen_from_elsewhere() -> None:
 
 def test_curves_over_a_turn() -> None:
     a = DoubleUniversalJoint(phase=90 * deg).analyse()
-    _, axes = drawn(a, *JOINT_VIEWS)
+    _, axes = drawn(a, *default_views(a))
     speed = xy(axes[1], "driven")[1]
     assert (speed.min(), speed.max()) == pytest.approx((441.5, 566.2), abs=0.06)
     assert xy(axes[1], "input")[1] == pytest.approx(500)

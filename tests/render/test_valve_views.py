@@ -12,26 +12,26 @@ from camkit.files import from_json, to_json
 from camkit.files.profiles import table_csv
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
-from camkit.machines.valve_measures import VALVE_MEASURES, valve_front_study
+from camkit.machines.valve_measures import VALVE_MEASURES, min_radius, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
-from camkit.render.draw import artist_of, colour, moving
+from camkit.papers.valve_cam import known_front
+from camkit.render.draw import artist_of, moving
 from camkit.render.picture import draw, layout
 from camkit.units import deg, mm, rpm
-from camkit.views.front import ShownFront
-from camkit.views.sketch import valve_cam_sketch
-from camkit.views.valve import (
-    VALVE_VIEWS,
+from camkit.views.defaults import default_views
+from camkit.views.event import (
     acceleration,
     cam_and_follower,
     camshaft_torque,
-    contact_stress,
-    fullness_front,
     jerk,
     lift,
     radius_of_curvature,
     spring_and_inertia,
+    stress_over_event,
     velocity,
 )
+from camkit.views.front import ShownFront, pareto
+from camkit.views.sketch import flat_face_sketch
 
 OTHERS = (
     ValveCam(n=20, m=20, follower=ROLLER, half_angle=70 * deg),
@@ -59,6 +59,9 @@ def data_of(ax):
 def lasting(ax):
     """Everything but the follower, which may have a face or a roller."""
     return {artist for artist in moving(ax) if not artist.get_gid().startswith("follower")}
+
+
+VALVE_VIEWS = default_views(ValveCam().analyse())
 
 
 @pytest.mark.filterwarnings("error")
@@ -142,17 +145,16 @@ def test_the_dot_on_the_lift_follows_the_cam():
 
 
 def test_the_least_radius_is_marked_and_warned_of():
-    for cam, tint in (
-        (ValveCam(n=20, m=20), colour("trouble")),
-        (ValveCam(n=20, m=20, base_radius=25 * mm), colour("position")),
-    ):
-        ax = drawn(cam, radius_of_curvature)
-        dot, flat = artist_of(ax, "least"), xy(ax, "flat")
-        ((x,), (y,)) = dot.get_data()
-        assert_allclose((x, y), (12.571, 1.159 + cam.base_radius / mm - 21), atol=2e-3)
-        assert_allclose(flat[1].min(), y, atol=0.02)
-        assert dot.get_color() == tint
-    assert_allclose(xy(ax, "limit")[1], 4.5)
+    limits = {min_radius: 4.5 * mm}
+    for cam, kept in ((ValveCam(n=20, m=20), False), (ValveCam(n=20, m=20, base_radius=25 * mm), True)):
+        view = radius_of_curvature(cam.analyse(), limits)
+        shown, hidden = (view[key] for key in (("least", "least, missing") if kept else ("least, missing", "least")))
+        assert_allclose((shown.x, shown.y), (12.571, 1.159 + cam.base_radius / mm - 21), atol=2e-3)
+        assert_allclose(view["flat"].y.min(), shown.y, atol=0.02)
+        assert shown.role == ("position" if kept else "trouble")
+        assert np.isnan(hidden.y)
+        assert_allclose(view["limit 0"].y, 4.5)
+    assert "limit 0" not in radius_of_curvature(cam.analyse())
 
 
 def test_the_rollers_radius_has_a_gap_where_the_cam_is_hollow():
@@ -171,10 +173,8 @@ def test_a_jump_is_drawn_where_the_spring_is_too_weak():
     ax = drawn(weak, spring_and_inertia)
     lost = np.isfinite(xy(ax, "inertia jump")[1])
     assert lost.any()
-    assert_array_equal(lost, event.valve_open & (event.resistance < 0))
-    assert_array_equal(
-        np.isfinite(xy(ax, "overspeed jump")[1]), event.valve_open & (event.force_at(event.top_speed) < 0)
-    )
+    assert_array_equal(lost, event.is_open & (event.resistance < 0))
+    assert_array_equal(np.isfinite(xy(ax, "overspeed jump")[1]), event.is_open & (event.force_at(event.top_speed) < 0))
     held = drawn(ValveCam().with_spring(), spring_and_inertia)
     assert not np.isfinite(xy(held, "inertia jump")[1]).any()
 
@@ -182,9 +182,9 @@ def test_a_jump_is_drawn_where_the_spring_is_too_weak():
 def test_stress_is_drawn_where_the_valve_is_open_and_undercut_is_warned_of():
     cam = ValveCam(n=3, m=2)
     event = cam.analyse().event
-    ax = drawn(cam, contact_stress)
+    ax = drawn(cam, stress_over_event)
     y = xy(ax, "stress")[1]
-    shown = event.valve_open & ~event.undercut
+    shown = event.is_open & ~event.undercut
     assert_array_equal(np.isfinite(y), shown)
     assert_allclose(y[shown], event.contact_stress[shown] / 1e6)
     assert_array_equal(np.isfinite(xy(ax, "undercut")[1]), event.undercut)
@@ -198,17 +198,23 @@ def test_the_torque_is_drawn_over_a_whole_turn():
 
 def test_the_fronts_known_points_are_on_it():
     front = nsga2(valve_front_study(), population=40, generations=40, seed=1)
-    (ax,) = picture(ShownFront(front), fullness_front, width=5, height=4).axes
+    (ax,) = picture(ShownFront(front, known=known_front()), pareto, width=5, height=4).axes
     known, found = xy(ax, "known").T, xy(ax, "front").T
     assert len(known) == 5
     for point in known:
         assert (abs(found - point) / np.ptp(known, axis=0)).max(1).min() < 0.05
-    assert [t.get_text() for t in ax.get_legend().get_texts()] == ["front", "start", "known points"]
+    assert [t.get_text() for t in ax.get_legend().get_texts()] == [
+        "front",
+        "start",
+        "in the sliders",
+        "winner",
+        "known points",
+    ]
 
 
 def test_the_sketch_is_made_from_the_cam():
     cam = ValveCam(n=4, m=3, base_radius=34 * mm, half_angle=70 * deg)
-    shown = valve_cam_sketch(cam.analyse(), turn=40 * deg)
+    shown = flat_face_sketch(cam.analyse(), turn=40 * deg)
     whole = cam.analyse().whole
     i = int(np.argmin(abs(whole.cam_angle - 40 * deg)))
     contact, rho = whole.contact_point()[:, i] / mm, whole.profile_radius[i] / mm

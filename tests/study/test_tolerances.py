@@ -327,7 +327,7 @@ def test_a_measure_that_does_not_vary_says_so():
     made = Tolerances(a_study(constant, total), {"x": 1.0}, parts=64)
     (ax,) = picture(made, sobol_bars).axes
     assert [artist_of(ax, f"still {i}").get_text() for i in range(2)] == ["does not vary", ""]
-    assert len(artist_of(ax, "x 0").get_xdata()) == 0
+    assert np.isnan(artist_of(ax, "x 0").get_xdata()).all()
 
 
 # ---------------------------------------------------------------- the panel
@@ -404,9 +404,9 @@ def test_what_cannot_be_made_is_said_in_place_of_the_picture(panel, typed, sente
 def test_a_tolerance_of_0_leaves_its_bar_out_and_comes_back(panel):
     panel.knobs["lift_arm"].box.value = 0.0
     assert panel.tolerances.names == ("lift_start_angle", "lift_centre_distance")
-    assert len(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 0
+    assert np.isnan(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()).all()
     panel.knobs["lift_arm"].box.value = 2.0
-    assert len(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()) == 2
+    assert np.isfinite(artist_of(panel.picture.axes[1], "lift_arm 0").get_xdata()).all()
 
 
 def test_the_front_of_a_search_is_shown_when_it_changes(study):

@@ -1,17 +1,16 @@
-"""Views of a cam that opens a valve: the whole cam with its follower, radii of curvature, forces, stress, torque."""
+"""Views of a cam that opens something once a turn: the whole cam with its follower, and curves over that event."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ..data import load
 from ..geometry import rotated
-from ..machines.valve_measures import PAPER_MIN_RADIUS
+from ..quantities import Measure
 from ..units import MPa, deg, mm
 from .cam import ANGLE, bodies
-from .front import ShownFront, pareto
 from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
 
 SHOWN_RADIUS = (-10, 45)
@@ -88,14 +87,16 @@ def jerk(analysis: Any) -> Picture:
     return _over_event(analysis, "Jerk", "j  [10^6 m/s^3]", curve)
 
 
-def radius_of_curvature(analysis: Any) -> Picture:
-    """Radius of the cam under a flat face and under the roller, the paper's limit, and the least under a face.
+def radius_of_curvature(analysis: Any, limits: Mapping[Measure, float] | None = None) -> Picture:
+    """Radius of the cam under a flat face and under the roller, the ``limits`` of its measures, the least of them.
 
     Below 0 a flat face undercuts the cam; where the roller's curve has a gap the cam under it is concave.
     """
-    event, limit = analysis.event, PAPER_MIN_RADIUS / mm
+    event = analysis.event
     x = event.cam_angle / deg
+    allowed = sorted({value / mm for measure, value in (limits or {}).items() if "radius" in measure.name})
     least, at = analysis.profile_margin.value / mm, analysis.profile_margin.cam_angle / deg
+    kept = np.all([least >= limit for limit in allowed], axis=0)
     radius = gaps(event.roller.profile_radius / mm, event.roller.curvature > 0)
     return _over_event(
         analysis,
@@ -103,8 +104,9 @@ def radius_of_curvature(analysis: Any) -> Picture:
         "ρ  [mm]",
         Line("flat", x, event.flat.profile_radius / mm, role="position", label="flat face"),
         Line("roller", x, radius, role="velocity", stroke="thin dashed", label="roller"),
-        Line("limit", x[[0, -1]], [limit] * 2, role="limit"),
-        Points("least", at, least, role="position" if least >= limit else "trouble"),
+        *(Line(f"limit {i}", x[[0, -1]], [limit] * 2, role="limit") for i, limit in enumerate(allowed)),
+        Points("least", at, gaps(least, kept), role="position"),
+        Points("least, missing", at, gaps(least, ~kept), role="trouble"),
         ylim=SHOWN_RADIUS,
     )
 
@@ -113,26 +115,26 @@ def spring_and_inertia(analysis: Any) -> Picture:
     """The spring against what inertia asks of it, at the speed and (dashed) with the margin; trouble: a jump."""
     event = analysis.event
     x, spring = event.cam_angle / deg, event.spring_force
-    marks: list[Mark] = [Line("spring", x, gaps(spring, event.valve_open), role="velocity", label="spring")]
+    marks: list[Mark] = [Line("spring", x, gaps(spring, event.is_open), role="velocity", label="spring")]
     speeds = {"inertia": (analysis.cam.load.speed, "solid"), "overspeed": (analysis.top_speed, "dashed")}
     for key, (speed, stroke) in speeds.items():
         needed = event.needed_at(speed)
-        pulled = gaps(needed, event.valve_open & (needed > 0))
+        pulled = gaps(needed, event.is_open & (needed > 0))
         label = "inertia" if key == "inertia" else ""
         marks.append(Line(key, x, pulled, role="acceleration", stroke=stroke, label=label))
         marks.append(Line(f"{key} jump", x, gaps(pulled, needed > spring), role="trouble", stroke=stroke))
     return _over_event(analysis, "Force", "F  [N]", *marks)
 
 
-def contact_stress(analysis: Any) -> Picture:
-    """Largest pressure between cam and follower while the valve is open; trouble: undercut, where they do not fit."""
+def stress_over_event(analysis: Any) -> Picture:
+    """Largest pressure between cam and follower while it is open; trouble: undercut, where they do not fit."""
     event = analysis.event
     x = event.cam_angle / deg
     return _over_event(
         analysis,
         "Contact stress",
         "p_0  [MPa]",
-        Line("stress", x, gaps(event.contact_stress / MPa, event.valve_open), role="position"),
+        Line("stress", x, gaps(event.contact_stress / MPa, event.is_open), role="position"),
         Line("undercut", x, gaps(0 * x, event.undercut), role="trouble"),
     )
 
@@ -142,25 +144,3 @@ def camshaft_torque(analysis: Any) -> Picture:
     whole = analysis.whole
     curve = Line("torque", whole.cam_angle / deg, whole.cam_torque, role="position")
     return _over_event(analysis, "Camshaft torque", "M  [N m]", curve)
-
-
-def fullness_front(shown: ShownFront) -> Picture:
-    """A front of fullness against peak positive acceleration, and the points that are known of it."""
-    front, points = pareto(shown), load("valve")["formulas"]["front"]
-    style: Any = {"mark": "diamond", "size": 9, "fill": "none", "role": "allowed"}
-    known = Points("known", points["fullness"], points["acceleration"], label="known points", **style)
-    return Picture.of(front.axes, [front["front"], front["start"]], known)
-
-
-VALVE_VIEWS = (
-    cam_and_follower,
-    lift,
-    velocity,
-    acceleration,
-    jerk,
-    radius_of_curvature,
-    spring_and_inertia,
-    contact_stress,
-    camshaft_torque,
-)
-"""What a designer of a valve cam wants to see at once."""

@@ -1,4 +1,4 @@
-"""An RSSR linkage with the letters of its formulas, drawn from a real design."""
+"""A linkage in space with the letters of its formulas, drawn from a real design."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 
 from ..units import deg, mm
-from .linkage import CRANK, ROCKER, crank_circle, rocker_circle, scene_of
 from .picture import Axes, Formula, Picture, Text
+from .space import CRANK, ROCKER, crank_circle, rocker_circle, scene_of
 from .turntable import Turntable
 
 
-def rssr_sketch(analysis: Any, turn: float = 0.0, azimuth: float = -58 * deg, elevation: float = 24 * deg) -> Picture:
-    """The geometry of an RSSR linkage at crank angle ``turn``, with the letters of the formulas."""
+def linkage_sketch(
+    analysis: Any, turn: float = 0.0, azimuth: float = -58 * deg, elevation: float = 24 * deg
+) -> Picture:
+    """The geometry of a linkage with two ball joints at crank angle ``turn``, with the letters of the formulas."""
     here = analysis.at(turn)
     linkage, scene = here.linkage, scene_of(here.linkage, (), azimuth, elevation)
     root, b, c, hinge = np.moveaxis(here.chain[..., 0] / mm, 1, 0)
@@ -83,7 +85,7 @@ def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
         ("1", b, here.crank_motion[:, 0], along, ("$v_B$", r"$\alpha_1$", "$B$")),
         ("2", c, here.rocker_motion[:, 0], -along, ("$v_C$", r"$\alpha_2$", "$C$")),
     ):
-        folded = way if way @ force >= 0 else -way
+        folded = way * np.where(way @ force >= 0, 1, -1)
         away = -(folded + force) / np.linalg.norm(folded + force)
         share = np.linspace(0, 1, 13)
         fan = np.outer(folded, 1 - share) + np.outer(force, share)
@@ -98,6 +100,6 @@ def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
 def _beside(scene: Turntable, key: str, letter: str, ends: Any, shift: float) -> None:
     """A letter beside the middle of a line, ``shift`` mm across it on the picture."""
     (x0, y0, _), (x1, y1, _) = (scene.seen(end) for end in ends)
-    across = np.array([y1 - y0, x0 - x1]) / (np.hypot(x1 - x0, y1 - y0) or 1.0)
+    across = np.array([y1 - y0, x0 - x1]) / np.maximum(np.hypot(x1 - x0, y1 - y0), 1e-12)
     x, y = np.array([x0 + x1, y0 + y1]) / 2 + shift * across
     scene.put(19.0, Text(key, x, y, Formula(letter), size=15))

@@ -1,4 +1,4 @@
-"""Views of an RSSR linkage: the linkage in space on a turntable, and its curves over the crank angle.
+"""Views of a linkage in space, on a turntable, and of its curves over the crank angle.
 
 The crank is the first of the series, the rocker the second; trouble is where the crank cannot go, and a box that a
 link breaks.
@@ -6,18 +6,16 @@ link breaks.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import product
 from typing import Any
 
 import numpy as np
 
-from ..linkage.measures import TARGET, clearance_from, room_in
+from ..quantities import Measure
 from ..units import deg, mm
 from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps
 from .turntable import Turntable
-
-LIMIT = 50 * deg
-"""The usual limit of a linkage's pressure angle: a transmission angle of 40 deg."""
 
 CIRCLE = np.linspace(0, 2 * np.pi, 181)
 CRANK: Any = {"role": "series", "index": 0}
@@ -45,14 +43,16 @@ def linkage_in_space(
     _ground(scene, here)
     _sweeps(scene, analysis)
     if inside is not None:
-        _box(scene, inside, broken=room_in(inside)(analysis) < 0)
+        _box(scene, inside, kept=(inside.depth(analysis.chain) >= 0).all())
     if outside is not None:
-        _box(scene, outside, broken=clearance_from(outside)(analysis) < 0)
-    _door(scene, here)
+        _box(scene, outside, kept=(outside.clearance(analysis.chain[:, :-1], analysis.chain[:, 1:]) >= 0).all())
+    _leaf(scene, here)
     _links(scene, here)
     _pressure_angles_at(scene, here)
     ends = (-scene.radius, scene.radius), (-1.2 * scene.radius, 0.96 * scene.radius)
-    numbers = Text("numbers", ends[0][0], ends[1][1], _numbers(here), anchor="left top", size=11)
+    stands = (here.crank_angle[0] / deg, here.rocker_angle[0] / deg)
+    said = "crank {:.1f}°   rocker {:.1f}°"
+    numbers = Text("numbers", ends[0][0], ends[1][1], said, values=stands, anchor="left top", size=11)
     return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
 
 
@@ -113,19 +113,20 @@ def _sweeps(scene: Turntable, analysis: Any) -> None:
     scene.put(5.0, Points("limits", x, y, role="trouble", size=6))
 
 
-def _box(scene: Turntable, box: Any, broken: bool) -> None:
+def _box(scene: Turntable, box: Any, kept: Any) -> None:
     low, high = np.divide(box.low, mm), np.divide(box.high, mm)
-    scene.box(box.name, low, high, role="trouble" if broken else "guide", stroke="thin", label=box.name)
+    scene.box(box.name, low, high, kept, role="guide", stroke="thin", label=box.name)
+    scene.box(f"{box.name}, broken", low, high, ~kept, role="trouble", stroke="thin")
 
 
-def _door(scene: Turntable, here: Any) -> None:
+def _leaf(scene: Turntable, here: Any) -> None:
     """A leaf that turns with the rocker, where the load's centre of gravity is."""
     linkage, size = here.linkage, 0.9 * scene.radius
     along = linkage.rocker_direction(here.rocker_angle + here.load.mass_angle)[:, 0]
     foot = scene.dropped(linkage.rocker_root[:, None] / mm)[:, 0]
     up = linkage.rocker_axis * (scene.depth + 0.55 * scene.radius)
     corners = np.transpose([foot, foot + size * along, foot + size * along + up, foot + up])
-    scene.face("door", corners, at=3.5, role="flank", opacity=0.18, edged=True)
+    scene.face("leaf", corners, at=3.5, role="flank", opacity=0.18, edged=True)
 
 
 def _links(scene: Turntable, here: Any) -> None:
@@ -150,27 +151,20 @@ def _pressure_angles_at(scene: Turntable, here: Any) -> None:
         (-1, here.rocker_joint, here.rocker_motion, here.rocker_pressure_angle, ROCKER, "α₂"),
     ):
         start, moves, along = joint[:, 0] / mm, motion[:, 0], sign * here.coupler_direction[:, 0]
-        moves = moves * (1 if moves @ along >= 0 else -1)
+        moves = moves * np.where(moves @ along >= 0, 1, -1)
         label = "joint's way" if sign > 0 else ""
         scene.arrow(f"{name} way", start, size * moves, role="velocity", label=label)
         share = np.linspace(0, 1, 13)
         fan = np.outer(moves, 1 - share) + np.outer(along, share)
         arc = start[:, None] + 0.62 * size * fan / np.linalg.norm(fan, axis=0)
         scene.path(f"{name} arc", arc, at=18.0, **style)
-        said = f"{name} {angle[0] / deg:.0f}°"
         place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start)
-        scene.words(name, place, said, size=11, bold=True)
-
-
-def _numbers(here: Any) -> str:
-    """Where it stands, in words."""
-    turn, rocker = float(here.crank_angle[0]) / deg, float(here.rocker_angle[0]) / deg
-    return f"crank {turn:.1f}°   rocker {rocker:.1f}°"
+        scene.words(name, place, f"{name} {{:.0f}}°", values=(angle[0] / deg,), size=11, bold=True)
 
 
 def _curve(key: str, x: Any, y: Any, turn: float | None, named: bool = True, **style: Any) -> list[Mark]:
     """A curve over the crank angle (rad), ``named`` in the legend, with a dot where the crank stands."""
-    at = np.nan if turn is None or not x.min() <= turn <= x.max() else turn
+    at = np.nan if turn is None else gaps(turn, (x.min() <= turn) & (turn <= x.max()))
     order = np.argsort(x)
     dot = np.interp(at, x[order], np.broadcast_to(y, x.shape)[order])
     return [
@@ -209,13 +203,13 @@ def _unbroken(angle: Any) -> np.ndarray:
     return np.asarray(gaps(shown, np.append(abs(np.diff(shown)) < 180, True)))
 
 
-def pressure_angles(analysis: Any, turn: float | None = None) -> Picture:
-    """Both pressure angles over the sweep, with the target of 30 deg and the usual limit of 50 deg."""
+def pressure_angles(analysis: Any, turn: float | None = None, limits: Mapping[Measure, float] | None = None) -> Picture:
+    """Both pressure angles over the sweep, with the ``limits`` of their measures; without any, none is shown."""
+    allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
     x = analysis.crank_angle
     return Picture.of(
         _swept("Pressure angle", "alpha  [deg]", ylim=(0, 90)),
-        Band("target", TARGET / deg, TARGET / deg, role="allowed"),
-        Band("limit", LIMIT / deg, LIMIT / deg, role="limit"),
+        [Band(f"limit {i}", limit, limit, role="limit") for i, limit in enumerate(sorted(allowed))],
         _curve("crank", x, analysis.crank_pressure_angle / deg, turn, **CRANK),
         _curve("rocker", x, analysis.rocker_pressure_angle / deg, turn, **ROCKER),
     )
@@ -251,10 +245,3 @@ def forces(analysis: Any, turn: float | None = None) -> Picture:
         _curve("coupler", analysis.crank_angle, analysis.coupler_force, turn),
         _curve("hinge", analysis.crank_angle, hinge, turn, **ROCKER),
     )
-
-
-CURVES = (output_angle, pressure_angles, velocity_ratio, acceleration_ratio, torques, forces)
-"""The curves of a linkage over the crank angle."""
-
-LINKAGE_VIEWS = (linkage_in_space, *CURVES)
-"""What a designer of a spatial linkage wants to see at once."""

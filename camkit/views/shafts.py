@@ -1,4 +1,4 @@
-"""Views of a drive with two universal joints: in space, and over a turn of its input shaft."""
+"""Views of a drive of three shafts: in space, and over a turn of its input shaft."""
 
 from __future__ import annotations
 
@@ -106,7 +106,3 @@ def couples(analysis: Any) -> Picture:
     """Secondary couples: what the torque that goes round a corner puts on the bearings of the outer shafts."""
     couple = {"input": analysis.input_couple, "driven": analysis.output_couple}
     return _over_a_turn(analysis, "Couple", "C  [N m]", couple)
-
-
-JOINT_VIEWS = (drive, speeds, leads, torques, couples)
-"""What a designer of the drive wants to see at once."""

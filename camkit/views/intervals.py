@@ -1,19 +1,17 @@
-"""Views of a cam of two intervals: motion, contact stress, wear, Hertz pressure, with their peaks.
+"""Curves with their peaks over the two intervals in which a cam moves: contact stress, wear, Hertz pressure.
 
 The first of the series is the interval in which the arm swings away, the second that in which it swings back.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities.kinds import refuse_arguments, refuse_empty
-from ..units import deg, factor, mm
-from .cam import ANGLE, MOTION, cam_torque, mechanism, pressure_angle
+from ..units import factor, mm
 from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
 
 AWAY_BACK = ("away", "back")
@@ -32,15 +30,6 @@ class Along(NamedTuple):
 
 TURN = Along("cam angle", lambda part: part.cam_angle, "deg", "°")
 WAY = Along("way of the slider", lambda part: part.cam.load.way(part.motion, part.cam.swing), "mm", " mm")
-
-
-def motion_over_turn(analysis: Any) -> Picture:
-    """Travel, velocity, acceleration and jerk by the cam angle over the whole turn, each over its own peak."""
-    marks = [
-        Line(key, analysis.cam_angle / deg, values / np.max(abs(values)), role=role, label=key)
-        for key, role, values in zip("svaj", MOTION, analysis.motion, strict=True)
-    ]
-    return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
 
 
 class Curve(NamedTuple):
@@ -71,24 +60,35 @@ def _with_peaks(analysis: Any, curve: Curve, along: Along = TURN) -> Picture:
     Trouble, at 0: there is none, as the roller undercuts the profile or has lost contact, or no spring holds the arm.
     """
     x, y = _values(analysis, curve, along)
-    top = ROOM * (np.nanmax(y, initial=0) or 1.0)
+    top = np.nanmax(y, initial=0)
+    top = ROOM * np.where(top > 0, top, 1.0)
     marks: list[Mark] = [Line("dwell", x, y, role="guide", stroke="thin")]
     for index, (way, part) in enumerate(zip(AWAY_BACK, analysis.intervals, strict=True)):
-        style: Any = {"role": "series", "index": index}
         where, peak = _peak(part, curve, along)
-        there = bool(np.isfinite(peak[0]))
-        told = f"{peak[0]:.4g}\nat {where[0]:.1f}{along.sign}" if there else _why_none(part)
-        middle = np.min(x) + (0.25 + 0.5 * index) * np.ptp(x)
-        marks += [
-            Line(way, *_values(part, curve, along), **style),
-            Points(f"{way} peak", where, peak, **style),
-            Text(f"{way} value", middle, top, f"{way} {told}", anchor="top", role="ink" if there else "trouble"),
-        ]
+        marks.append(Line(way, *_values(part, curve, along), role="series", index=index))
+        marks.append(Points(f"{way} peak", where, peak, role="series", index=index))
+        marks += _told(way, part, np.min(x) + (0.25 + 0.5 * index) * np.ptp(x), top, (peak[0], where[0]), along)
     marks.append(Line("none", x, gaps(0 * x, ~np.isfinite(y)), role="trouble"))
-    label = f"{curve.letter}  [{curve.unit}]"
-    return Picture.of(
-        Axes(title=curve.title, xlabel=f"{along.name}  [{along.unit}]", ylabel=label, ylim=(0, top)), marks
-    )
+    labels: Any = {"xlabel": f"{along.name}  [{along.unit}]", "ylabel": f"{curve.letter}  [{curve.unit}]"}
+    return Picture.of(Axes(title=curve.title, ylim=(0, top), **labels), marks)
+
+
+def _told(way: str, part: Any, x: Any, top: Any, found: tuple[Any, Any], along: Along) -> list[Mark]:
+    """The peak and its place in words, or why a stress is missing somewhere in the interval."""
+    there = np.isfinite(found[0])
+    held = np.isfinite(part.contact_force).all()  # no spring follows an arm that passes its start
+    cut = held & part.undercut.any()
+    reasons = {
+        "arm passes\nits start": ~there & ~held,
+        "undercut\n": ~there & cut,
+        "loses\ncontact": ~there & held & ~cut,
+    }
+    words = f"{way} {{:.4g}}\nat {{:.1f}}{along.sign}"
+    style: Any = {"anchor": "top", "role": "trouble"}
+    return [
+        Text(f"{way} value", gaps(x, there), top, words, values=found, anchor="top"),
+        *(Text(f"{way} {why}", gaps(x, where), top, f"{way} {why}", **style) for why, where in reasons.items()),
+    ]
 
 
 def _values(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
@@ -101,13 +101,6 @@ def _peak(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
     found = part.highest(curve.of)
     where = along.of(part.at(np.atleast_1d(found.cam_angle)))
     return where / factor(along.unit), np.atleast_1d(found.value) / factor(curve.unit)
-
-
-def _why_none(part: Any) -> str:
-    """Why a stress is missing somewhere in an interval."""
-    if not np.isfinite(part.contact_force).all():  # no spring follows an arm that passes its start
-        return "arm passes\nits start"
-    return "undercut\n" if part.undercut.any() else "loses\ncontact"
 
 
 def contact_stress(analysis: Any) -> Picture:
@@ -125,10 +118,6 @@ def hertz_pressure(analysis: Any) -> Picture:
     return _with_peaks(analysis, HERTZ)
 
 
-HIGH_SPEED_VIEWS = (mechanism, motion_over_turn, pressure_angle, contact_stress, wear, hertz_pressure, cam_torque)
-"""What a designer of a high-speed cam wants to see at once."""
-
-
 def stress_over_way(analysis: Any) -> Picture:
     """The coefficient ``F_sigma`` over the slider's way, in the paper's unit."""
     return _with_peaks(analysis, STRESS._replace(unit="N^0.5 cm^-0.5"), WAY)
@@ -139,7 +128,7 @@ def wear_over_way(analysis: Any) -> Picture:
     return _with_peaks(analysis, WEAR._replace(unit="N^1.5 cm^-0.5"), WAY)
 
 
-def slider_load(analysis: Any) -> Picture:
+def load_over_way(analysis: Any) -> Picture:
     """Weight ``G`` of the slider, and with it the force ``P`` of the work, over the slider's way."""
     press = analysis.press
     way = analysis.rise.cam.load.way(analysis.rise.motion, press.swing)
@@ -150,36 +139,3 @@ def slider_load(analysis: Any) -> Picture:
         Line("weight", way / mm, press.weight + 0 * way, role="guide", stroke="dashed", label="G"),
         Line("load", way / mm, press.weight + press.force(way), role="profile", label="G + P"),
     )
-
-
-CAM_LEVER_VIEWS = (
-    mechanism,
-    motion_over_turn,
-    pressure_angle,
-    stress_over_way,
-    wear_over_way,
-    hertz_pressure,
-    slider_load,
-)
-"""What a designer of a cam with lever wants to see at once."""
-
-
-def radius_sweep(found: Sequence[Any]) -> Picture:
-    """The least objective of several results of `minimise` over the largest radius that each was allowed."""
-    refuse_arguments(radius_sweep, locals())
-    refuse_empty(found, "results")
-    measure = found[0].study.minimise[0]
-    radius = np.array([best.study.free["max_radius"][1] for best in found]) / mm
-    least = np.array([best.f for best in found]) / factor(measure.unit)
-    told = [
-        Text(f"at {x:g}", x, y, f" {y:.2f}", anchor="left bottom", size=11) for x, y in zip(radius, least, strict=True)
-    ]
-    axes = Axes(title="What a larger cam buys", xlabel="largest radius allowed  [mm]", ylabel=two_lines(measure))
-    return Picture.of(
-        axes, Line("least", radius, least, role="position"), Points("results", radius, least, role="position"), told
-    )
-
-
-def two_lines(measure: Any) -> str:
-    """Name and unit of a measure in two lines, for a short axis."""
-    return f"{measure.name}\n[{measure.unit}]" if measure.unit else str(measure.name)
