@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .quantities.kinds import numbers
+from .quantities.types import Value
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 """``(z/a)^2`` where the shear below the middle of a line contact is largest: the root of ``t^2 + t = 1``."""
@@ -28,7 +29,7 @@ class LineContact(NamedTuple):
     """How deep that is, m."""
 
 
-def contact_modulus(first: Any, second: Any, first_poisson: Any = 0.3, second_poisson: Any = 0.3) -> Any:
+def contact_modulus(first: Value, second: Value, first_poisson: Value = 0.3, second_poisson: Value = 0.3) -> Value:
     """``E*`` of two bodies in contact, Pa: ``1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2``.
 
     >>> print(f"{contact_modulus(210e9, 210e9) / 1e9:.3f} GPa")
@@ -52,7 +53,7 @@ def contact_modulus(first: Any, second: Any, first_poisson: Any = 0.3, second_po
         return np.where(possible, 1 / compliance, np.nan)[()]
 
 
-def line_contact(force_per_length: Any, curvature: Any, modulus: Any) -> LineContact:
+def line_contact(force_per_length: Any, curvature: Value, modulus: Value) -> LineContact:
     """Pressure and shear where two parallel cylinders are pressed together, element by element.
 
     ``force_per_length``: ``w``, N/m; ``curvature``: ``kappa``, the sum of both curvatures, 1/m (a flat face

@@ -18,6 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .quantities.types import Array, Value
+
 CLOSER, AROUND = 1 / 16, 5
 """How near to the top of a parabola the curve is evaluated again, in steps, and at how many angles."""
 ZOOM, ZOOMS = 17, 3
@@ -42,7 +44,7 @@ class Extreme(NamedTuple):
     cam_angle: Any
 
 
-def raised(values: Any, inner: Any = True) -> Any:
+def raised(values: Any, inner: Any = True) -> Array:
     """``values`` at even steps, each local maximum raised to the top of the parabola through its neighbours.
 
     ``inner`` says which of them have a neighbour at an even step on both sides.
@@ -57,7 +59,7 @@ def raised(values: Any, inner: Any = True) -> Any:
     return tops
 
 
-def _maxima(values: Any, inner: Any) -> Any:
+def _maxima(values: Array, inner: Value) -> Array:
     """Where the local maxima are, as indices of the flat array."""
     with np.errstate(invalid="ignore"):
         up = values[..., 1:] >= values[..., :-1]
@@ -67,7 +69,7 @@ def _maxima(values: Any, inner: Any) -> Any:
     return np.flatnonzero(top)
 
 
-def highest(f: Callable[[Any], Any], angle: Any, inner: Any) -> Extreme:
+def highest(f: Callable[[Any], Any], angle: Array, inner: Array) -> Extreme:
     """The largest value of ``f(cam_angle)``, sampled at the cam angles ``angle`` and then more closely.
 
     ``inner`` says which of them have a neighbour at the same step, without a jump in between, on both sides.
@@ -110,7 +112,7 @@ def highest_between(f: Callable[[Any], Any], ends: Sequence[Any]) -> Extreme:
     return highest(f, np.concatenate(pieces, axis=-1), inner)
 
 
-def with_tops(values: Any, inner: Any, sample: Callable[[Any, Any], Any], but: Any = False) -> Any:
+def with_tops(values: Array, inner: Any, sample: Callable[[Any, Any], Any], but: Any = False) -> Array:
     """A curve's ``values`` at even steps, each local maximum raised to its top: to 0.1 % where it may be the largest.
 
     That of the quartic through five of them.  Where this is in doubt ``sample(at, x)`` says how high the curve is ``x``
@@ -139,7 +141,7 @@ def with_tops(values: Any, inner: Any, sample: Callable[[Any, Any], Any], but: A
     return tops
 
 
-def _zoomed_top(sample: Callable[[Any, Any], Any], at: Any, low: Any, high: Any, zooms: int) -> Any:
+def _zoomed_top(sample: Callable[[Any, Any], Any], at: Array, low: Array, high: Array, zooms: int) -> Array:
     """How high a curve is between ``low`` and ``high`` steps beside each of the places ``at``."""
     x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, ZOOM)
     values, row = sample(at, x), np.arange(len(at))
@@ -156,7 +158,7 @@ def _zoomed_top(sample: Callable[[Any, Any], Any], at: Any, low: Any, high: Any,
     return top
 
 
-def _quartic_tops(flat: Any, at: Any, inner: Any) -> tuple[Any, Any]:
+def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Any, Any]:
     """The tops of the quartics through the local maxima ``at`` and four neighbours; by how much they may be too low.
 
     0 where that is no matter.  A parabola's, where a piece ends next to the maximum.
@@ -179,7 +181,7 @@ def _quartic_tops(flat: Any, at: Any, inner: Any) -> tuple[Any, Any]:
     return np.where(np.isfinite(top), np.maximum(top, mid), mid), np.where(sure, 0.0, room)
 
 
-def _quartic_top(*slopes: Any) -> Any:
+def _quartic_top(*slopes: Any) -> Value:
     """How far the top of a quartic with those four derivatives at 0 lies above its value there, by Newton's method."""
     a, b, c, d = slopes
     x = 0.0
@@ -189,7 +191,7 @@ def _quartic_top(*slopes: Any) -> Any:
     return x * (a + x * (b / 2 + x * (c / 6 + x * d / 24)))
 
 
-def _tops_by_ends(values: Any, inner: Any) -> tuple[Any, Any, Any]:
+def _tops_by_ends(values: Array, inner: Any) -> tuple[Any, Any, Any]:
     """Where a piece's end is higher than its neighbour and yet the top lies between them, and how much it may be."""
     ends = np.flatnonzero(~inner)
     way = np.where(inner[(ends + 1) % len(inner)], 1, -1)
@@ -201,7 +203,7 @@ def _tops_by_ends(values: Any, inner: Any) -> tuple[Any, Any, Any]:
     return at[between], np.broadcast_to(way, at.shape)[between], bend[between]
 
 
-def roughly_highest(angle: Any, values: Any, inner: Any) -> Extreme:
+def roughly_highest(angle: Value, values: Value, inner: Any) -> Extreme:
     """As `highest`, of ``values`` at the cam angles ``angle`` alone: the top of the parabola at the highest of them."""
     angle, values = np.broadcast_arrays(angle, values)
     best = np.argmax(values, axis=-1, keepdims=True)
@@ -210,7 +212,7 @@ def roughly_highest(angle: Any, values: Any, inner: Any) -> Extreme:
     return Extreme(value[..., 0], _at(angle, best)[..., 0])
 
 
-def _around(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) -> tuple[Any, Any, Any, Any]:
+def _around(f: Callable[[Any], Any], begin: Value, end: Value, low: Value, high: Value) -> tuple[Any, Any, Any, Any]:
     """The highest of a few angles from ``begin`` to ``end``, where it is, how much it bends, and if it is at an end.
 
     It bends by ``inf`` if it seems to lie beyond them; ``low`` and ``high`` are ends, beyond which there is nothing.
@@ -231,7 +233,7 @@ def _around(f: Callable[[Any], Any], begin: Any, end: Any, low: Any, high: Any) 
     return value, place, bend, edge
 
 
-def _zoomed(f: Callable[[Any], Any], low: Any, high: Any) -> tuple[Any, Any]:
+def _zoomed(f: Callable[[Any], Any], low: Value, high: Value) -> tuple[Any, Any]:
     """The highest between two angles: each time it is evaluated again between the best angle's neighbours."""
     for _ in range(ZOOMS):
         angle = low + (high - low) * np.linspace(0, 1, ZOOM)
@@ -243,7 +245,7 @@ def _zoomed(f: Callable[[Any], Any], low: Any, high: Any) -> tuple[Any, Any]:
     return _at(values, best) + np.where(best == middle, more, 0.0), _at(angle, best)
 
 
-def _summit(left: Any, mid: Any, right: Any) -> tuple[Any, Any]:
+def _summit(left: Array, mid: Array, right: Array) -> tuple[Any, Any]:
     """Where the top of the parabola through three neighbours lies beside the highest, in steps, and how far above."""
     with np.errstate(invalid="ignore"):
         bend, lean = 2 * mid - left - right, right - left
@@ -252,6 +254,6 @@ def _summit(left: Any, mid: Any, right: Any) -> tuple[Any, Any]:
     return lean / (2 * bend), lean**2 / (8 * bend)
 
 
-def _at(values: Any, column: Any) -> Any:
+def _at(values: Array, column: Array) -> Any:
     """The values in one column of each row, ``(1,)`` or ``(p, 1)``."""
     return values[column] if values.ndim == 1 else values[np.arange(len(values))[:, None], column]

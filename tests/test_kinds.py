@@ -137,7 +137,7 @@ GIVEN = {
 """What the constructors that have no defaults are given."""
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
-NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "PairForces", "Read", "SideBySide"}
+NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "SideBySide"}
 NOT_MADE_BY_HAND |= {"TorqueBalance", "WeightedSum", "WinnerMap"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]

@@ -54,7 +54,7 @@ WINGS = [
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
     *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "Still", "OnGrid", "Material"),
-    *("Evaluated", "Found"),
+    *("Evaluated", "Found", "Active", "Row"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
@@ -105,8 +105,12 @@ def _public():
     return {
         f"{thing.__module__.removeprefix('camkit.')}.{name}": thing
         for thing, name in things.items()
-        if getattr(thing, "__qualname__", None) not in tested and name not in RESULTS | INSIDE and _arguments(thing)
+        if getattr(thing, "__qualname__", None) not in tested and _arguments(thing) and not _made_or_inside(name)
     }
+
+
+def _made_or_inside(name):
+    return name in RESULTS | INSIDE or name.endswith("Analysis")
 
 
 def _arguments(thing):

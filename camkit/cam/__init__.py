@@ -1,7 +1,6 @@
 """Disk cams with a follower on a straight guide or an arm, with a roller or a flat face; their loads and measures."""
 
 from .analysis import CamAnalysis
-from .conjugate import PairForces, opposite, pair_forces
 from .flat_analysis import FlatAnalysis
 from .follower_measures import face_width, jump_margin, mean_torque, min_force, min_profile_radius, peak_pressure
 from .force_closure import (
@@ -21,13 +20,11 @@ from .measures import (
     mean_efficiency,
     min_concave_radius,
     min_convex_radius,
-    part,
     peak_force,
     peak_torque,
     published_mean_efficiency,
     undercut_margin,
     work_efficiency,
-    worst,
 )
 from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
@@ -51,7 +48,6 @@ __all__ = [
     "OscillatingFlatCam",
     "OscillatingRollerAnalysis",
     "OscillatingRollerCam",
-    "PairForces",
     "RollerAnalysis",
     "SlideFriction",
     "SlideLoad",
@@ -73,9 +69,6 @@ __all__ = [
     "min_convex_radius",
     "min_force",
     "min_profile_radius",
-    "opposite",
-    "pair_forces",
-    "part",
     "peak_force",
     "peak_pressure",
     "peak_torque",
@@ -84,5 +77,4 @@ __all__ = [
     "torque_balance",
     "undercut_margin",
     "work_efficiency",
-    "worst",
 ]

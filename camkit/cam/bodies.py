@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Body, Disc, Outline, polar_angle
+from ..quantities.types import Value
 
 PIN = np.zeros((2, 1))
 """A body that is a pin: one point."""
@@ -26,7 +27,7 @@ def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
     )
 
 
-def rocker(name: str, pivot: Any, end: Any) -> tuple[Body, ...]:
+def rocker(name: str, pivot: Any, end: Value) -> tuple[Body, ...]:
     """An arm from its pivot ``(2,)`` to its end ``(2, n)``, m."""
     away = end - np.reshape(pivot, (2, 1))
     length = np.hypot(*away)[..., :1]

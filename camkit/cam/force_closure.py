@@ -19,9 +19,10 @@ from ..contact import LineContact, contact_modulus, line_contact
 from ..data.materials import MATERIALS
 from ..quantities import Design, choice, fails, quantity
 from ..quantities.kinds import applied, numbers, refuse_arguments, shown
+from ..quantities.types import Array, Value
 
 
-def jump_speed(analysis: Any) -> Any:
+def jump_speed(analysis: Any) -> Value:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
     0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
@@ -33,7 +34,7 @@ def jump_speed(analysis: Any) -> Any:
     943.7 rpm
     """
 
-    def slackness(at: Any) -> Any:
+    def slackness(at: Any) -> Array:
         static, throw = at.static_resistance, -at.inertia * at.acceleration
         thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
         return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
@@ -44,7 +45,7 @@ def jump_speed(analysis: Any) -> Any:
         return 1 / np.sqrt(np.where(analysis.form_closed, 0.0 * np.isfinite(slack), slack))[()]
 
 
-def preload_needed(analysis: Any, speed: Any) -> Any:
+def preload_needed(analysis: Any, speed: Value) -> Value:
     """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
 
     The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
@@ -61,7 +62,7 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
     if fails(np.isfinite(speed) & (np.asarray(speed) >= 0)):
         raise ValueError(f"the speed of the cam is {speed:.6g}; it must be a finite number of at least 0")
 
-    def lacking(at: Any) -> Any:
+    def lacking(at: Any) -> Array:
         without = at.static_resistance - at.preload
         return -(at.inertia * speed**2 * at.acceleration + without)
 
@@ -71,7 +72,7 @@ def preload_needed(analysis: Any, speed: Any) -> Any:
     return np.where(drops, np.inf, least)[()]
 
 
-def _thrown_off(analysis: Any) -> Any:
+def _thrown_off(analysis: Any) -> bool:
     """Whether the follower has mass and its speed drops at once, which no force can make it follow."""
     return (analysis.corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0)
 
@@ -86,12 +87,12 @@ class TorqueBalance(NamedTuple):
     swing: Any
     """Between the largest and the least ``surplus``, J: what a flywheel has to store."""
 
-    def flywheel(self, speed: Any, unevenness: Any) -> Any:
+    def flywheel(self, speed: Value, unevenness: Any) -> Value:
         """Moment of inertia with which the speed varies by the share ``unevenness`` of its mean, kg m^2."""
         return self.swing / (unevenness * speed**2)
 
 
-def torque_balance(cam_angle: Any, torque: Any) -> TorqueBalance:
+def torque_balance(cam_angle: Value, torque: Value) -> TorqueBalance:
     """Mean and swing of a ``torque`` (N m) given over ``cam_angle`` (rad), by the trapezoid rule.
 
     Without friction the mean over a full turn is the work of the machine alone: what mass, spring and weight take
@@ -157,7 +158,7 @@ class ContactPair(Design):
         return getattr(self, f"{body}_modulus"), getattr(self, f"{body}_poisson")
 
     @property
-    def modulus(self) -> Any:
+    def modulus(self) -> Value:
         """``E*``, Pa."""
         (cam, cam_poisson), (follower, follower_poisson) = self._elastic("cam"), self._elastic("follower")
         return contact_modulus(cam, follower, cam_poisson, follower_poisson)

@@ -18,13 +18,15 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.types import Array, Value
+
 COARSE, FINE, ROUNDS, CLOSER, ROUGH = 49, 5, 3, 3, 25
 """Places along the groove; then how many around each of the nearest two, how often, each time so much closer.
 
 A rough look takes the last number of places and one round."""
 
 
-def gap(path: Callable[[Any], Any], span: Any, radius: Any, rough: bool = False) -> Any:
+def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = False) -> Value:
     """The least distance between two parts of a groove's pitch curve, less ``2 radius``, m; below 0 the walls merge.
 
     Only a gap below a quarter of the radius is looked at more closely; a larger one is an estimate from above.
@@ -71,7 +73,7 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Any, rough: bool = False)
     return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
 
 
-def _between(along: Any, step: Any) -> Any:
+def _between(along: Any, step: Any) -> Array:
     """How far along the curve a place lies, which is counted in coarse steps."""
     whole = np.minimum(step.astype(int), along.shape[-1] - 2)
     low, high = (np.take_along_axis(along, whole + k, -1) for k in (0, 1))

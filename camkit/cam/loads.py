@@ -9,6 +9,7 @@ import numpy as np
 
 from ..quantities import Design, quantity
 from ..quantities.kinds import numbers, shown
+from ..quantities.types import Array, Value
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,11 @@ class ArmLoad(Design):
         """The table over the travel, whatever it holds."""
         return self.torque_table
 
-    def inertia(self, arm_length: Any) -> Any:
+    def inertia(self, arm_length: Value) -> Any:
         """Moment of inertia about the arm's pivot, kg m^2."""
         return self.mass * arm_length**2 / 3
 
-    def static_torque(self, arm_length: Any, arm_angle: Any, travel: Any, cam_angle: Any = 0.0) -> Any:
+    def static_torque(self, arm_length: Value, arm_angle: Value, travel: Value, cam_angle: Value = 0.0) -> Array:
         """Torque about the arm's pivot without its inertia, N m (``travel`` from the motion's level 0, rad)."""
         weight = self.mass * self.gravity * arm_length / 2 * np.sin(arm_angle + self.up_angle)
         static = self.torque + self.preload + self.spring_rate * travel + weight
@@ -66,7 +67,7 @@ class ArmLoad(Design):
         static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
         return self.inertia(arm_length) * self.speed**2 * acceleration + static
 
-    def opposite(self, spread: Any, arm_length: Any, other_length: Any) -> ArmLoad:
+    def opposite(self, spread: Any, arm_length: Value, other_length: Any) -> ArmLoad:
         """The same load as a second arm of ``other_length`` on the same shaft feels it, mirrored.
 
         The second arm's angle is ``spread`` less this one's, so all that resists the one helps the other.
@@ -101,7 +102,7 @@ def refuse_table(name: str, first: str, second: str, table: Table) -> None:
         raise ValueError(f"the {name}'s {first} must grow from entry to entry; it does not")
 
 
-def tabulated(table: Table, at: Any) -> Any:
+def tabulated(table: Table, at: Value) -> Value:
     """The load that ``table`` gives, straight between its entries and constant outside; 0 from an empty one."""
     return np.interp(at, *np.transpose(table)) if len(table) else 0.0
 
@@ -126,7 +127,7 @@ class Contact:
     """``B = R cos(alpha - beta)``: along the normal to the roller's centre."""
 
     @property
-    def sense(self) -> Any:
+    def sense(self) -> Value:
         """``k``: +1 where the arm's angle changes against the cam's rotation, -1 where it goes with it."""
         return np.where(self.rotation * self.velocity < 0, -1.0, 1.0)
 
@@ -162,7 +163,7 @@ class Friction(Design):
         return _power_ratio(c, arm, cam)
 
 
-def _power_ratio(contact: Contact, arm: Any, cam: Any) -> Any:
+def _power_ratio(contact: Contact, arm: Any, cam: Any) -> Value:
     """``|v| arm / cam``; 0 where the arm rests, and 0 where friction jams it (``arm`` not positive)."""
     v = abs(contact.velocity)
     return np.where(v == 0, 0.0 * arm, np.maximum(v * arm, 0.0) / np.where(v == 0, 1.0, cam))

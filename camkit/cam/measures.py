@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Measure
+from ..quantities.types import Value
 
 
 def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
@@ -24,18 +25,18 @@ def _min_radius(side: int) -> Callable[[Any], Any]:
     return lambda analysis: radius_of(analysis.sharpest(side).value)
 
 
-def number(value: Any) -> Any:
+def number(value: Value) -> Value:
     """A field of a design as a number of the whole: one, or ``(p,)`` from ``(p, 1)``."""
     return np.atleast_1d(value)[..., 0]
 
 
-def radius_of(curvature: Any) -> Any:
+def radius_of(curvature: Value) -> Value:
     """The radius of a curvature; ``inf`` where it is not above 0, ``nan`` stays."""
     with np.errstate(divide="ignore"):
         return np.where(curvature > 0, 1 / curvature, np.where(np.isnan(curvature), np.nan, np.inf))[()]
 
 
-def _groove_margin(analysis: Any) -> Any:
+def _groove_margin(analysis: Any) -> Value:
     """``1 - r_T kappa`` on the inner flank, ``1 + r_T kappa`` on a groove's outer one too, at its least."""
     sides = (1, -1) if analysis.groove else (1,)
     r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in sides]
@@ -44,7 +45,7 @@ def _groove_margin(analysis: Any) -> Any:
     return np.where((r == 0) & np.isinf(most).any(0), 1.0, margin)[()]  # a knife edge fits into every corner
 
 
-def mean_over(analysis: Any, name: str) -> Any:
+def mean_over(analysis: Any, name: str) -> Value:
     """Mean over the cam angle of what the analysis calls ``name``, over the strokes: dwells are left out.
 
     ``nan`` if the follower does not move at all.
@@ -57,7 +58,7 @@ def mean_over(analysis: Any, name: str) -> Any:
     return np.where(span > 0, total / np.where(span > 0, span, 1.0), np.nan)[()]
 
 
-def work_ratio(analysis: Any) -> Any:
+def work_ratio(analysis: Any) -> Value:
     """Work out over work in of a constant resisting torque: the power-weighted mean efficiency."""
     shown = analysis.resolved
     v, eta = abs(shown.velocity), shown.efficiency

@@ -23,6 +23,7 @@ from ..geometry import Body, Outline
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
 from ..quantities.kinds import a_number
+from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
 from . import bodies
 from .analysis import lowest
@@ -83,7 +84,7 @@ class OscillatingFlatCam(Design):
         return 0.0
 
     @property
-    def base_radius(self) -> Any:
+    def base_radius(self) -> Value:
         """``p_0 = a sin psi_0 + b``: cam axis to face at the motion's level 0, m."""
         return self.centre_distance * np.sin(self.start_angle) + self.face_offset
 
@@ -94,7 +95,7 @@ class OscillatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def face_offset_for(self, *, min_radius: Any) -> Any:
+    def face_offset_for(self, *, min_radius: Any) -> Value:
         """Least offset of the face with which no radius of curvature is below ``min_radius``, m.
 
         The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
@@ -131,7 +132,7 @@ class OscillatingFlatAnalysis(FlatAnalysis):
     cam: OscillatingFlatCam
 
     @cached_property
-    def _swing(self) -> Any:
+    def _swing(self) -> Array:
         return self.cam.start_angle + self.motion.s
 
     @cached_property
@@ -140,16 +141,16 @@ class OscillatingFlatAnalysis(FlatAnalysis):
         return 1 + self.cam.rotation * self.velocity
 
     @cached_property
-    def _contact_length(self) -> Any:
+    def _contact_length(self) -> Array:
         with np.errstate(divide="ignore", invalid="ignore"):
             return self.cam.centre_distance * np.cos(self._swing) / self._gain
 
     @cached_property
-    def _face_distance(self) -> Any:
+    def _face_distance(self) -> Array:
         return self.cam.centre_distance * np.sin(self._swing) + self.cam.face_offset
 
     @property
-    def clear(self) -> Any:
+    def clear(self) -> Array:
         """Where the face is clear of the cam axis and long enough."""
         upright, slow = abs(self._swing) < np.pi / 2, self._gain > 0
         reached = upright & slow & (self._contact_length <= self.cam.arm_length)
@@ -260,7 +261,7 @@ class OscillatingFlatAnalysis(FlatAnalysis):
         return self.contact_length
 
     @property
-    def inertia(self) -> Any:
+    def inertia(self) -> Array:
         """Of the arm about its pivot, kg m^2."""
         return self.cam.load.inertia(self.cam.arm_length)
 

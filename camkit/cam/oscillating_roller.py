@@ -21,6 +21,7 @@ from ..geometry import Body
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
 from ..quantities.kinds import a_number
+from ..quantities.types import Value
 from ..units import deg, mm
 from . import bodies
 from .conjugate import opposite
@@ -76,7 +77,9 @@ class OscillatingRollerCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def conjugate(self, spread: Any, arm_length: Any = None, roller_radius: Any = None) -> OscillatingRollerCam:
+    def conjugate(
+        self, spread: Any, arm_length: Value | None = None, roller_radius: Any = None
+    ) -> OscillatingRollerCam:
         """The second cam of a pair: it carries a second roller on the same shaft, ``spread`` (rad) from the first.
 
         Given in the machine's frame mirrored in the line of centres, so its arm again stands above that line.
@@ -120,7 +123,7 @@ class OscillatingRollerAnalysis(RollerAnalysis):
             f"{self._pitch_radius(psi).min() / mm:.4g} mm of the cam axis; it must stay outside it"
         )
 
-    def _pitch_radius(self, psi: Any) -> Any:
+    def _pitch_radius(self, psi: Value) -> Any:
         a, l = self.cam.centre_distance, self.cam.arm_length
         return np.sqrt(a**2 + l**2 - 2 * a * l * np.cos(psi))
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..quantities import fails
 from ..quantities.kinds import one_number
+from ..quantities.types import Array, Value
 from ..study.study import Study
 from ..units import deg, mm
 
@@ -35,7 +36,7 @@ def refuse_radius(limit: Any) -> None:
         raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must be at most {LARGEST / mm:.6g} mm")
 
 
-def if_possible(size: Any, drop: Any, excepted: Any = False) -> Any:
+def if_possible(size: Any, drop: Any, excepted: Any = False) -> Value:
     """``size`` that keeps a least radius of curvature; ``nan`` in a population where the speed drops at once.
 
     ``drop`` is the largest such drop and where it is (see `CamAnalysis.corner`): the profile is cut away there,
@@ -50,7 +51,7 @@ def if_possible(size: Any, drop: Any, excepted: Any = False) -> Any:
     return np.where(possible, size, np.nan)[()]
 
 
-def min_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Any:
+def min_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Array:
     """The least size from which on up to ``ample`` every size keeps a limit, element by element.
 
     ``keeps`` says which sizes of an array do.  From ``ample`` downwards the largest that fails is found, then the

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Design, quantity
+from ..quantities.types import Array, Value
 from .loads import Table, opposite_table, refuse_table, tabulated
 
 
@@ -51,18 +51,18 @@ class SlideLoad(Design):
         return self.force_table
 
     @property
-    def side_force(self) -> Any:
+    def side_force(self) -> Value:
         """The weight's part across the travel, to the right of the rise, N: it presses the follower into its guide."""
         return self.mass * self.gravity * np.sin(self.up_angle)
 
-    def static_force(self, travel: Any, cam_angle: Any = 0.0) -> Any:
+    def static_force(self, travel: Value, cam_angle: Value = 0.0) -> Array:
         """Force along the travel without inertia, N (``travel`` from the motion's level 0, m)."""
         weight = self.mass * self.gravity * np.cos(self.up_angle)
         static = self.force + self.preload + self.spring_rate * travel + weight
         k = self.table_factor
         return static + k * tabulated(self.force_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
-    def resisting_force(self, travel: Any, acceleration: Any, cam_angle: Any = 0.0) -> Any:
+    def resisting_force(self, travel: Value, acceleration: Value, cam_angle: Value = 0.0) -> Array:
         """Force along the travel, N."""
         return self.mass * self.speed**2 * acceleration + self.static_force(travel, cam_angle)
 

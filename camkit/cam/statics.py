@@ -12,6 +12,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from ..quantities.types import Array, Value
+
 Vector = tuple[Any, Any]
 ROUNDING = 1e-9
 """A support that bears less than this share of the forces bears nothing."""
@@ -23,13 +25,13 @@ class Bearing(Protocol):
     def velocity_at(self, point: Vector) -> Vector:
         """Velocity of the follower's point at ``point``, per speed of the cam, m."""
 
-    def share(self, point: Vector, force: Vector) -> Any:
+    def share(self, point: Vector, force: Vector) -> Value:
         """What ``force`` in ``point`` does along the follower's motion after the bearing's friction."""
 
-    def least(self, load: Any) -> Any:
+    def least(self, load: Any) -> Value:
         """What the follower resists with while nothing pushes it: ``load`` and the bearing's friction."""
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
         """How many times ``force`` in ``point`` moves the follower against ``load``; ``inf`` where friction jams it."""
 
 
@@ -45,16 +47,16 @@ class Pivot:
         """A clockwise turn about the pivot."""
         return self.velocity * point[1], -self.velocity * (point[0] - self.distance)
 
-    def share(self, point: Vector, force: Vector) -> Any:
+    def share(self, point: Vector, force: Vector) -> Value:
         """Moment about the pivot, m."""
         moment = point[1] * force[0] - (point[0] - self.distance) * force[1]
         return moment - np.sign(self.velocity) * self.friction_circle
 
-    def least(self, load: Any) -> Any:
+    def least(self, load: Any) -> Value:
         """The ``load``: a pivot that bears nothing does not rub."""
         return load
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
         """``load`` over `share`, N per N."""
         return _pushing(load, self.share(point, force))
 
@@ -78,7 +80,7 @@ class Guide:
         return 0.0 * self.velocity, self.velocity
 
     @property
-    def _rub(self) -> Any:
+    def _rub(self) -> Value:
         """Coefficient of friction, against the motion."""
         return np.sign(self.velocity) * self.coefficient
 
@@ -87,16 +89,16 @@ class Guide:
         top = ((point[0] - self.axis) * force[1] + (self.mouth - point[1]) * force[0]) / self.length
         return top, force[0] + top
 
-    def share(self, point: Vector, force: Vector) -> Any:
+    def share(self, point: Vector, force: Vector) -> Value:
         """Force along the guide less the friction at its ends, without the follower's weight."""
         top, bottom = self._ends(point, force)
         return force[1] - self._rub * (abs(top) + abs(bottom))
 
-    def least(self, load: Any) -> Any:
+    def least(self, load: Any) -> Value:
         """``load`` and the friction of the weight across the guide."""
         return load + self._rub * abs(self.across)
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Any:
+    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
         """The least ``F >= 0`` with ``F y = load + mu (|F t - W / 2| + |F b + W / 2|)``, ``t, b`` borne by the ends.
 
         The sums are straight between the places where an end changes sides, so each pair of sides gives one ``F``,
@@ -113,7 +115,7 @@ class Guide:
         return best
 
 
-def _pushing(load: Any, share: Any) -> Any:
+def _pushing(load: Any, share: Any) -> Value:
     """``load / share`` where that is a push; ``inf`` where it would have to pull."""
     with np.errstate(divide="ignore", invalid="ignore"):
         needed = load / share
@@ -149,7 +151,7 @@ def push(analysis: Any, flank: Any) -> Push:
     return Push(analysis.bearing.share(point, force), torque, normal, point, force)
 
 
-def efficiency(analysis: Any, flank: Any) -> Any:
+def efficiency(analysis: Any, flank: Any) -> Array:
     """Power out over power in with ``flank`` pushing; 0 where the follower rests or friction jams it.
 
     Where the follower moves with the push, the cam drives it; where it moves against the push, it drives the cam.

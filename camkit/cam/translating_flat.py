@@ -19,6 +19,7 @@ from ..geometry import Body, Outline
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import a_number
+from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
 from .analysis import lowest
@@ -70,7 +71,7 @@ class TranslatingFlatCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, min_radius: Any) -> Any:
+    def base_radius_for(self, *, min_radius: Any) -> Value:
         """Least base radius with which no radius of curvature is below ``min_radius``: ``rho - s - w``, m.
 
         ``ValueError`` (``nan`` in a population) where the follower's speed drops at once: none keeps it there.
@@ -110,7 +111,7 @@ class TranslatingFlatAnalysis(FlatAnalysis):
     cam: TranslatingFlatCam
 
     @property
-    def clear(self) -> Any:
+    def clear(self) -> Array:
         """Where the face stays above the cam axis."""
         return self.cam.base_radius + self.motion.s > 0
 
@@ -148,7 +149,7 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         """Where face and cam touch, machine's frame, m: ``(sigma v, r_0 + s)``; ``nan`` for an outer flank."""
         return np.stack(np.broadcast_arrays(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank)))
 
-    def _on(self, flank: Any) -> Any:
+    def _on(self, flank: Any) -> Value:
         return np.where(np.greater(flank, 0), self.height, np.nan)
 
     @cached_property

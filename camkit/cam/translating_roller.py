@@ -20,6 +20,7 @@ from ..geometry import Body
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import a_number
+from ..quantities.types import Array
 from ..units import deg, mm
 from . import bodies
 from .analysis import highest
@@ -42,7 +43,7 @@ def rise_and_return() -> MotionProgram:
     )
 
 
-def top_level(motion: MotionProgram) -> Any:
+def top_level(motion: MotionProgram) -> Array:
     """The highest level at which a segment of ``motion`` begins or ends, m."""
     return reduce(np.maximum, motion.levels)
 
@@ -94,7 +95,7 @@ class TranslatingRollerCam(Design):
         return self.base_radius + self.roller_radius
 
     @property
-    def start_height(self) -> Any:
+    def start_height(self) -> Array:
         """``h_0``: height of the roller's centre at the motion's level 0, m."""
         return np.sqrt(self.prime_radius**2 - self.offset**2)
 
@@ -124,7 +125,7 @@ class TranslatingRollerCam(Design):
         if min_radius is not None:
             refuse_radius(min_radius)
 
-        def start_height(at: TranslatingRollerAnalysis) -> Any:
+        def start_height(at: TranslatingRollerAnalysis) -> Array:
             steep = 0.0 if pressure_angle is None else abs(at.across) / np.tan(pressure_angle)
             tight = 0.0 if min_radius is None else at.height_for(min_radius)
             clear = np.sqrt(np.maximum(self.roller_radius**2 - self.offset**2, 0.0))

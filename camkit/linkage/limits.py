@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.types import Array, Value
+
 SAMPLES = 2 * np.pi * np.arange(5) / 5
 """Five angles are enough to know a function with two harmonics."""
 ROUNDING = 1e-12
@@ -33,7 +35,7 @@ def harmonics(function: Callable[[Any], Any]) -> np.ndarray:
     return np.fft.rfft(function(SAMPLES))[..., :3] * np.array([1, 2, 2]) / 5
 
 
-def value(c: np.ndarray, angle: Any) -> Any:
+def value(c: np.ndarray, angle: Value) -> Array:
     """The function with harmonics ``c`` ``(..., 3)`` at angles ``(..., n)``."""
     z = np.exp(1j * np.asarray(angle))
     return (c[..., 0:1] + c[..., 1:2] * z + c[..., 2:3] * z**2).real

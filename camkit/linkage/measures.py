@@ -10,6 +10,7 @@ import numpy as np
 
 from ..quantities import Measure, PeakMeasure
 from ..quantities.kinds import numbers, one_number, refuse_arguments
+from ..quantities.types import Array, Value
 from ..study.residuals import SumOfResiduals
 from ..units import deg
 from .space import Box
@@ -82,7 +83,7 @@ def clearance_from(box: Box) -> Measure:
     refuse_arguments(clearance_from, locals())
     made = ("clearance from", tuple(box.low), tuple(box.high), box.name)
 
-    def clearance(analysis: Any) -> Any:
+    def clearance(analysis: Any) -> Array:
         return box.clearance(analysis.chain[:, :-1], analysis.chain[:, 1:]).min((0, -1))
 
     return Measure(f"clearance from {box.name}", "mm", clearance, made=made)
@@ -124,7 +125,7 @@ peak_coupler_force = Measure("peak coupler force", "N", lambda a: abs(a.coupler_
 peak_crank_torque = Measure("peak crank torque", "N m", lambda a: abs(a.crank_torque).max(-1))
 
 
-def _longest(vectors: np.ndarray) -> Any:
+def _longest(vectors: np.ndarray) -> Value:
     return np.linalg.norm(vectors, axis=0).max(-1)
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
 from ..quantities.kinds import numbers, refuse_kinds, shown
+from ..quantities.types import Array, Value
 from ..units import mm
 
 
@@ -42,7 +42,7 @@ class Box:
                     "both must be finite, the first below the second"
                 )
 
-    def _walls(self, points: Any) -> np.ndarray:
+    def _walls(self, points: Value) -> np.ndarray:
         """How far ``points`` ``(3, ...)`` lie beyond each of the six walls, ``(6, ...)``."""
         points = numbers(points, "the points")
         points = np.where(np.isfinite(points), points, np.nan)
@@ -51,11 +51,11 @@ class Box:
         low, high = (np.reshape(corner, (3,) + (1,) * (np.ndim(points) - 1)) for corner in (self.low, self.high))
         return np.concatenate([low - points, points - high])
 
-    def depth(self, points: Any) -> Any:
+    def depth(self, points: Value) -> Array:
         """How far each of ``points`` ``(3, ...)`` lies within the box, from the nearest wall, m; < 0 outside."""
         return 0.0 - self._walls(points).max(0)
 
-    def clearance(self, start: Any, end: Any) -> Any:
+    def clearance(self, start: Value, end: Value) -> Array:
         """How far the box could grow on all sides before it touches the link ``start``-``end``, m; < 0 inside.
 
         Along the link the distance from the box is the largest of six straight lines, one for each wall; it is

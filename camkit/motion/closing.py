@@ -14,6 +14,7 @@ import numpy as np
 
 from ..quantities import fails
 from ..quantities.kinds import refuse_unequal
+from ..quantities.types import Value
 from .segments import Dwell, Move, Return, Segment, degrees, kind_of
 
 TURN = 2 * np.pi
@@ -38,7 +39,7 @@ def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Any]:
     return found
 
 
-def _angle_left(segments: Sequence[Segment], i: int) -> Any:
+def _angle_left(segments: Sequence[Segment], i: int) -> Value:
     """What the others leave of the turn."""
     others = _of_the_others(segments, i, "angle")
     if fails(others < TURN):
@@ -49,7 +50,7 @@ def _angle_left(segments: Sequence[Segment], i: int) -> Any:
     return TURN - others
 
 
-def _lift_left(segments: Sequence[Segment], i: int) -> Any:
+def _lift_left(segments: Sequence[Segment], i: int) -> Value:
     """What the segment has to move for the turn to end where it began."""
     others = _of_the_others(segments, i, "change")
     lift = others if isinstance(segments[i], Return) else -others
@@ -62,7 +63,7 @@ def _lift_left(segments: Sequence[Segment], i: int) -> Any:
     return lift
 
 
-def _of_the_others(segments: Sequence[Segment], i: int, name: str) -> Any:
+def _of_the_others(segments: Sequence[Segment], i: int, name: str) -> Value:
     """The angles or changes of all segments but one, added."""
     others = {f"segment {k}": getattr(segment, name) for k, segment in enumerate(segments, 1) if k != i + 1}
     refuse_unequal(others, "program")

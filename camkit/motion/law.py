@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..extrema import highest_between
 from ..quantities import Declared
 from ..quantities.kinds import numbers
+from ..quantities.types import Array, Value
 
 ROUNDING = 1e-9
 """How far outside [0, 1] a ``u`` may lie and still be taken for the end that was meant."""
@@ -60,7 +61,7 @@ class Law(Declared, ABC):
         return Kinematics(*(np.asarray(x)[()] for x in self.at(_inside(u))))
 
     @abstractmethod
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         """The formula itself, for an array ``u`` that is known to lie in [0, 1]."""
 
     @abstractmethod
@@ -83,14 +84,14 @@ def derivative_size(motion: Callable[[Any], Kinematics], k: int) -> Callable[[An
     return lambda u: abs(motion(u)[k])
 
 
-def _inside(u: ArrayLike) -> Any:
+def _inside(u: ArrayLike) -> Array:
     """``u`` as an array of floats, ``nan`` where it lies outside [0, 1]."""
     u = numbers(u, "the shares of the time")
     nearest = np.minimum(np.maximum(u, 0.0), 1.0)
     return np.where(np.abs(u - nearest) <= ROUNDING, nearest, np.nan)
 
 
-def mirrored(u: Any, first_half: Callable[[Any], Kinematics]) -> Kinematics:
+def mirrored(u: Value, first_half: Callable[[Any], Kinematics]) -> Kinematics:
     """A symmetric law from its first half: ``s(u) = 1 - s(1 - u)``."""
     late = u > 0.5
     s, v, a, j = first_half(np.where(late, 1 - u, u))

@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from ..quantities import Declared, Quantity, fails
 from ..quantities.kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
+from ..quantities.types import Array, Value
 from ..units import deg
 from .closing import TURN, closed, closing
 from .law import Kinematics
@@ -138,7 +139,7 @@ class MotionProgram(Declared):
         return self.replace(segments=tuple(segments), start=changes.get("start", self.start))
 
     @cached_property
-    def _beyond(self) -> Any:
+    def _beyond(self) -> Value:
         """By how much the segments' angles together exceed a full turn, rad."""
         return sum(segment.angle for segment in self.segments) - TURN
 
@@ -154,12 +155,12 @@ class MotionProgram(Declared):
         return list(accumulate((segment.change for segment in self.segments), initial=self.start))
 
     @property
-    def span(self) -> Any:
+    def span(self) -> Value:
         """The cam angle of the whole program, rad."""
         return self.starts[-1]
 
     @property
-    def edges(self) -> Any:
+    def edges(self) -> Value:
         """The cam angles of the joints from 0 to ``span``, rad: ``(k + 1,)`` for ``k`` segments, or ``(p, k + 1)``."""
         return np.concatenate([np.atleast_1d(edge) for edge in np.broadcast_arrays(*self.starts)], axis=-1)
 
@@ -195,13 +196,13 @@ class MotionProgram(Declared):
         return (self._beyond > -NEARLY) & (self._beyond < -ROUNDED)
 
     @property
-    def closes(self) -> Any:
+    def closes(self) -> bool:
         """Whether the last level is the first one, or need not be."""
         size = sum(np.abs(segment.change) for segment in self.segments)
         return (np.abs(self.levels[-1] - self.start) <= SAME_LEVEL * size) | np.logical_not(self.periodic)
 
     @cached_property
-    def possible(self) -> Any:
+    def possible(self) -> bool:
         """Whether the program can be; of a population, which rows can."""
         each = [finite(segment.change) & positive(segment.angle) for segment in self.segments]
         fits = (self._beyond <= ROUNDED) & np.logical_not(self._misses)
@@ -214,7 +215,7 @@ class MotionProgram(Declared):
             out = self._at(self._within(np.atleast_1d(phi)))
         return Kinematics(*(out if phi.ndim else out[..., 0]))
 
-    def in_time(self, cam_angle: ArrayLike, speed: Any) -> Kinematics:
+    def in_time(self, cam_angle: ArrayLike, speed: Value) -> Kinematics:
         """``s, v, a, j`` with respect to time (m or rad, per s^k) at a constant shaft ``speed`` (rad/s).
 
         ``speed`` may be an array of shape ``(p, 1)``.  ``ValueError`` for one that is not finite
@@ -250,7 +251,7 @@ class MotionProgram(Declared):
         """
         return find_peaks(self)
 
-    def _within(self, phi: Any) -> Any:
+    def _within(self, phi: Array) -> Array:
         """Cam angles brought into the turn, ``nan`` where the program says nothing."""
         x = phi
         if np.any(self.periodic) and not (phi.size and phi.min() >= 0 and phi.max() <= TURN):
@@ -258,7 +259,7 @@ class MotionProgram(Declared):
             x = np.where(self.periodic, once, phi)
         return np.where((x >= -SAME_ANGLE) & (x <= self.span + SAME_ANGLE), x, np.nan)
 
-    def _at(self, x: Any) -> Any:
+    def _at(self, x: Array) -> Array:
         index = np.zeros(x.shape, dtype=int)
         for edge in self.starts[1:-1]:
             index = index + (x >= edge - SAME_JOINT)
@@ -273,7 +274,7 @@ class MotionProgram(Declared):
         np.copyto(out, np.nan, where=np.logical_not(self.possible))
         return out
 
-    def _piece(self, i: int, here: Any, x: Any) -> tuple[slice, Any, Kinematics]:
+    def _piece(self, i: int, here: Array, x: Array) -> tuple[slice, Any, Kinematics]:
         """The columns that segment ``i`` has a say in, where in them it speaks, and what it says there."""
         said = np.flatnonzero(here.any(axis=tuple(range(here.ndim - 1))))
         columns, segment = slice(said[0], said[-1] + 1), self.segments[i]
@@ -283,7 +284,7 @@ class MotionProgram(Declared):
 
 
 def program_between(
-    pieces: Sequence[tuple[Any, Any, Any, Callable[[Any], Kinematics]]], start: Any = 0.0
+    pieces: Sequence[tuple[Any, Any, Any, Callable[[Any], Kinematics]]], start: Value = 0.0
 ) -> MotionProgram:
     """A program from pieces ``(from, to, level, law)``: over those cam angles (rad) the follower goes to ``level``.
 

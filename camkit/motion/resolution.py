@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..quantities.types import Array, Value
 from .law import Kinematics
 
 if TYPE_CHECKING:
@@ -135,7 +136,7 @@ def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
     return [both[..., k] if both.ndim == 1 else both[..., k : k + 1] for k in range(both.shape[-1])]
 
 
-def _inside(low: Any, high: Any, steps: int) -> Any:
+def _inside(low: Value, high: Value, steps: int) -> Array:
     hair = np.minimum(np.maximum(HAIR * (high - low), ROUNDING), (high - low) / 4)
     return low + hair + (high - low - 2 * hair) * np.linspace(0, 1, steps + 1)
 
@@ -144,7 +145,7 @@ _HIGHER = np.array([[35, -15, 2.5, -1 / 6], [-84, 39, -7, 0.5], [70, -34, 6.5, -
 """Coefficients of ``x^4 .. x^7`` from what position and three derivatives still lack at ``x = 1``."""
 
 
-def between(first: Kinematics, second: Kinematics, step: Any, x: Any) -> Kinematics:
+def between(first: Kinematics, second: Kinematics, step: Any, x: Value) -> Kinematics:
     """``s, v, a, j`` at a share ``x`` of a ``step`` between two angles where they are known, of one smooth piece.
 
     Of the polynomial of degree 7 that has them at both.

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..quantities import Choice, Declared, Quantity, fails
 from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
+from ..quantities.types import Value
 from ..units import in_unit
 from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial
@@ -45,7 +46,7 @@ class Segment(Declared, ABC):
 
     @property
     @abstractmethod
-    def change(self) -> Any:
+    def change(self) -> Value:
         """What the segment adds to the level."""
 
     @property
@@ -59,7 +60,7 @@ class Segment(Declared, ABC):
         return False
 
     @abstractmethod
-    def motion(self, u: Any) -> Kinematics:
+    def motion(self, u: Value) -> Kinematics:
         """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
 
 
@@ -81,14 +82,14 @@ class Dwell(Segment):
         _refuse_angle(self)
 
     @property
-    def change(self) -> Any:
+    def change(self) -> Value:
         return 0.0
 
     @property
     def still(self) -> bool:
         return True
 
-    def motion(self, u: Any) -> Kinematics:
+    def motion(self, u: Value) -> Kinematics:
         rest = 0.0 * u
         return Kinematics(rest, rest, rest, rest)
 
@@ -121,7 +122,7 @@ class Move(Segment):
     def kinks(self) -> tuple[Any, ...]:
         return getattr(self.law, "kinks", ())
 
-    def motion(self, u: Any) -> Kinematics:
+    def motion(self, u: Value) -> Kinematics:
         s, v, a, j = self.law(u)
         h, beta = self.change, self.angle
         return Kinematics(h * s, h * v / beta, h * a / beta**2, h * j / beta**3)
@@ -137,7 +138,7 @@ class Rise(Move):
     """
 
     @property
-    def change(self) -> Any:
+    def change(self) -> Value:
         return self.lift
 
 
@@ -146,7 +147,7 @@ class Return(Move):
     """The level falls by ``lift`` over ``angle``; otherwise as ``Rise``.  A program may begin with a return."""
 
     @property
-    def change(self) -> Any:
+    def change(self) -> Value:
         return -self.lift
 
 
@@ -163,7 +164,7 @@ def _is_law(law: Any) -> bool:
     return len(given) == 4 and all(part.shape[-1:] in ((), (5,)) for part in given)
 
 
-def positive(angle: Any) -> Any:
+def positive(angle: Value) -> bool:
     """Whether an angle is finite and above 0, element by element."""
     return finite(angle) is not False and finite(angle) & (angle > 0)
 
@@ -173,7 +174,7 @@ def kind_of(segment: Segment) -> str:
     return type(segment).__name__.lower()
 
 
-def degrees(angle: Any, digits: int = 6) -> str:
+def degrees(angle: Value, digits: int = 6) -> str:
     """An angle as a sentence says it."""
     return f"{in_unit(float(angle), 'deg'):.{digits}g} deg" if finite(angle) else str(angle)
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..extrema import Extreme, highest_between
+from ..quantities.types import Value
 from ..units import in_unit
 from .law import Kinematics, derivative_size
 
@@ -78,7 +79,7 @@ def find_transitions(program: MotionProgram) -> list[Transition]:
     return [_transition(angle, before, after, scales) for angle, before, after in _sides(program)]
 
 
-def _transition(angle: Any, before: Kinematics, after: Kinematics, scales: list[Any]) -> Transition:
+def _transition(angle: Value, before: Kinematics, after: Kinematics, scales: list[Any]) -> Transition:
     s, v, a, j = (float(y - x) for x, y in zip(before, after, strict=True))
     broken = [abs(jump) > SMOOTH * scale for jump, scale in zip((s, v, a, j), scales, strict=True)]
     return Transition(float(angle), s, v, a, j, broken.index(True) if any(broken) else None)
@@ -109,7 +110,7 @@ def _kink_sides(program: MotionProgram) -> list[tuple[Any, Kinematics, Kinematic
     ]
 
 
-def _side(program: MotionProgram, i: int, u: Any) -> Kinematics:
+def _side(program: MotionProgram, i: int, u: Value) -> Kinematics:
     """The motion of segment ``i`` at the share ``u`` of it, whatever follows."""
     s, v, a, j = program.segments[i].motion(np.asarray(u))
     return Kinematics(program.levels[i] + s, v, a, j)

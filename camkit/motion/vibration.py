@@ -25,6 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..quantities.kinds import a_number, numbers, shown
+from ..quantities.types import Array, Value
 from .law import Kinematics, Law
 from .program import MotionProgram
 
@@ -49,7 +50,7 @@ class Vibration(NamedTuple):
     """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
 
 
-def period_ratio(angle: Any, speed: Any, natural_frequency: Any) -> Any:
+def period_ratio(angle: Value, speed: Value, natural_frequency: Any) -> Array:
     """``tau`` of a rise over the cam ``angle`` (rad) at a shaft ``speed`` (rad/s); natural frequency in rad/s.
 
     >>> from camkit.units import rpm
@@ -75,7 +76,7 @@ class _Whole:
         inner = [(start, *(start + u * segment.angle for u in segment.kinks)) for start, segment in parts]
         return tuple(angle / program.span for part in inner for angle in part)[1:]
 
-    def __call__(self, u: Any) -> Kinematics:
+    def __call__(self, u: Value) -> Kinematics:
         s, v, a, j = self.program(u * self.program.span)
         span = self.program.span
         return Kinematics(s, v * span, a * span**2, j * span**3)
@@ -128,12 +129,12 @@ def residual_vibration(law: Law | MotionProgram, tau: Any, damping: float = 0.0)
     return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
 
 
-def _root(W: Any, damping: float) -> Any:
+def _root(W: Any, damping: float) -> Array:
     """``m``: the free vibration goes as ``e^{m t}``."""
     return W * (-damping + 1j * np.sqrt(1 - damping**2))
 
 
-def _panels(law: Law | _Whole, tau: float) -> Any:
+def _panels(law: Law | _Whole, tau: float) -> Array:
     """Ends of the panels of integration from 0 to 1: no kink inside any, none longer than a part of a period."""
     edges = np.broadcast_arrays(*(np.atleast_1d(edge) for edge in (0.0, *law.kinks, 1.0)))
     pieces = []
@@ -143,7 +144,7 @@ def _panels(law: Law | _Whole, tau: float) -> Any:
     return np.concatenate([*pieces, edges[-1]], axis=-1)
 
 
-def _convolved(law: Law | _Whole, panels: Any, m: Any) -> Any:
+def _convolved(law: Law | _Whole, panels: Any, m: Any) -> Array:
     """``y`` at the end of each panel, ``(..., r, k + 1)``, for the roots ``m`` ``(r, 1)``."""
     x, weight = GAUSS
     width = np.diff(panels, axis=-1)
@@ -159,7 +160,7 @@ def _convolved(law: Law | _Whole, panels: Any, m: Any) -> Any:
     return y
 
 
-def _ringing(amplitude: Any, m: Any) -> Any:
+def _ringing(amplitude: Any, m: Any) -> Array:
     """The largest ``|Re(amplitude e^{m t})|`` over ``t >= 0``: at once, or where its slope first vanishes."""
     turn = (np.pi / 2 - np.angle(amplitude * m)) % np.pi
     later = amplitude * np.exp(m * turn / m.imag)

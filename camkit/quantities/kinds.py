@@ -18,6 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .types import Value
+
 LONGEST = 60
 """A value whose text is longer is named by its type."""
 DEEPEST = 8
@@ -332,6 +334,8 @@ def _kind(hint: Any) -> Kind | None:
         return SIMPLE[hint]
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
+        if {*typing.get_args(Value)} <= {*parts}:  # who takes a number or a column says itself what is wrong with it
+            return None
         kinds = [_kind(part) for part in parts]
         known = [kind for kind in kinds if kind is not None]
         if len(known) < len(kinds):

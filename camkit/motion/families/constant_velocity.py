@@ -13,6 +13,7 @@ from numpy import cos, inf, pi, sin
 
 from ...quantities import choice, quantity
 from ...quantities.kinds import a_number, shown
+from ...quantities.types import Value
 from ..law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")
@@ -58,10 +59,10 @@ class ConstantVelocity(Law):
     def kinks(self) -> tuple[Any, ...]:
         return (self.blend, 1 - self.blend)
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         return mirrored(u, self._first_half)
 
-    def _first_half(self, u: Any) -> Kinematics:
+    def _first_half(self, u: Value) -> Kinematics:
         b = self.blend
         V = 1 / (1 - b)
         straight = (V * (u - b / 2), V + 0 * u, 0 * u * b, 0 * u * b)
@@ -76,10 +77,10 @@ class ConstantVelocity(Law):
         return Peaks(V, pi * V / (2 * b), pi**2 * V / (2 * b**2))
 
 
-def _cycloidal(u: Any, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
+def _cycloidal(u: Value, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
     k = pi / b
     return V / 2 * (u - sin(k * u) / k), V / 2 * (1 - cos(k * u)), V / 2 * k * sin(k * u), V / 2 * k**2 * cos(k * u)
 
 
-def _parabolic(u: Any, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
+def _parabolic(u: Value, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
     return V * u**2 / (2 * b), V * u / b, V / b + 0 * u, 0 * u * b

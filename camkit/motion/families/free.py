@@ -16,6 +16,7 @@ from numpy.polynomial.legendre import legder, legval
 
 from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, refuse_lengths
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .polynomial import Poly345
 
@@ -76,7 +77,7 @@ class FreePolynomial(Law):
         return tuple(condition for condition, _ in self._given)
 
     @property
-    def coefficients(self) -> Any:
+    def coefficients(self) -> Value:
         """The factors of the Legendre polynomials of ``2 u - 1``: shape ``(k,)``, or ``(k, p, 1)``."""
         values = np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for _, value in self._given)))
         return np.tensordot(_inverse(self._conditions), values, axes=1)
@@ -88,7 +89,7 @@ class FreePolynomial(Law):
         rest = [np.allclose(ends[0][k], 0) and np.allclose(ends[1][k], k == 0) for k in range(4)]
         return ([*rest, False].index(False)) - 1
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         c, x = self.coefficients, 2 * u - 1
         return Kinematics(*(2**k * legval(x, legder(c, k), tensor=False) for k in range(4)))
 
@@ -97,7 +98,7 @@ class FreePolynomial(Law):
 
 
 @lru_cache(maxsize=256)
-def _inverse(conditions: tuple[Condition, ...]) -> Any:
+def _inverse(conditions: tuple[Condition, ...]) -> Array:
     """From given values to Legendre coefficients."""
     every = np.eye(len(conditions))
     rows = [2**k * legval(2 * u - 1, legder(every, k)) for u, k in conditions]
@@ -147,7 +148,7 @@ class Degree9(Law):
         object.__setattr__(self, "c", c)
         refuse_lengths(self)
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         c0, c1, c2, c3 = self.c
         s, v, a, j = Poly345().at(u)
         w, d, x = u * (1 - u), 1 - 2 * u, 2 * u - 1

@@ -7,11 +7,11 @@ constants printed there are the closed forms used here.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy import cos, pi, sin
 
+from ...quantities.types import Value
 from ..law import Kinematics, Law, Peaks, mirrored
 
 
@@ -35,7 +35,7 @@ class ModifiedTrapezoid(Law):
     continuity = 2
     kinks = (1 / 8, 3 / 8, 5 / 8, 7 / 8)
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         return mirrored(u, _first_half_of_trapezoid)
 
     def peaks(self) -> Peaks:
@@ -43,7 +43,7 @@ class ModifiedTrapezoid(Law):
         return Peaks(2.0, top, 4 * pi * top)
 
 
-def _first_half_of_trapezoid(u: Any) -> Kinematics:
+def _first_half_of_trapezoid(u: Value) -> Kinematics:
     top, k = 8 * pi / (pi + 2), 4 * pi
     x, y = u - 1 / 8, u - 3 / 8
     zone = [u < 1 / 8, u < 3 / 8]
@@ -75,7 +75,7 @@ class ModifiedSine(Law):
     continuity = 2
     kinks = (1 / 8, 7 / 8)
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         return mirrored(u, _first_half_of_sine)
 
     def peaks(self) -> Peaks:
@@ -83,7 +83,7 @@ class ModifiedSine(Law):
         return Peaks(4 * c, 4 * pi * c, 16 * pi**2 * c)
 
 
-def _first_half_of_sine(u: Any) -> Kinematics:
+def _first_half_of_sine(u: Value) -> Kinematics:
     c, x, y = pi / (4 + pi), 4 * pi * u, 4 * pi * u / 3 + pi / 3
     early = u < 1 / 8
     return Kinematics(

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...quantities import choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
+from ...quantities.types import Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import COEFFICIENT, Degree9
 from .plain import LAWS
@@ -87,7 +88,7 @@ class ShapedLaw(Law):
     def kinks(self) -> tuple[Any, ...]:
         return self.base.kinks if self._plain else tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         if self._plain:
             return self.base.at(u)
         parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * 4).at(u)

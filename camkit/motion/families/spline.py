@@ -17,6 +17,7 @@ from scipy.sparse.linalg import spsolve
 
 from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import given_at
 
@@ -87,7 +88,7 @@ class SplineLaw(Law):
         values = (0.0, *self.s, 1.0, *self.start, *self.end)
         return None if any(map(np.ndim, values)) else BSpline(basis.t, basis.c @ np.array(values), basis.k)
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         if self._single is not None:
             return Kinematics(*(self._single(u, k) for k in range(4)))
         basis = _basis(self.u, len(self.start))
@@ -164,7 +165,7 @@ class TableLaw(Law):
         """The largest deviation of the law from a row of the table, a share of the lift."""
         return float(np.max(np.abs(self._spline(self.u) - self.s)))
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Value) -> Kinematics:
         return Kinematics(*(self._spline(u, k) for k in range(4)))
 
     def peaks(self) -> Peaks:
@@ -199,7 +200,7 @@ def _smoothed(u: Any, s: Any, tolerance: float) -> BSpline:
     return best
 
 
-def _smoother(u: Any, s: Any) -> Any:
+def _smoother(u: Array, s: Any) -> Any:
     """A function of the weight that solves the normal equations for the spline's inner coefficients.
 
     Dwell ends fix the first three coefficients of a clamped quintic at 0 and the last three at 1.
@@ -223,7 +224,7 @@ def _smoother(u: Any, s: Any) -> Any:
     return solve
 
 
-def _jerk_matrix(t: Any) -> Any:
+def _jerk_matrix(t: Array) -> Array:
     """From coefficients to jerk at Gauss points, weighed so that its square sums to the integral."""
     derivative = diags_array(np.ones(len(t) - 6))
     for k in (5, 4, 3):
