@@ -235,6 +235,7 @@ GOOD = {
     "shares": lambda: [0.1],
     "shortest": lambda: 0.9,
     "source": search,
+    "speed": lambda: 10.0,
     "space": lambda: SPACE,
     "steps": lambda: 2,
     "studies": lambda: {"two": two},

@@ -17,8 +17,8 @@ import numpy as np
 
 from ..contact import LineContact, contact_modulus, line_contact
 from ..data.materials import MATERIALS
-from ..quantities import Design, choice, fails, quantity
-from ..quantities.kinds import applied, numbers, refuse_arguments, shown
+from ..quantities import Design, choice, quantity
+from ..quantities.kinds import a_number, applied, numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
 
 
@@ -39,9 +39,8 @@ def jump_speed(analysis: Any) -> Value:
         thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
         return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
 
-    slack = analysis.highest(slackness).value
-    slack = np.where(_thrown_off(analysis), np.inf, slack)
-    with np.errstate(divide="ignore"):
+    with applied("the jump speed", analysis), np.errstate(divide="ignore"):
+        slack = np.where(_thrown_off(analysis), np.inf, analysis.highest(slackness).value)
         return 1 / np.sqrt(np.where(analysis.form_closed, 0.0 * np.isfinite(slack), slack))[()]
 
 
@@ -59,16 +58,15 @@ def preload_needed(analysis: Any, speed: Value) -> Value:
     >>> print(f"{least:.2f} N, jumps at {jump_speed(closed.analyse()) / rpm:.1f} rpm")
     135.88 N, jumps at 1200.0 rpm
     """
-    if fails(np.isfinite(speed) & (np.asarray(speed) >= 0)):
-        raise ValueError(f"the speed of the cam is {speed:.6g}; it must be a finite number of at least 0")
+    speed = a_number(speed, "the speed of the cam", "be a finite number of at least 0", lambda w: w >= 0)
 
     def lacking(at: Any) -> Array:
         without = at.static_resistance - at.preload
-        return -(at.inertia * speed**2 * at.acceleration + without)
+        return -(at.inertia * np.square(speed) * at.acceleration + without)
 
-    least = np.maximum(analysis.highest(lacking).value, 0.0)
-    turns = np.atleast_1d(speed)[..., 0] > 0
-    drops = _thrown_off(analysis) & np.logical_not(analysis.form_closed) & turns
+    with applied("the preload that is needed", analysis):
+        least = np.maximum(analysis.highest(lacking).value, 0.0)
+        drops = _thrown_off(analysis) & np.logical_not(analysis.form_closed) & (np.atleast_1d(speed)[..., 0] > 0)
     return np.where(drops, np.inf, least)[()]
 
 
