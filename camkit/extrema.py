@@ -254,6 +254,6 @@ def _summit(left: Array, mid: Array, right: Array) -> tuple[Any, Any]:
     return lean / (2 * bend), lean**2 / (8 * bend)
 
 
-def _at(values: Array, column: Array) -> Any:
+def _at(values: Array, column: Array) -> Array:
     """The values in one column of each row, ``(1,)`` or ``(p, 1)``."""
     return values[column] if values.ndim == 1 else values[np.arange(len(values))[:, None], column]

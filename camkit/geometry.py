@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from .quantities.types import Array, Value
+
 
 @dataclass(frozen=True)
 class Body:
@@ -54,7 +56,7 @@ class Disc(Body):
         return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
 
 
-def end_to_end(*stretches: Any) -> Any:
+def end_to_end(*stretches: Any) -> Array:
     """Arrays one behind the other along their last axis, also where only some have a population axis.
 
     >>> end_to_end(np.array([1.0, 2.0]), np.array([[3.0], [4.0]]))
@@ -65,7 +67,7 @@ def end_to_end(*stretches: Any) -> Any:
     return np.concatenate([np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches], axis=-1)
 
 
-def rotated(points: Any, angle: Any) -> np.ndarray:
+def rotated(points: Array, angle: Value) -> np.ndarray:
     """``points`` turned counter-clockwise by ``angle`` (rad; one angle or one per point).
 
     >>> rotated(np.array([1.0, 0.0]), np.pi / 2).round(6).tolist()
@@ -76,12 +78,12 @@ def rotated(points: Any, angle: Any) -> np.ndarray:
     return np.stack(np.broadcast_arrays(c * x - s * y, s * x + c * y))
 
 
-def polar_angle(point: Any) -> Any:
+def polar_angle(point: Any) -> Value:
     """Direction of ``point`` from the origin, rad, counter-clockwise from the x axis."""
     return np.arctan2(point[1], point[0])
 
 
-def angle_opposite(side: Any, first: Any, second: Any) -> Any:
+def angle_opposite(side: Value, first: Value, second: Value) -> Value:
     """Angle of a triangle between sides ``first`` and ``second``, opposite ``side``; ``nan`` if none closes.
 
     >>> round(float(angle_opposite(5, 3, 4)), 6) == round(np.pi / 2, 6)
@@ -98,7 +100,7 @@ def circle(centre: Any, radius: float, n: int = 73) -> np.ndarray:
     return np.stack([centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn)])
 
 
-def offset_curvature(curvature: Any, distance: Any) -> Any:
+def offset_curvature(curvature: Array, distance: Any) -> Array:
     """Curvature of the curve parallel to one of ``curvature``, ``distance`` along the outward normal.
 
     Convex is positive; the radius of curvature grows by ``distance``.  ``inf`` where it shrinks to nothing.
@@ -107,11 +109,11 @@ def offset_curvature(curvature: Any, distance: Any) -> Any:
         return np.divide(curvature, 1 + distance * curvature)
 
 
-def dot(a: np.ndarray, b: np.ndarray) -> Any:
+def dot(a: np.ndarray, b: np.ndarray) -> Array:
     """Scalar product of vectors whose components come first."""
     return (a * b).sum(0)
 
 
-def inclination(a: np.ndarray, b: np.ndarray) -> Any:
+def inclination(a: np.ndarray, b: np.ndarray) -> Array:
     """Angle between two lines, 0 .. pi/2 rad."""
     return np.arctan2(np.sqrt((np.cross(a, b, axis=0) ** 2).sum(0)), abs(dot(a, b)))

@@ -21,6 +21,7 @@ from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import fails
 from ..quantities.kinds import columns
+from ..quantities.types import Array, Value
 from . import bodies, statics
 from .force_closure import ContactPair, contact_along
 
@@ -50,14 +51,14 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def clear(self) -> Any:
+    def clear(self) -> Value:
         """At which of the cam angles the design can be built."""
 
     @abstractmethod
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
 
-    def at(self, cam_angle: Any) -> Any:
+    def at(self, cam_angle: Array) -> Any:
         """The same cam at other cam angles."""
         other = replace(self, cam_angle=cam_angle)
         # cached properties: the cam has one resolution
@@ -92,7 +93,7 @@ class CamAnalysis(ABC):
         return other
 
     @cached_property
-    def buildable(self) -> Any:
+    def buildable(self) -> Array:
         """Whether the design can be built, ``(..., 1)``."""
         return np.all(self.clear, axis=-1, keepdims=True) if self is self.resolved else self.resolved.buildable
 
@@ -122,17 +123,17 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def driving_flank(self) -> Any:
+    def driving_flank(self) -> Value:
         """The flank that gives the follower its motion: +1 the inner one, -1 a groove's outer one."""
 
     @property
     @abstractmethod
-    def loaded_flank(self) -> Any:
+    def loaded_flank(self) -> Value:
         """The flank that gives the contact force."""
 
     @property
     @abstractmethod
-    def lean(self) -> Any:
+    def lean(self) -> Value:
         """Angle by which the force of a contact that is not smooth leans from the normal, rad."""
 
     @property
@@ -152,11 +153,11 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def inertia(self) -> Any:
+    def inertia(self) -> Array:
         """Mass (kg) of a sliding follower, moment of inertia (kg m^2) of an arm."""
 
     @property
-    def preload(self) -> Any:
+    def preload(self) -> Value:
         """What of `static_resistance` is the spring's preload, N, or N m for an arm."""
         return self.cam.load.preload
 
@@ -197,7 +198,7 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def max_curvature(self) -> Any:
+    def max_curvature(self) -> Value:
         """The largest curvature of the pitch curve, convex or concave, that the follower can run on, 1/m."""
 
     @property
@@ -310,7 +311,7 @@ def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
     if analysis.rough:
         return extrema.roughly_highest(resolution.angle, f(shown), resolution.inner)
 
-    def value(angle: Any) -> Any:
+    def value(angle: Array) -> Any:
         return f(shown if angle is resolution.angle else analysis.at(angle))
 
     return extrema.highest(value, resolution.angle, resolution.inner)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..extrema import Extreme
+from ..quantities.types import Value
 from .analysis import CamAnalysis
 
 
@@ -28,7 +29,7 @@ class FlatAnalysis(CamAnalysis):
         """Least and largest distance along the face at which it is touched, m."""
 
     @property
-    def face_width(self) -> Any:
+    def face_width(self) -> Value:
         """Least width of the face: how far the contact wanders, m."""
         low, high = self.face_reach
         return high - low
@@ -70,22 +71,22 @@ class FlatAnalysis(CamAnalysis):
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
 
     @property
-    def max_curvature(self) -> Any:
+    def max_curvature(self) -> Value:
         """``inf``: a face is undercut where the profile is concave, not where it is sharp."""
         return np.inf
 
     @property
-    def driving_flank(self) -> Any:
+    def driving_flank(self) -> Value:
         """The profile, there is no other; where the follower comes back it drives the cam."""
         return 1.0
 
     @property
-    def loaded_flank(self) -> Any:
+    def loaded_flank(self) -> Value:
         """The profile; where the follower pulls it has left the cam."""
         return 1.0
 
     @property
-    def lean(self) -> Any:
+    def lean(self) -> Value:
         """The face slides: ``arctan f``."""
         return np.arctan(self.cam.friction.coefficient)
 

@@ -21,7 +21,7 @@ from ..geometry import Body
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, quantity
 from ..quantities.kinds import a_number
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import bodies
 from .conjugate import opposite
@@ -214,7 +214,7 @@ class OscillatingRollerAnalysis(RollerAnalysis):
         return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self.motion.s, self.cam_angle)
 
     @property
-    def inertia(self) -> Any:
+    def inertia(self) -> Array:
         """Of the arm about its pivot, kg m^2."""
         return self.cam.load.inertia(self.cam.arm_length)
 

@@ -73,7 +73,7 @@ class RollerAnalysis(CamAnalysis):
     def _margin(self, flank: int) -> Extreme:
         most, angle = self.sharpest(flank)
         radius = radius_of(most) - number(self.cam.roller_radius)
-        return Extreme(radius[()], angle)
+        return Extreme(np.asarray(radius)[()], angle)
 
     @property
     def max_curvature(self) -> Any:

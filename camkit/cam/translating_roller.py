@@ -20,7 +20,7 @@ from ..geometry import Body
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
 from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import a_number
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import bodies
 from .analysis import highest
@@ -90,7 +90,7 @@ class TranslatingRollerCam(Design):
         self.keep(abs(self.offset) < self.prime_radius)
 
     @property
-    def prime_radius(self) -> Any:
+    def prime_radius(self) -> Value:
         """Cam axis to roller centre at the motion's level 0, m."""
         return self.base_radius + self.roller_radius
 
@@ -106,7 +106,7 @@ class TranslatingRollerCam(Design):
         analysis.refuse_impossible()
         return analysis
 
-    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None) -> Any:
+    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None) -> Value:
         """Least base radius from which on every larger one keeps the limits that are given, m.
 
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
@@ -168,7 +168,7 @@ class TranslatingRollerAnalysis(RollerAnalysis):
     cam: TranslatingRollerCam
 
     @property
-    def clear(self) -> Any:
+    def clear(self) -> Array:
         """Where the roller is above the level of the cam axis and clear of the axis."""
         h = self.cam.start_height + self.motion.s
         return (h > 0) & (np.hypot(self.cam.offset, h) > self.cam.roller_radius)

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.types import Value
+
 
 @dataclass(frozen=True)
 class Cross:
@@ -23,17 +25,17 @@ class Cross:
     input_angle: Any
 
     @cached_property
-    def bend(self) -> Any:
+    def bend(self) -> Value:
         """``beta`` where a joint can turn, rad."""
         return np.where((self.angle >= 0) & (self.angle < np.pi / 2), self.angle, np.nan)[()]
 
     @cached_property
-    def cosine(self) -> Any:
+    def cosine(self) -> Value:
         """``cos(beta)``."""
         return np.cos(self.bend)
 
     @cached_property
-    def lead(self) -> Any:
+    def lead(self) -> Value:
         """``psi - phi``: how far the output is ahead of the input, rad.
 
         It is the series ``sum tan(beta/2)^(2k) sin(2 k phi) / k`` over ``k = 1, 2, ...``.
@@ -42,31 +44,31 @@ class Cross:
         return np.arctan2((1 - self.cosine) * sine * cosine, self.cosine * cosine**2 + sine**2)
 
     @property
-    def second_order(self) -> Any:
+    def second_order(self) -> Value:
         """Amplitude of ``sin(2 phi)`` in the lead, ``tan(beta/2)^2``, rad."""
         return np.tan(self.bend / 2) ** 2
 
     @cached_property
-    def output_angle(self) -> Any:
+    def output_angle(self) -> Value:
         """``psi``, rad; it goes on beyond a full turn."""
         return self.input_angle + self.lead
 
     @cached_property
-    def _distance(self) -> Any:
+    def _distance(self) -> Value:
         return 1 - np.sin(self.bend) ** 2 * np.cos(self.input_angle) ** 2
 
     @cached_property
-    def ratio(self) -> Any:
+    def ratio(self) -> Value:
         """Output speed over input speed, ``dpsi/dphi = cos(beta) / (1 - sin(beta)^2 cos(phi)^2)``."""
         return self.cosine / self._distance
 
     @cached_property
-    def ratio_slope(self) -> Any:
+    def ratio_slope(self) -> Value:
         """``d2psi/dphi2 = -cos(beta) sin(beta)^2 sin(2 phi) / (1 - sin(beta)^2 cos(phi)^2)^2``, 1/rad."""
         return -self.cosine * np.sin(self.bend) ** 2 * np.sin(2 * self.input_angle) / self._distance**2
 
     @cached_property
-    def input_couple(self) -> Any:
+    def input_couple(self) -> Value:
         """Couple that bends the input shaft, per torque in it: ``tan(beta) sin(phi)``.
 
         Its axis turns with the shaft, square to the pins of the input's fork.
@@ -74,7 +76,7 @@ class Cross:
         return np.tan(self.bend) * np.sin(self.input_angle)
 
     @cached_property
-    def output_couple(self) -> Any:
+    def output_couple(self) -> Value:
         """Couple that bends the output shaft, per torque in it: ``tan(beta) cos(psi)``.
 
         Its axis turns with the shaft, square to the pins of the output's fork.

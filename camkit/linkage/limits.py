@@ -21,7 +21,7 @@ ROUNDING = 1e-12
 """A discriminant that is negative by no more than this is a linkage stretched out or folded."""
 
 
-def reaches(a: Any, b: Any, k: Any) -> Any:
+def reaches(a: Value, b: Any, k: Any) -> Array:
     """Whether ``a sin(x) + b cos(x) + k = 0`` has a solution, rounding forgiven."""
     return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..quantities import Design, Quantity, counted, declarations, quantity
 from ..quantities.kinds import number, numbers, shown
+from ..quantities.types import Array, Value
 from . import limits
 from .load import RockerLoad
 from .rssr_analysis import RSSRAnalysis
@@ -26,7 +27,7 @@ FEWEST = 61
 """Positions of a whole turn: with fewer, what is worst between them would be missed."""
 
 
-def _angles(crank_angle: Any) -> np.ndarray:
+def _angles(crank_angle: Value) -> np.ndarray:
     """Crank angles as an array, ``nan`` for those that are not finite."""
     angles = numbers(crank_angle, "the crank angles")
     return angles if np.isfinite(angles).all() else np.where(np.isfinite(angles), angles, np.nan)
@@ -75,12 +76,12 @@ class RSSR(Links):
     """
 
     @property
-    def has_possible_sizes(self) -> Any:
+    def has_possible_sizes(self) -> Array:
         """Whether every size is allowed; a population holds them unchecked."""
         declared = declarations(self).items()
         return reduce(np.logical_and, [q.allows(getattr(self, k)) for k, q in declared if isinstance(q, Quantity)])
 
-    def closure(self, crank_angle: Any) -> tuple[Any, Any, Any]:
+    def closure(self, crank_angle: Value) -> tuple[Any, Any, Any]:
         """``A, B, K`` of ``A sin(phi_3) + B cos(phi_3) + K = 0``: the ball joints are ``l_2`` apart.
 
         The print lacks ``1 / l_1`` in the last term, which only shows where the axes are not at 90 deg.
@@ -93,12 +94,12 @@ class RSSR(Links):
         k = (l1**2 + l3**2 + s0**2 + s3**2 + h0**2 - l2**2) / (2 * l1 * l3)
         return a, b, k - (s3 * np.sin(L) * sin + h0 * cos + s0 * s3 * np.cos(L) / l1) / l3
 
-    def discriminant(self, crank_angle: Any) -> Any:
+    def discriminant(self, crank_angle: Value) -> Array:
         """``A^2 + B^2 - K^2``; the linkage can be assembled where it is not negative."""
         a, b, k = self.closure(crank_angle)
         return a**2 + b**2 - k**2
 
-    def assembles(self, crank_angle: Any) -> Any:
+    def assembles(self, crank_angle: Value) -> Array:
         """Whether the coupler reaches from crank to rocker, crank angle by crank angle."""
         return limits.reaches(*self.closure(crank_angle))
 
@@ -125,7 +126,7 @@ class RSSR(Links):
         return limits.zeros(limits.slope(self._harmonics))
 
     @property
-    def full_turn(self) -> Any:
+    def full_turn(self) -> Array:
         """Whether the crank can turn all the way round: the discriminant is positive everywhere; ``(p,)`` for ``p``."""
         extremes = np.where(np.isnan(self.extreme_angles), 0.0, self.extreme_angles)
         return self.discriminant(extremes).min(-1) > limits.ROUNDING
@@ -164,17 +165,17 @@ class RSSR(Links):
         """Direction of the rocker's axis."""
         return _vector(0.0, np.sin(self.axis_angle), np.cos(self.axis_angle))
 
-    def crank_direction(self, angle: Any) -> np.ndarray:
+    def crank_direction(self, angle: Value) -> np.ndarray:
         """Unit vector across the crank's axis at ``angle`` about it."""
         return _vector(np.cos(angle), np.sin(angle), 0.0)
 
-    def rocker_direction(self, angle: Any) -> np.ndarray:
+    def rocker_direction(self, angle: Value) -> np.ndarray:
         """Unit vector across the rocker's axis at ``angle`` about it."""
         sin, L = np.sin(angle), self.axis_angle
         return _vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
 
     def analyse(
-        self, crank_angle: Any = 361, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
+        self, crank_angle: Value = 361, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
     ) -> RSSRAnalysis:
         """Positions, motion and static forces at the given crank angles (rad).
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..geometry import dot, inclination
 from ..quantities import fails
+from ..quantities.types import Array
 from ..units import deg, mm
 from . import limits
 from .load import RockerLoad
@@ -56,7 +57,7 @@ class RSSRAnalysis:
         return self.linkage.closure(self.crank_angle)
 
     @cached_property
-    def buildable(self) -> Any:
+    def buildable(self) -> Array:
         """Whether the linkage can be assembled at every crank angle, ``(..., 1)``."""
         can = self.linkage.has_possible_sizes & limits.reaches(*self._closure).all(-1, keepdims=True)
         if not self.through:
@@ -97,7 +98,7 @@ class RSSRAnalysis:
         return clear, below, above
 
     @property
-    def possible_turn(self) -> Any:
+    def possible_turn(self) -> Array:
         """How far the crank can turn on its branch, from limit to limit, rad, ``(..., 1)``; 2 pi: all the way round."""
         _, below, above = self._room_to_turn
         turn = np.where(np.isnan(below), 2 * np.pi, below + above)
@@ -152,7 +153,7 @@ class RSSRAnalysis:
         return np.where(extremes <= high, extremes, low)
 
     @cached_property
-    def min_discriminant(self) -> Any:
+    def min_discriminant(self) -> Array:
         """The least discriminant over the whole sweep, also between its crank angles, ``(..., 1)``.
 
         Above 0 both branches are continuous over the sweep and never meet.
@@ -249,7 +250,7 @@ class RSSRAnalysis:
         """``dphi_3 / dphi_1 = l_1 F.v_B / (l_3 F.v_C)``; infinite at a limit angle."""
         return self._over_reach(self.linkage.crank * dot(self.coupler_direction, self.crank_motion))
 
-    def _over_reach(self, value: Any) -> Any:
+    def _over_reach(self, value: Array) -> Array:
         """``value / (l_3 F.v_C)``: over the coupler's lever about the rocker's axis."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return value / (self.linkage.rocker * dot(self.coupler_direction, self.rocker_motion))

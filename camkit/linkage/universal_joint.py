@@ -16,11 +16,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..quantities import Design, Measure, counted, fails, quantity
+from ..quantities.types import Value
 from ..units import deg
 from .cross import Cross
 
 
-def _refuse_square(name: str, angle: Any) -> None:
+def _refuse_square(name: str, angle: Value) -> None:
     if fails(angle < np.pi / 2):
         raise ValueError(f"the {name} is {angle / deg:.6g} deg; a universal joint turns below 90 deg only")
 
@@ -67,42 +68,42 @@ class UniversalJointAnalysis:
         return Cross(self.joint.angle, self.input_angle)
 
     @property
-    def output_angle(self) -> Any:
+    def output_angle(self) -> Value:
         """Of the output shaft, rad."""
         return self.cross.output_angle
 
     @property
-    def lead(self) -> Any:
+    def lead(self) -> Value:
         """Of the output shaft ahead of the input shaft, rad."""
         return self.cross.lead
 
     @property
-    def speed_ratio(self) -> Any:
+    def speed_ratio(self) -> Value:
         """Output speed over input speed."""
         return self.cross.ratio
 
     @property
-    def output_speed(self) -> Any:
+    def output_speed(self) -> Value:
         """rad/s."""
         return self.joint.speed * self.cross.ratio
 
     @property
-    def output_acceleration(self) -> Any:
+    def output_acceleration(self) -> Value:
         """rad/s^2."""
         return self.joint.speed**2 * self.cross.ratio_slope
 
     @property
-    def output_torque(self) -> Any:
+    def output_torque(self) -> Value:
         """Power in = power out: ``T / ratio``, N m."""
         return self.joint.torque / self.cross.ratio
 
     @property
-    def input_couple(self) -> Any:
+    def input_couple(self) -> Value:
         """Secondary couple on the input shaft's bearings, N m (see `Cross.input_couple`)."""
         return self.joint.torque * self.cross.input_couple
 
     @property
-    def output_couple(self) -> Any:
+    def output_couple(self) -> Value:
         """Secondary couple on the output shaft's bearings, N m (see `Cross.output_couple`)."""
         return self.output_torque * self.cross.output_couple
 
@@ -162,7 +163,7 @@ class DoubleUniversalJointAnalysis:
         return self.input_angle
 
     @property
-    def _turned(self) -> Any:
+    def _turned(self) -> Value:
         """The second joint's fork against the first one's: square to it in phase, rad."""
         return np.pi / 2 + self.drive.phase
 
@@ -177,68 +178,68 @@ class DoubleUniversalJointAnalysis:
         return Cross(self.drive.second_angle, self.first.output_angle + self._turned)
 
     @property
-    def intermediate_angle(self) -> Any:
+    def intermediate_angle(self) -> Value:
         """rad."""
         return self.first.output_angle
 
     @property
-    def output_angle(self) -> Any:
+    def output_angle(self) -> Value:
         """Of the driven shaft, rad."""
         return self.second.output_angle - self._turned
 
     @property
-    def lead(self) -> Any:
+    def lead(self) -> Value:
         """Of the driven shaft ahead of the input shaft, rad."""
         return self.first.lead + self.second.lead
 
     @property
-    def intermediate_speed(self) -> Any:
+    def intermediate_speed(self) -> Value:
         """rad/s."""
         return self.drive.speed * self.first.ratio
 
     @property
-    def intermediate_acceleration(self) -> Any:
+    def intermediate_acceleration(self) -> Value:
         """rad/s^2; it is there however well the joints cancel."""
         return self.drive.speed**2 * self.first.ratio_slope
 
     @property
-    def speed_ratio(self) -> Any:
+    def speed_ratio(self) -> Value:
         """Speed of the driven shaft over that of the input."""
         return self.first.ratio * self.second.ratio
 
     @property
-    def output_speed(self) -> Any:
+    def output_speed(self) -> Value:
         """Of the driven shaft, rad/s."""
         return self.drive.speed * self.speed_ratio
 
     @property
-    def output_acceleration(self) -> Any:
+    def output_acceleration(self) -> Value:
         """Of the driven shaft, rad/s^2: ``omega^2 (r_1' r_2 + r_1^2 r_2')``."""
         first, second = self.first, self.second
         return self.drive.speed**2 * (first.ratio_slope * second.ratio + first.ratio**2 * second.ratio_slope)
 
     @cached_property
-    def inertia_torque(self) -> Any:
+    def inertia_torque(self) -> Value:
         """What the intermediate shaft's inertia takes, N m."""
         return self.drive.inertia * self.intermediate_acceleration
 
     @cached_property
-    def intermediate_torque(self) -> Any:
+    def intermediate_torque(self) -> Value:
         """In the intermediate shaft at its driven end, ``T / r_1 - J alpha``, N m."""
         return self.drive.torque / self.first.ratio - self.inertia_torque
 
     @property
-    def output_torque(self) -> Any:
+    def output_torque(self) -> Value:
         """In the driven shaft, N m."""
         return self.intermediate_torque / self.second.ratio
 
     @property
-    def input_couple(self) -> Any:
+    def input_couple(self) -> Value:
         """Secondary couple on the input shaft's bearings, N m."""
         return self.drive.torque * self.first.input_couple
 
     @property
-    def output_couple(self) -> Any:
+    def output_couple(self) -> Value:
         """Secondary couple on the driven shaft's bearings, N m."""
         return self.output_torque * self.second.output_couple
 
@@ -249,7 +250,7 @@ class DoubleUniversalJointAnalysis:
         return first, self.intermediate_torque * self.second.input_couple
 
     @cached_property
-    def equivalent_torque(self) -> Any:
+    def equivalent_torque(self) -> Value:
         """Torque that would strain the intermediate shaft as torque and bending do, ``sqrt(T^2 + C^2)`` (Tresca), N m.
 
         At the end where it is larger; between its ends the couple is never larger than at one of them.  Behind a
@@ -260,7 +261,7 @@ class DoubleUniversalJointAnalysis:
         return np.maximum(at_first, np.hypot(self.intermediate_torque, second))
 
     @cached_property
-    def second_order(self) -> Any:
+    def second_order(self) -> Value:
         """Second order of the driven shaft's `lead`, ``tan(beta_e / 2)^2`` of the equivalent angle, rad.
 
         The joints take the direction ``(cos, sin)`` of the input to that of the driven shaft by the matrix
@@ -276,7 +277,7 @@ class DoubleUniversalJointAnalysis:
         return np.tanh(np.arcsinh(np.sqrt(excess) / 2))
 
     @cached_property
-    def equivalent_angle(self) -> Any:
+    def equivalent_angle(self) -> Value:
         """``beta_e``: angle of the one joint that would turn the driven shaft as unevenly, rad.
 
         For small angles ``beta_e^4 = beta_1^4 + beta_2^4 - 2 beta_1^2 beta_2^2 cos(2 delta)``.
@@ -284,12 +285,12 @@ class DoubleUniversalJointAnalysis:
         return 2 * np.arctan(np.sqrt(self.second_order))
 
     @property
-    def torsional_excitation(self) -> Any:
+    def torsional_excitation(self) -> Value:
         """Second order of the driven shaft's acceleration, rad/s^2; near handbooks' ``omega^2 beta_e^2``."""
         return 4 * self.drive.speed**2 * self.second_order
 
     @property
-    def inertial_excitation(self) -> Any:
+    def inertial_excitation(self) -> Value:
         """Second order of the intermediate shaft's acceleration, rad/s^2."""
         return 4 * self.drive.speed**2 * self.first.second_order
 

@@ -82,7 +82,7 @@ class _Whole:
         return Kinematics(s, v * span, a * span**2, j * span**3)
 
 
-def residual_vibration(law: Law | MotionProgram, tau: Any, damping: float = 0.0) -> Vibration:
+def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.0) -> Vibration:
     """Vibration of a follower that is one mass on a spring, at each ``tau`` ``(r,)`` (or one number).
 
     Of a motion program ``tau`` is the time of its whole span over the natural period; it is run once, from rest, and
