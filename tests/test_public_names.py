@@ -126,7 +126,7 @@ def _arguments(thing):
 def _is_view(thing):
     """Whether it makes a picture of what it is given first."""
     signature = inspect.signature(thing)
-    return thing.__module__.startswith("camkit.views.") and signature.return_annotation == "Picture"
+    return thing.__module__.startswith(("camkit.views.", "camkit.papers.")) and signature.return_annotation == "Picture"
 
 
 CAM = TranslatingRollerCam()
@@ -241,6 +241,7 @@ GOOD = {
     "studies": lambda: {"two": two},
     "study": lambda: TWO,
     "target": lambda: 0.01,
+    "least_over_bound.name": lambda: "base_radius",
     "designs_on_plane.designs": lambda: {"a tube": camkit.UniversalJointShaft()},
     "tolerances": lambda: camkit.Tolerances(STUDY, {"base_radius": 0.001}, parts=64),
     "torque": lambda: np.ones(31),

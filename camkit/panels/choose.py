@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -10,13 +9,13 @@ from typing import Any, Protocol, runtime_checkable
 
 import ipywidgets as w
 import numpy as np
-from PIL import Image
 
 from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, words
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, joined, table
 from ..render.draw import colour
+from ..render.picture import below
 from ..views.decision import (
     MARKS,
     ShownDecision,
@@ -298,23 +297,12 @@ class ChoosePanel(Panel):
 
     def still(self) -> bytes:
         """Both pictures, one below the other; without a front there is nothing to see."""
-        return _stacked([picture.png() for picture in self._pictures] if self.shown else [])
+        return below(*(picture.png() for picture in self._pictures if self.shown))
 
 
 def _numbers_of(front: Any) -> Any:
     """What tells one front from another."""
     return front.study.minimise, tuple(front.study.free), front.x.tobytes(), front.f.tobytes()
-
-
-def _stacked(pictures: Sequence[bytes]) -> bytes:
-    """Pictures of the same width as one, a palette of 256 colours for all; a white dot of none."""
-    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in pictures] or [Image.new("RGB", (1, 1), "white")]
-    whole = Image.new("RGB", (images[0].width, sum(image.height for image in images)))
-    for i, image in enumerate(images):
-        whole.paste(image, (0, sum(above.height for above in images[:i])))
-    out = io.BytesIO()
-    whole.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
-    return out.getvalue()
 
 
 def choose_panel(source: FrontPanel, measures: Sequence[Measure] | None = None) -> ChoosePanel:

@@ -165,10 +165,10 @@ def _bare(ax: Axes, title: str) -> None:
         legend.remove()
 
 
-def below(first: bytes, second: bytes) -> bytes:
-    """Two pictures (PNG files) of the same width, one below the other, as one."""
-    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in (first, second)]
-    both = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
-    both.paste(images[0], (0, 0))
-    both.paste(images[1], (0, images[0].height))
-    return encoded(few_colours(both), "PNG", optimize=True)
+def below(*pictures: bytes) -> bytes:
+    """Pictures (PNG files) of the same width, each below the one before, as one; a white dot of none."""
+    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in pictures] or [Image.new("RGB", (1, 1), "white")]
+    whole = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
+    for i, image in enumerate(images):
+        whole.paste(image, (0, sum(above.height for above in images[:i])))
+    return encoded(few_colours(whole), "PNG", optimize=True)

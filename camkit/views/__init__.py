@@ -9,14 +9,11 @@ from .event import cam_and_follower, lift, radius_of_curvature, spring_and_inert
 from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_pareto, pareto, searches_compared
 from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
 from .laws import LAW_VIEWS, ShownProgram, ShownVibration, vibration_left
-from .optimiser_trials import evaluations_needed, solved_within
 from .picture import Area, Axes, Band, Circle, Contour, Line, Picture, Points, Polygon, Region, Text, View
 from .progress import candidates, convergence, least_over_bound
 from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
-from .sketch import flat_face_sketch, roller_cam_sketch, two_radii_sketch
 from .space import linkage_in_space, output_angle, pressure_angles, velocity_ratio
-from .space_sketch import linkage_sketch
 from .sweep import limit_sweep, sweep_view
 from .tolerances import band, cloud, deviation, sobol_bars
 
@@ -62,8 +59,6 @@ __all__ = [
     "deviation",
     "drive",
     "efficiency",
-    "evaluations_needed",
-    "flat_face_sketch",
     "front_winners",
     "fronts_overlaid",
     "hertz_pressure",
@@ -72,7 +67,6 @@ __all__ = [
     "lift",
     "limit_sweep",
     "linkage_in_space",
-    "linkage_sketch",
     "live_pareto",
     "load_over_way",
     "mechanism",
@@ -84,16 +78,13 @@ __all__ = [
     "pressure_angle",
     "pressure_angles",
     "radius_of_curvature",
-    "roller_cam_sketch",
     "searches_compared",
     "section",
     "sobol_bars",
-    "solved_within",
     "spring_and_inertia",
     "stress_over_event",
     "stress_over_way",
     "sweep_view",
-    "two_radii_sketch",
     "utilisation",
     "velocity_ratio",
     "vibration_left",

@@ -10,6 +10,7 @@ from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_measures import peak_pressure, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
+from camkit.papers.sketches import two_radii_sketch
 from camkit.render.draw import artist_of, colour, moving
 from camkit.render.picture import draw, layout
 from camkit.search.minimise import minimise
@@ -24,7 +25,6 @@ from camkit.views.intervals import (
     wear_over_way,
 )
 from camkit.views.progress import least_over_bound
-from camkit.views.sketch import two_radii_sketch
 
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from camkit.linkage.measures import room_in
 from camkit.linkage.space import Box
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study, rssr_study
+from camkit.papers.sketch_in_space import linkage_sketch
 from camkit.render.draw import moving
 from camkit.render.picture import draw, positions_of
 from camkit.search.nsga2 import nsga2_steps
@@ -17,7 +18,6 @@ from camkit.units import deg, mm
 from camkit.views.defaults import default_views
 from camkit.views.progress import convergence
 from camkit.views.space import linkage_in_space, output_angle, pressure_angles
-from camkit.views.space_sketch import linkage_sketch
 from camkit.views.turntable import Turntable
 
 EXAMPLE = CabinDoorLinkage()

@@ -11,6 +11,7 @@ from camkit.linkage.universal_joint import DoubleUniversalJoint
 from camkit.machines.shaft import PLANE_WINDOW, UniversalJointShaft, lightest_shaft, shaft_study
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.papers.shaft import printed_designs
+from camkit.papers.trial_pictures import evaluations_needed, solved_within
 from camkit.render.contours import level_curve, outlined, region
 from camkit.render.draw import artist_of, moving
 from camkit.render.picture import draw, layout
@@ -19,7 +20,6 @@ from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
 from camkit.views.defaults import default_views
 from camkit.views.design_map import design_plane, designs_on_plane
-from camkit.views.optimiser_trials import evaluations_needed, solved_within
 from camkit.views.picture import Text
 from camkit.views.progress import candidates
 from camkit.views.shafts import drive, pins

@@ -14,6 +14,7 @@ from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import VALVE_MEASURES, min_radius, valve_front_study
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
+from camkit.papers.sketches import flat_face_sketch
 from camkit.papers.valve_cam import known_front
 from camkit.render.draw import artist_of, moving
 from camkit.render.picture import draw, layout
@@ -31,7 +32,6 @@ from camkit.views.event import (
     velocity,
 )
 from camkit.views.front import ShownFront, pareto
-from camkit.views.sketch import flat_face_sketch
 
 OTHERS = (
     ValveCam(n=20, m=20, follower=ROLLER, half_angle=70 * deg),

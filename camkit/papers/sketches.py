@@ -8,8 +8,8 @@ import numpy as np
 
 from ..geometry import Disc, circle, rotated
 from ..units import deg, mm
-from .cam import position
-from .picture import Axes, Circle, Formula, Line, Mark, Picture, Points, Polygon, Text
+from ..views.cam import position
+from ..views.picture import Axes, Circle, Formula, Line, Mark, Picture, Points, Polygon, Text
 
 BARE = Axes(equal=True, bare=True)
 

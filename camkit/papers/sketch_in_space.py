@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..units import deg, mm
-from .picture import Axes, Formula, Picture, Text
-from .space import CRANK, ROCKER, crank_circle, rocker_circle, scene_of
-from .turntable import Turntable
+from ..views.picture import Axes, Formula, Picture, Text
+from ..views.space import CRANK, ROCKER, crank_circle, rocker_circle, scene_of
+from ..views.turntable import Turntable
 
 
 def linkage_sketch(

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities.kinds import refuse_arguments, refuse_empty
-from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View
+from ..views.picture import Axes, Band, Line, Mark, Picture, Points, Text, View
 
 TARGETS = (0.01, 0.001)
 FEWEST = 3
