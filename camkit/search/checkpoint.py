@@ -1,6 +1,6 @@
 """What a search knows after a generation, in one file, so that it can go on after its process was killed.
 
-The file is numpy's ``npz``: plain numbers, a line of JSON and a digest of both; nothing of it is ever run or unpacked.
+The file is a line of JSON, in which arrays are the bytes of their numbers in base64, and a line with its digest.
 With the state of the random generator and pymoo's crowding distances in it (they cannot be computed anew: a front that
 was cut keeps those from before the cut) NSGA-II goes on bit by bit as if it had never stopped.
 """
@@ -10,32 +10,31 @@ from __future__ import annotations
 import errno
 import glob
 import hashlib
-import io
 import json
 import os
 import platform
 import stat
-import struct
-import zipfile
+from base64 import b64decode, b64encode
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from functools import cache
 from importlib.metadata import version
-from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.lib import format as npy
 from scipy.stats import qmc
 
 from ..study.study import Study
 
-SCHEMA = "camkit-checkpoint/2"
+SCHEMA = "camkit-checkpoint/3"
 ALGORITHM = "NSGA-II"
 """The one search whose state is kept whole."""
-ARRAYS = ("x", "f", "g", "rank", "crowding")
+TABLES = ("x", "f", "g")
+ARRAYS = (*TABLES, "rank", "crowding")
+FLOAT = np.dtype("<f8")
+"""Of the numbers in a file, on every machine."""
 WORST = 1e12
 """What a search is told, and a checkpoint holds, of an objective or a limit that is not a number."""
 SAME = 1e-9
@@ -44,8 +43,6 @@ LARGEST = 2**28
 """Bytes of a checkpoint; a longer one is neither written nor read."""
 LONGEST_NAME, LARGEST_COUNT = 100, 2**128
 """Of the texts and whole numbers that describe a search."""
-END, LONGEST_LIST = 22, 1000
-"""Bytes: a zip file's last record, and the list of entries before it that this record announces."""
 PROBES = 16
 """At how many Sobol points a study is recognised."""
 
@@ -103,17 +100,15 @@ class Checkpoint:
 
     def write(self, path: str | Path) -> None:
         """Write it as `write_whole` does, or raise ``OSError`` if that cannot be done or it would be too long."""
-        arrays: Any = {name: np.ascontiguousarray(getattr(self, name), dtype=float) for name in ARRAYS}
-        if sum(array.nbytes for array in arrays.values()) > LARGEST // 2:
+        arrays = {name: np.asarray(getattr(self, name), FLOAT).tobytes() for name in ARRAYS}
+        if sum(map(len, arrays.values())) > LARGEST // 2:
             raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))
-        entries = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ARRAYS}
-        about = json.dumps({"schema": SCHEMA, **entries})
-        content = io.BytesIO()
-        np.savez(content, about=np.array(about), digest=np.array(_digest(about, arrays)), **arrays)
-        write_whole(Path(path), content.getbuffer())
+        numbers = {name: b64encode(content).decode() for name, content in arrays.items()}
+        text = json.dumps({"schema": SCHEMA, **vars(self), **numbers})
+        write_whole(Path(path), f"{text}\n{_digest(text)}".encode())
 
 
-def write_whole(path: Path, content: bytes | memoryview) -> None:
+def write_whole(path: Path, content: bytes) -> None:
     """Put it in the place of the file that is there; whoever reads sees the old one or the new one, whole.
 
     Raises ``OSError``, which names ``path``, if that cannot be done; the old one is then still there, and nothing else.
@@ -132,7 +127,7 @@ def write_whole(path: Path, content: bytes | memoryview) -> None:
 def why(error: OSError) -> str:
     """What stood in the way of a file, to be put into a sentence.
 
-    >>> why(OSError(28, "No space left on device", "search.npz"))
+    >>> why(OSError(28, "No space left on device", "search"))
     'no space left on device'
     >>> why(OSError("File or stream is not seekable."))
     'file or stream is not seekable'
@@ -161,78 +156,58 @@ def read(path: str | Path) -> Checkpoint:
     path = Path(path)
     damaged = ValueError(f"the checkpoint {path.name} is damaged; delete it to begin anew")
     try:
-        with _opened(path) as archive:
-            text = str(_entry(archive, "about", "U"))
-            about = json.loads(text)
-            if not isinstance(about, dict) or about.pop("schema", None) != SCHEMA:
-                raise OtherSchema
-            arrays: Any = {name: _entry(archive, name, "f") for name in ARRAYS}
-            digest = str(_entry(archive, "digest", "U"))
+        text, _, digest = _text(path).partition("\n")
+        entries = json.loads(text)
+        if not isinstance(entries, dict) or entries.pop("schema", None) != SCHEMA:
+            raise OtherSchema
+        p = entries["population"]
+        arrays: Any = {name: _array(entries.pop(name), (p, -1) if name in TABLES else (p,)) for name in ARRAYS}
+        found = Checkpoint(**entries, **arrays)
     except FileNotFoundError:
         raise ValueError(f"there is no checkpoint {path.name}") from None
     except OtherSchema:
         raise ValueError(f"the file {path.name} is no checkpoint of the schema {SCHEMA!r}") from None
     except Exception:  # whatever else a file that somebody made can lead to
         raise damaged from None
-    if digest != _digest(text, arrays) or not _sound(about, arrays):
+    if digest != _digest(text) or not _sound(found):
         raise damaged
-    return Checkpoint(**about, **arrays)
+    return found
 
 
-def _digest(about: str, arrays: Mapping[str, np.ndarray]) -> str:
-    """Of all that a checkpoint says."""
-    parts = [about.encode(), *(part for a in arrays.values() for part in (repr(a.shape).encode(), a.tobytes()))]
-    return hashlib.sha256(b"\0".join(parts)).hexdigest()
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _opened(path: Path) -> zipfile.ZipFile:
-    """The file, if its size and kind are those of a checkpoint: a regular file with few entries."""
+def _text(path: Path) -> str:
+    """The text of a regular file that is not too long."""
     about = path.stat()
     if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
         raise ValueError
-    with path.open("rb") as file:
-        file.seek(-END, os.SEEK_END)
-        mark, *_, listed, _, comment = struct.unpack("<4s4H2IH", file.read(END))
-    if mark != b"PK\5\6" or listed > LONGEST_LIST or comment:  # before zipfile reads the whole list
-        raise ValueError
-    return zipfile.ZipFile(path)
+    return path.read_bytes().decode()
 
 
-def _entry(archive: zipfile.ZipFile, name: str, kind: str) -> np.ndarray:
-    """One array, of dtype ``kind``, that is not packed, and exactly as long as its shape says."""
-    info = archive.getinfo(f"{name}.npy")
-    if info.compress_type != zipfile.ZIP_STORED:
-        raise ValueError
-    with archive.open(info) as file:
-        npy.read_magic(file)
-        shape, by_columns, dtype = npy.read_array_header_1_0(file)
-        content = file.read()
-    if dtype.kind != kind or by_columns or len(content) != dtype.itemsize * prod(shape):
-        raise ValueError
-    array = np.frombuffer(content, dtype).reshape(shape)
-    return array.astype(float) if kind == "f" else array
+def _array(text: str, shape: tuple[int, ...]) -> np.ndarray:
+    return np.frombuffer(b64decode(text, validate=True), FLOAT).astype(float).reshape(shape)
 
 
-def _sound(about: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> bool:
+def _sound(found: Checkpoint) -> bool:
     """Whether the entries are of the kind, size and range that belong there."""
-    kinds = {f.name: {"int": int, "str": str, "float": float}.get(str(f.type), dict) for f in fields(Checkpoint)}
-    if about.keys() | arrays.keys() != kinds.keys() or not all(type(v) is kinds[n] for n, v in about.items()):
+    state: Any = found.random
+    kinds = {f.name: {"int": int, "str": str, "float": float}.get(str(f.type), dict) for f in fields(found)}
+    if not all(type(getattr(found, name)) is kind for name, kind in kinds.items() if name not in ARRAYS):
         return False
-    names = [about["study"], about["algorithm"], *about["versions"].values()]
-    counts = [about["population"], about["seed"], about["number"] - 1]
+    names = [found.study, found.algorithm, *found.versions.values()]
+    counts = [found.population, found.seed, found.number - 1]
     if not all(type(name) is str and len(name) <= LONGEST_NAME for name in names):
         return False
-    if not all(0 <= count < LARGEST_COUNT for count in counts) or not 0 <= about["seconds"] < np.inf:
+    if not all(0 <= count < LARGEST_COUNT for count in counts) or not 0 <= found.seconds < np.inf:
         return False
     try:
         generator = np.random.PCG64()
-        generator.state = about["random"]
+        generator.state = state
     except (TypeError, ValueError, KeyError, OverflowError):
         return False
-    p = about["population"]
-    shapes = [arrays[name].ndim == 2 and len(arrays[name]) == p for name in "xfg"]
-    shapes += [arrays[name].shape == (p,) for name in ("rank", "crowding")]
-    return generator.state == about["random"] and all(shapes)
+    return generator.state == state
 
 
 def _belongs(found: Checkpoint, study: Study) -> bool:

@@ -1039,7 +1039,7 @@ def test_a_disk_that_fills_up_ends_no_search(finder, stopped, monkeypatch):
     finder.generations.value = 1000
     files = stopped()
     assert alert(finder) == UNKEPT.format("no space left on device")
-    assert [Path(name).suffix for name in files] == ["", ".json", ".npz"]
+    assert [Path(name).suffix for name in files] == ["", ".json", ".search"]
     monkeypatch.undo()
     assert read(Path(".camkit") / files[-1]).number == 1
     assert not finder.resume_button.disabled
@@ -1070,11 +1070,11 @@ def test_a_folder_that_vanishes_ends_no_search(finder, monkeypatch):
 def test_what_a_killed_kernel_left_half_written_is_removed(finder, stopped):
     """When the next page opens; not what somebody still writes."""
     finder.generations.value = 1000
-    name = next(name for name in stopped() if name.endswith(".npz"))
-    for part in (f".{name}.1.part", ".gone.npz.1.part"):
+    name = next(name for name in stopped() if name.endswith(".search"))
+    for part in (f".{name}.1.part", ".gone.search.1.part"):
         (Path(".camkit") / part).write_bytes(b"half")
     held = pending(finder._kind())
-    assert sorted(os.listdir(".camkit"))[:2] == [".gitignore", name.replace("npz", "json")]
+    assert sorted(os.listdir(".camkit"))[:2] == [".gitignore", name.replace("search", "json")]
     (Path(".camkit") / f".{name}.1.part").write_bytes(b"half")
     fresh()
     assert f".{name}.1.part" in os.listdir(".camkit")

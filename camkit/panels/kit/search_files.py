@@ -29,7 +29,7 @@ class Kept:
     """The files of one search, held until `release` or `remove`; ``OSError`` if somebody else holds them."""
 
     def __init__(self, page: Path) -> None:
-        self.page, self.checkpoint = page, page.with_suffix(".npz")
+        self.page, self.checkpoint = page, page.with_suffix(".search")
         self._lock = FileLock(
             page.with_suffix(".lock"), timeout=0, thread_local=False
         )  # the search's thread lets it go
@@ -99,7 +99,7 @@ def pending(kind: str) -> Kept | None:
         folder = _folder()
         _check(folder)
         _sweep(folder)
-        for checkpoint in sorted(folder.glob(f"{kind}-*.npz"), key=_written, reverse=True):
+        for checkpoint in sorted(folder.glob(f"{kind}-*.search"), key=_written, reverse=True):
             kept = _held(checkpoint.with_suffix(".json"))
             if kept and _is_file(checkpoint) and _is_file(kept.page):  # else it has just ended
                 return kept
@@ -132,7 +132,7 @@ def _check(folder: Path) -> None:
 
 def _sweep(folder: Path) -> None:
     """Remove what kernels that were killed have left half written: nobody holds its page."""
-    for part in folder.glob(".*.npz.*.part"):
+    for part in folder.glob(".*.search.*.part"):
         checkpoint = folder / part.name[1:].rsplit(".", 2)[0]
         if kept := _held(checkpoint.with_suffix(".json")):
             remove_parts(checkpoint)
