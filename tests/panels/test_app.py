@@ -758,7 +758,7 @@ def test_a_search_that_cannot_be_resumed_says_so_and_changes_nothing(finder, sto
     finder.criteria.sliders[(0, 2)].value = 3.0
     finder.population.value, finder.generations.value = 40, 1000
     name = stopped()[damaged]
-    (Path(".camkit") / name).write_bytes(b"{}")
+    (Path(".camkit") / name).write_bytes(b"{")
     finder.criteria.load(PAPER_JUDGEMENTS)
     finder.population.value = 24
     before = page_of(finder)
