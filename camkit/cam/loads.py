@@ -133,15 +133,21 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Friction(Design):
-    """Coulomb friction between cam and roller, friction circles of the three pins.
+class FollowerFriction(Design):
+    """Coulomb friction between cam and follower, friction circles of the pins that every follower has.
 
     A friction circle has the radius ``pin radius * coefficient``: the force in the pin touches it.
     """
 
-    coefficient: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and roller", at_least=0)
+    coefficient: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and follower", at_least=0)
     cam_axis: float = quantity("rho_1", 1.5, 0, 5, "mm", "friction circle of the cam axis", at_least=0)
     roller_pin: float = quantity("rho_2", 0.5, 0, 5, "mm", "friction circle of the roller pin", at_least=0)
+
+
+@dataclass(frozen=True)
+class Friction(FollowerFriction):
+    """Friction of a rocking arm: at the cam and in the pins, that of its pivot too."""
+
     arm_pivot: float = quantity("rho_3", 1, 0, 5, "mm", "friction circle of the arm pivot", at_least=0)
 
     def published_efficiency(self, contact: Contact) -> Any:

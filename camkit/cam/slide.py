@@ -8,7 +8,7 @@ import numpy as np
 
 from ..quantities import Design, quantity
 from ..quantities.types import Array, Value
-from .loads import Table, opposite_table, refuse_table, tabulated
+from .loads import FollowerFriction, Table, opposite_table, refuse_table, tabulated
 
 
 @dataclass(frozen=True)
@@ -78,15 +78,9 @@ class SlideLoad(Design):
 
 
 @dataclass(frozen=True)
-class SlideFriction(Design):
-    """Coulomb friction of a sliding follower: at the cam, in the pins and at both ends of its guide.
+class SlideFriction(FollowerFriction):
+    """Friction of a sliding follower: at the cam, in the pins and at both ends of its guide."""
 
-    A friction circle has the radius ``pin radius * coefficient``: the force in the pin touches it.
-    """
-
-    coefficient: float = quantity("f", 0.05, 0, 0.3, "", "friction between cam and follower", at_least=0)
-    cam_axis: float = quantity("rho_1", 1.5, 0, 5, "mm", "friction circle of the cam axis", at_least=0)
-    roller_pin: float = quantity("rho_2", 0.5, 0, 5, "mm", "friction circle of the roller pin", at_least=0)
     guide: float = quantity("mu", 0.1, 0, 0.3, "", "friction in the guide", at_least=0)
     overhang: float = quantity("A", 20, 0, 100, "mm", "follower at its highest to the guide", at_least=0)
     guide_length: float = quantity("B", 60, 20, 200, "mm", "between the two ends of the guide")

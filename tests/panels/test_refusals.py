@@ -111,7 +111,7 @@ REFUSALS = [
      "the rotation is 0; it must be one of 1 (counter-clockwise), -1 (clockwise)"),
     (lambda: ArmLoad(mass=-1), "the mass m (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),
     (lambda: Friction(coefficient=NAN),
-     "the coefficient f (friction between cam and roller) is nan; it must be a finite number of at least 0"),
+     "the coefficient f (friction between cam and follower) is nan; it must be a finite number of at least 0"),
     (lambda: ArmLoad(torque_table=((0.0, NAN),)),
      "the torque table has an entry that is not a finite number; it holds (travel, torque)"),
 
