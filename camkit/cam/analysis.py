@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from ..extrema import Extreme
 from ..geometry import Body, rotated
 from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
-from ..quantities import fails
+from ..quantities import counted, fails
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from . import bodies, statics
@@ -29,6 +29,9 @@ OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "
 """The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
 JUMP = 1e-6
 """A jump of position or speed below this share of the largest one is rounding."""
+
+
+Kind = TypeVar("Kind", bound="CamAnalysis")
 
 
 @dataclass(frozen=True)
@@ -303,6 +306,13 @@ class CamAnalysis(ABC):
             found = highest(self, f) if way > 0 else lowest(self, f)
             self._found[f, way] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
         return self._found[f, way]
+
+
+def over_the_motion(kind: type[Kind], cam: Any, n: int) -> Kind:
+    """The analysis of a cam at ``n`` even cam angles over its motion's span; ``ValueError`` if it cannot be built."""
+    analysis = kind(cam, np.linspace(0, 1, counted(n, "cam angles")) * cam.motion.span)
+    analysis.refuse_impossible()
+    return analysis
 
 
 def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:

@@ -45,8 +45,17 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
     places, rounds = (ROUGH, 1) if rough else (COARSE, ROUNDS)
     x, y = path(span * np.linspace(0, 1, places))
     along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
+    pair, least = _nearest(x, y, along, radius)
+    close = least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
+    if close.any():
+        least = np.where(close, _closer(path, span, radius, along, pair, least, rounds), least)
+    return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
+
+
+def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Any, Any]:
+    """The nearest two places ``(2, ..., 1)``, in coarse steps, that are not neighbours along the curve; how near, m."""
     least, mate = np.full(along.shape, np.inf), np.zeros(along.shape, dtype=int)
-    for k in range(1, places):  # in parts that fit into the processor's own memory
+    for k in range(1, along.shape[-1]):  # in parts that fit into the processor's own memory
         i, j = (..., slice(None, -k)), (..., slice(k, None))
         near = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
         better = (near < least[i]) & (along[j] - along[i] >= np.pi * radius)
@@ -54,12 +63,17 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
         np.copyto(mate[i], k, where=better)
     first = np.argmin(least, axis=-1)[..., None]
     second = first + np.take_along_axis(mate, first, -1)
-    least = np.sqrt(np.take_along_axis(least, first, -1))
-    pair, reach = np.stack([first, second]).astype(float), 1.0  # in coarse steps
-    around, close = np.linspace(-1, 1, FINE), least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
-    for _ in range(rounds if close.any() else 0):
-        t, u = np.clip(pair + reach * around, 0, places - 1)
-        px, py = path(np.concatenate([t, u], axis=-1) * span / (places - 1))
+    return np.stack([first, second]).astype(float), np.sqrt(np.take_along_axis(least, first, -1))
+
+
+def _closer(
+    path: Callable[[Any], Any], span: Any, radius: Any, along: Any, pair: Any, least: Any, rounds: int
+) -> np.ndarray:
+    """How near two places around each of ``pair`` are, at finer and finer steps."""
+    last, around, reach = along.shape[-1] - 1, np.linspace(-1, 1, FINE), 1.0
+    for _ in range(rounds):
+        t, u = np.clip(pair + reach * around, 0, last)
+        px, py = path(np.concatenate([t, u], axis=-1) * span / last)
         apart = _between(along, u)[..., None, :] - _between(along, t)[..., :, None]
         near = np.hypot(*(p[..., :FINE, None] - p[..., None, FINE:] for p in (px, py)))
         near = np.where(apart >= np.pi * np.asarray(radius)[..., None], near, np.inf)
@@ -67,10 +81,9 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
         best = np.argmin(near, axis=-1)[..., None]
         found = np.take_along_axis(near, best, -1)
         here = [np.take_along_axis(place, k, -1) for place, k in ((t, best // FINE), (u, best % FINE))]
-        better = close & (found < least)
-        pair = np.where(better, here, pair)
-        least, reach = np.where(better, found, least), reach / CLOSER
-    return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
+        pair = np.where(found < least, here, pair)
+        least, reach = np.where(found < least, found, least), reach / CLOSER
+    return least
 
 
 def _between(along: Any, step: Any) -> Array:

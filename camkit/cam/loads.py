@@ -41,8 +41,8 @@ class ArmLoad(Design):
 
     def following(self) -> dict[str, str]:
         """Without a table its factor has no effect."""
-        tables = len(self.travel_table) + len(self.cam_angle_table)
-        return {} if tables else {"table_factor": "there is no table of the load"}
+        entries = len(self.torque_table) + len(self.cam_angle_table)
+        return {} if entries else {"table_factor": "there is no table of the load"}
 
     @property
     def travel_table(self) -> Table:

@@ -20,28 +20,21 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..geometry import Body, Outline
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
-from ..quantities import Design, choice, counted, quantity
+from ..motion import MotionProgram, motion_in
+from ..quantities import Design, choice, quantity
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
 from . import bodies
-from .analysis import lowest
+from .analysis import lowest, over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE
+from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
 from .sizing import if_possible, refuse_radius
-from .statics import Pivot
-
-
-def _rise_and_return() -> MotionProgram:
-    law = Cycloidal()
-    return MotionProgram(
-        (Rise(120 * deg, 12 * deg, law), Dwell(60 * deg), Return(120 * deg, 12 * deg, law), Dwell(60 * deg))
-    )
 
 
 def _closed() -> ArmLoad:
@@ -64,7 +57,7 @@ class OscillatingFlatCam(Design):
     an arm that moves with the cam as fast as the cam, or one that is too short.
     """
 
-    motion: MotionProgram = motion_in("deg", 12, 60, _rise_and_return)
+    motion: MotionProgram = motion_in("deg", 12, 60, lambda: rise_and_return(12 * deg))
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
     start_angle: float = quantity(
         "psi_0", 20, -30, 60, "deg", "arm's angle from the line of centres at the level 0", above=None
@@ -90,10 +83,7 @@ class OscillatingFlatCam(Design):
 
     def analyse(self, n: int = 721) -> OscillatingFlatAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
-        turn = np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span
-        analysis = OscillatingFlatAnalysis(self, turn)
-        analysis.refuse_impossible()
-        return analysis
+        return over_the_motion(OscillatingFlatAnalysis, self, n)
 
     def face_offset_for(self, *, min_radius: Any) -> Value:
         """Least offset of the face with which no radius of curvature is below ``min_radius``, m.
@@ -126,7 +116,7 @@ class OscillatingFlatCam(Design):
 
 
 @dataclass(frozen=True)
-class OscillatingFlatAnalysis(FlatAnalysis):
+class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
     """What follows from an `OscillatingFlatCam` at the given cam angles."""
 
     cam: OscillatingFlatCam
@@ -251,34 +241,9 @@ class OscillatingFlatAnalysis(FlatAnalysis):
         )
 
     @property
-    def bearing(self) -> Pivot:
-        """The pivot about which the arm rocks."""
-        return Pivot(self.cam.centre_distance, self.velocity, self.cam.friction.arm_pivot)
-
-    @property
     def lever(self) -> np.ndarray:
         """``q``, m."""
         return self.contact_length
-
-    @property
-    def inertia(self) -> Array:
-        """Of the arm about its pivot, kg m^2."""
-        return self.cam.load.inertia(self.cam.arm_length)
-
-    @cached_property
-    def static_resistance(self) -> np.ndarray:
-        """Torque about the arm's pivot besides inertia, N m."""
-        return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self._travel, self.cam_angle)
-
-    @cached_property
-    def resistance(self) -> np.ndarray:
-        """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
-        load, l = self.cam.load, self.cam.arm_length
-        return load.resisting_torque(l, self.arm_angle, self._travel, self.acceleration, self.cam_angle)
-
-    @property
-    def _travel(self) -> np.ndarray:
-        return np.where(self.buildable, self.motion.s, np.nan)
 
 
 OscillatingFlatCam.measures = FLAT_CURVE

@@ -18,26 +18,20 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..geometry import Body
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
-from ..quantities import Design, choice, counted, quantity
+from ..motion import MotionProgram, motion_in
+from ..quantities import Design, choice, quantity
 from ..quantities.kinds import a_number
-from ..quantities.types import Array, Value
+from ..quantities.types import Value
 from ..units import deg, mm
 from . import bodies
+from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
+from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE
 from .roller_analysis import RollerAnalysis
-from .statics import Pivot
-
-
-def _rise_and_return() -> MotionProgram:
-    law = Cycloidal()
-    return MotionProgram(
-        (Rise(120 * deg, 30 * deg, law), Dwell(60 * deg), Return(120 * deg, 30 * deg, law), Dwell(60 * deg))
-    )
 
 
 @dataclass(frozen=True)
@@ -56,7 +50,7 @@ class OscillatingRollerCam(Design):
     the line of centres or a roller that would cover the cam axis.
     """
 
-    motion: MotionProgram = motion_in("deg", 30, 90, _rise_and_return)
+    motion: MotionProgram = motion_in("deg", 30, 90, lambda: rise_and_return(30 * deg))
     centre_distance: float = quantity("a", 80, 40, 160, "mm", "cam axis to arm pivot")
     arm_length: float = quantity("l", 60, 20, 120, "mm", "arm pivot to roller centre")
     start_angle: float = quantity("psi_0", 25, 5, 90, "deg", "arm's angle from the line of centres at the level 0")
@@ -72,10 +66,7 @@ class OscillatingRollerCam(Design):
 
     def analyse(self, n: int = 721) -> OscillatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
-        turn = np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span
-        analysis = OscillatingRollerAnalysis(self, turn)
-        analysis.refuse_impossible()
-        return analysis
+        return over_the_motion(OscillatingRollerAnalysis, self, n)
 
     def conjugate(
         self, spread: Any, arm_length: Value | None = None, roller_radius: Any = None
@@ -98,7 +89,7 @@ class OscillatingRollerCam(Design):
 
 
 @dataclass(frozen=True)
-class OscillatingRollerAnalysis(RollerAnalysis):
+class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     """What follows from an `OscillatingRollerCam` at the given cam angles."""
 
     cam: OscillatingRollerCam
@@ -197,36 +188,10 @@ class OscillatingRollerAnalysis(RollerAnalysis):
         direction = np.stack(np.broadcast_arrays(a - l * self._gain * self._cos, l * self._gain * self._sin))
         return direction / np.sqrt(self._along**2 + self._across**2)
 
-    @cached_property
-    def resisting_torque(self) -> np.ndarray:
-        """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
-        load, l = self.cam.load, self.cam.arm_length
-        return load.resisting_torque(l, self.arm_angle, self.motion.s, self.acceleration, self.cam_angle)
-
-    @property
-    def resistance(self) -> np.ndarray:
-        """The `resisting_torque`."""
-        return self.resisting_torque
-
-    @cached_property
-    def static_resistance(self) -> np.ndarray:
-        """Torque about the arm's pivot besides inertia, N m."""
-        return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self.motion.s, self.cam_angle)
-
-    @property
-    def inertia(self) -> Array:
-        """Of the arm about its pivot, kg m^2."""
-        return self.cam.load.inertia(self.cam.arm_length)
-
     @property
     def lever(self) -> np.ndarray:
         """``l cos alpha``, m."""
         return self.cam.arm_length * np.cos(self.pressure_angle)
-
-    @property
-    def bearing(self) -> Pivot:
-        """The pivot about which the arm rocks."""
-        return Pivot(self.cam.centre_distance, self.velocity, self.cam.friction.arm_pivot)
 
     @cached_property
     def _contact(self) -> Contact:

@@ -17,21 +17,20 @@ import numpy as np
 
 from ..geometry import Body, Outline
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities import Design, choice, fails, quantity
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
-from .analysis import lowest
+from .analysis import lowest, over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE
+from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
-from .statics import Guide
-from .translating_roller import rise_and_return, top_level
 
 
 @dataclass(frozen=True)
@@ -49,7 +48,7 @@ class TranslatingFlatCam(Design):
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a face that would pass the cam axis.
     """
 
-    motion: MotionProgram = motion_in("mm", 20, 60, rise_and_return)
+    motion: MotionProgram = motion_in("mm", 20, 60, lambda: rise_and_return(20 * mm))
     base_radius: float = quantity("r_0", 30, 10, 100, "mm", "cam axis to face at the motion's level 0")
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
@@ -64,12 +63,14 @@ class TranslatingFlatCam(Design):
         """0: there is no roller."""
         return 0.0
 
+    @property
+    def start_height(self) -> Any:
+        """Height of the face at the motion's level 0: the base radius, m."""
+        return self.base_radius
+
     def analyse(self, n: int = 721) -> TranslatingFlatAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
-        turn = np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span
-        analysis = TranslatingFlatAnalysis(self, turn)
-        analysis.refuse_impossible()
-        return analysis
+        return over_the_motion(TranslatingFlatAnalysis, self, n)
 
     def base_radius_for(self, *, min_radius: Any) -> Value:
         """Least base radius with which no radius of curvature is below ``min_radius``: ``rho - s - w``, m.
@@ -105,7 +106,7 @@ class TranslatingFlatCam(Design):
 
 
 @dataclass(frozen=True)
-class TranslatingFlatAnalysis(FlatAnalysis):
+class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
     """What follows from a `TranslatingFlatCam` at the given cam angles."""
 
     cam: TranslatingFlatCam
@@ -119,16 +120,6 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         """Why it cannot be built, in a sentence."""
         least = (self.cam.base_radius + self.motion.s).min()
         return f"the face comes down to {least / mm:.4g} mm above the cam axis; it must stay above 0 mm"
-
-    @cached_property
-    def travel(self) -> np.ndarray:
-        """``s``, m."""
-        return np.where(self.buildable, self.motion.s, np.nan)
-
-    @cached_property
-    def height(self) -> np.ndarray:
-        """``r_0 + s``: of the face above the cam axis, m."""
-        return self.cam.base_radius + self.travel
 
     @cached_property
     def profile_radius(self) -> np.ndarray:
@@ -169,12 +160,6 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         return np.stack([np.stack(np.broadcast_arrays(x, self.height)) for x in ends], axis=1)
 
     @property
-    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """The follower: the mouth of its guide ``(2,)`` and its axis at the face ``(2, n)``, machine's frame, m."""
-        foot = np.stack(np.broadcast_arrays(self.cam.offset, self.height))
-        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), foot)}
-
-    @property
     def follower(self) -> tuple[Body, ...]:
         """The stem with its face, as narrow as it may be."""
         ((name, (mouth, foot)),) = self.cranks.items()
@@ -182,33 +167,9 @@ class TranslatingFlatAnalysis(FlatAnalysis):
         return *bodies.stem(name, mouth, foot), Outline(name, "face", face, x=foot[0], y=foot[1])
 
     @property
-    def bearing(self) -> Guide:
-        """The guide in which the follower slides."""
-        friction = self.cam.friction
-        mouth = self.cam.base_radius + top_level(self.cam.motion) + friction.overhang
-        return Guide(
-            self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, self.cam.load.side_force
-        )
-
-    @property
     def lever(self) -> np.ndarray:
         """1: the contact force goes along the travel."""
         return 1.0 + 0.0 * self.height
-
-    @property
-    def inertia(self) -> Any:
-        """Of the follower, kg."""
-        return self.cam.load.mass
-
-    @cached_property
-    def static_resistance(self) -> np.ndarray:
-        """Force along the travel besides inertia, N."""
-        return self.cam.load.static_force(self.travel, self.cam_angle)
-
-    @cached_property
-    def resistance(self) -> np.ndarray:
-        """Force along the travel that the cam has to overcome, N, positive against the rise."""
-        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
 
 
 TranslatingFlatCam.measures = FLAT_CURVE

@@ -17,35 +17,22 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..geometry import Body
-from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise, motion_in
-from ..quantities import Design, choice, counted, fails, quantity
+from ..motion import MotionProgram, motion_in
+from ..quantities import Design, choice, fails, quantity
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
-from ..units import deg, mm
+from ..units import mm
 from . import bodies
-from .analysis import highest
+from .analysis import highest, over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .follower_measures import ROLLER_CURVE
+from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import number
 from .roller_analysis import RollerAnalysis
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
-from .statics import Guide
-
-
-def rise_and_return() -> MotionProgram:
-    """20 mm up and down, with dwells."""
-    law = Cycloidal()
-    return MotionProgram(
-        (Rise(120 * deg, 20 * mm, law), Dwell(60 * deg), Return(120 * deg, 20 * mm, law), Dwell(60 * deg))
-    )
-
-
-def top_level(motion: MotionProgram) -> Array:
-    """The highest level at which a segment of ``motion`` begins or ends, m."""
-    return reduce(np.maximum, motion.levels)
 
 
 @dataclass(frozen=True)
@@ -67,7 +54,7 @@ class TranslatingRollerCam(Design):
     the cam, or a roller that would cover the cam axis.
     """
 
-    motion: MotionProgram = motion_in("mm", 20, 60, rise_and_return)
+    motion: MotionProgram = motion_in("mm", 20, 60, lambda: rise_and_return(20 * mm))
     base_radius: float = quantity("r_b", 30, 10, 100, "mm", "cam axis to profile at the motion's level 0")
     roller_radius: float = quantity("r_T", 8, 0, 40, "mm", "roller; 0 is a knife edge", at_least=0)
     offset: float = quantity("e", 0, -30, 30, "mm", "follower's axis beside the cam axis", above=None)
@@ -101,10 +88,7 @@ class TranslatingRollerCam(Design):
 
     def analyse(self, n: int = 721) -> TranslatingRollerAnalysis:
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
-        turn = np.linspace(0, 1, counted(n, "cam angles")) * self.motion.span
-        analysis = TranslatingRollerAnalysis(self, turn)
-        analysis.refuse_impossible()
-        return analysis
+        return over_the_motion(TranslatingRollerAnalysis, self, n)
 
     def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None) -> Value:
         """Least base radius from which on every larger one keeps the limits that are given, m.
@@ -162,7 +146,7 @@ class TranslatingRollerCam(Design):
 
 
 @dataclass(frozen=True)
-class TranslatingRollerAnalysis(RollerAnalysis):
+class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
     """What follows from a `TranslatingRollerCam` at the given cam angles."""
 
     cam: TranslatingRollerCam
@@ -184,16 +168,6 @@ class TranslatingRollerAnalysis(RollerAnalysis):
             f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
             f"{np.hypot(self.cam.offset, h).min() / mm:.4g} mm of the cam axis; it must stay outside it"
         )
-
-    @cached_property
-    def travel(self) -> np.ndarray:
-        """``s``, m."""
-        return np.where(self.buildable, self.motion.s, np.nan)
-
-    @cached_property
-    def height(self) -> np.ndarray:
-        """``h``: of the roller's centre above the cam axis, m."""
-        return self.cam.start_height + self.travel
 
     @cached_property
     def pitch_radius(self) -> np.ndarray:
@@ -233,7 +207,7 @@ class TranslatingRollerAnalysis(RollerAnalysis):
     @cached_property
     def roller_centre(self) -> np.ndarray:
         """The roller's centre in the frame of the machine, m."""
-        return np.stack(np.broadcast_arrays(self.cam.offset, self.height))
+        return self.foot
 
     @cached_property
     def normal(self) -> np.ndarray:
@@ -242,44 +216,15 @@ class TranslatingRollerAnalysis(RollerAnalysis):
         return direction / np.hypot(self.across, self.height)
 
     @property
-    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """The follower: the mouth of its guide ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
-        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), self.roller_centre)}
-
-    @property
     def follower(self) -> tuple[Body, ...]:
         """The stem with its roller."""
         ((name, (mouth, centre)),) = self.cranks.items()
         return *bodies.stem(name, mouth, centre), bodies.roller(name, centre, self.cam.roller_radius)
 
     @property
-    def bearing(self) -> Guide:
-        """The guide in which the follower slides."""
-        friction = self.cam.friction
-        mouth = self.cam.start_height + top_level(self.cam.motion) + friction.overhang
-        return Guide(
-            self.cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, self.cam.load.side_force
-        )
-
-    @property
     def lever(self) -> np.ndarray:
         """``cos alpha``."""
         return np.cos(self.pressure_angle)
-
-    @property
-    def inertia(self) -> Any:
-        """Of the follower, kg."""
-        return self.cam.load.mass
-
-    @cached_property
-    def static_resistance(self) -> np.ndarray:
-        """Force along the travel besides inertia, N."""
-        return self.cam.load.static_force(self.travel, self.cam_angle)
-
-    @cached_property
-    def resistance(self) -> np.ndarray:
-        """Force along the travel that the cam has to overcome, N, positive against the rise."""
-        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
 
 
 TranslatingRollerCam.measures = ROLLER_CURVE

@@ -1,0 +1,106 @@
+"""How a follower is led and what it resists with, whatever touches the cam: on a straight guide, or on an arm."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property, reduce
+
+import numpy as np
+
+from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..quantities.types import Array
+from ..units import deg
+from .analysis import CamAnalysis
+from .statics import Guide, Pivot
+
+
+def rise_and_return(lift: float) -> MotionProgram:
+    """``lift`` (m or rad) up and down, with dwells."""
+    law = Cycloidal()
+    return MotionProgram((Rise(120 * deg, lift, law), Dwell(60 * deg), Return(120 * deg, lift, law), Dwell(60 * deg)))
+
+
+def top_level(motion: MotionProgram) -> Array:
+    """The highest level at which a segment of ``motion`` begins or ends, m."""
+    return reduce(np.maximum, motion.levels)
+
+
+class SlidingAnalysis(CamAnalysis):
+    """A cam under a follower that slides along +y, its axis at ``x = offset``; at the level 0 at a ``start_height``."""
+
+    @cached_property
+    def travel(self) -> np.ndarray:
+        """``s``, m."""
+        return np.where(self.buildable, self.motion.s, np.nan)
+
+    @cached_property
+    def height(self) -> np.ndarray:
+        """``h``: of the roller's centre, or of the face, above the cam axis, m."""
+        return self.cam.start_height + self.travel
+
+    @property
+    def foot(self) -> np.ndarray:
+        """The lower end of the follower on its axis, machine's frame, ``(2, n)``, m."""
+        return np.stack(np.broadcast_arrays(self.cam.offset, self.height))
+
+    @property
+    def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """The follower: the mouth of its guide ``(2,)`` and its foot ``(2, n)``, machine's frame, m."""
+        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), self.foot)}
+
+    @property
+    def bearing(self) -> Guide:
+        """The guide in which the follower slides."""
+        cam, friction = self.cam, self.cam.friction
+        mouth = cam.start_height + top_level(cam.motion) + friction.overhang
+        return Guide(cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, cam.load.side_force)
+
+    @property
+    def inertia(self) -> Array:
+        """Of the follower, kg."""
+        return self.cam.load.mass
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Force along the travel besides inertia, N."""
+        return self.cam.load.static_force(self.travel, self.cam_angle)
+
+    @cached_property
+    def resistance(self) -> np.ndarray:
+        """Force along the travel that the cam has to overcome, N, positive against the rise."""
+        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
+
+
+class RockingAnalysis(CamAnalysis):
+    """A cam under a follower on an arm of the ``arm_length`` about a pivot on the x axis at the ``centre_distance``."""
+
+    @property
+    @abstractmethod
+    def arm_angle(self) -> np.ndarray:
+        """``psi``: the arm's angle from the line pivot -> cam axis, rad; ``nan`` where it cannot be built."""
+
+    @property
+    def bearing(self) -> Pivot:
+        """The pivot about which the arm rocks."""
+        return Pivot(self.cam.centre_distance, self.velocity, self.cam.friction.arm_pivot)
+
+    @property
+    def inertia(self) -> Array:
+        """Of the arm about its pivot, kg m^2."""
+        return self.cam.load.inertia(self.cam.arm_length)
+
+    @cached_property
+    def static_resistance(self) -> np.ndarray:
+        """Torque about the arm's pivot besides inertia, N m."""
+        return self.cam.load.static_torque(self.cam.arm_length, self.arm_angle, self.motion.s, self.cam_angle)
+
+    @cached_property
+    def resisting_torque(self) -> np.ndarray:
+        """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
+        load, l = self.cam.load, self.cam.arm_length
+        return load.resisting_torque(l, self.arm_angle, self.motion.s, self.acceleration, self.cam_angle)
+
+    @property
+    def resistance(self) -> np.ndarray:
+        """The `resisting_torque`."""
+        return self.resisting_torque
