@@ -15,10 +15,12 @@ from camkit.views.picture import (
     Axes,
     Band,
     Circle,
+    Contour,
     Line,
     Picture,
     Points,
     Polygon,
+    Region,
     Text,
 )
 
@@ -120,6 +122,69 @@ def test_a_short_legend_stands_beside_the_title_a_long_one_below():
     assert low > axes.y1 - 2
     low, axes = heights("many letters " * 3)
     assert low < axes.y0 - 20
+
+
+GRID = np.linspace(-2, 2, 81)
+FIELD = np.hypot(*np.meshgrid(GRID, GRID))
+
+
+def field(*names, levels=(0.5, 1.0, 1.5)):
+    """A cone: its contours are circles, and a ring between two of them."""
+    return Picture.of(
+        Axes(xlim=(-2, 2), ylim=(-2, 2)),
+        Region("ring", GRID, GRID, FIELD, 1.0, 1.5, role="allowed", label="ring"),
+        Contour("circles", GRID, GRID, FIELD, levels, names=names, role="guide", label="circles"),
+    )
+
+
+def test_contours_are_lines_and_regions_are_outlines(ax):
+    draw_picture(field(), ax)
+    radius = np.hypot(*artist_of(ax, "circles").get_data())
+    assert_allclose([np.nanmin(abs(radius - level)) for level in (0.5, 1.0, 1.5)], 0, atol=2e-3)
+    assert_allclose(np.nanmin(abs(radius[:, None] - [0.5, 1.0, 1.5]), axis=1)[np.isfinite(radius)], 0, atol=2e-3)
+    ring = np.hypot(*artist_of(ax, "ring").get_xy().T)
+    assert_allclose(np.nanmin(abs(ring[:, None] - [1.0, 1.5]), axis=1)[np.isfinite(ring)], 0, atol=2e-3)
+    assert names(ax) == ["ring", "circles"]
+
+
+def test_names_stand_on_their_contours_and_go_with_them(ax):
+    draw_picture(field("0.5", "1", "1.5"), ax)
+    for i, level in enumerate((0.5, 1.0, 1.5)):
+        name = artist_of(ax, f"circles name {i}")
+        assert_allclose(np.hypot(*name.get_position()), float(name.get_text()), atol=2e-3)
+        assert float(name.get_text()) == level
+    draw_picture(field("9", levels=(9.0,)), ax)
+    assert np.isnan(artist_of(ax, "circles").get_data()).all()
+    assert [artist.get_gid() for artist in moving(ax)] == ["ring", "circles"]
+
+
+def test_of_several_names_those_without_room_are_left_out_but_a_sole_one_never(ax):
+    draw_picture(field("many letters " * 9, "1", "1.5"), ax)
+    assert artist_of(ax, "circles name 0") is None
+    assert artist_of(ax, "circles name 1").get_text() == "1"
+    draw_picture(field("many letters " * 9, levels=(0.5,)), ax)
+    assert artist_of(ax, "circles name 0").get_text() == "many letters " * 9
+
+
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
+def test_the_name_of_a_limit_is_of_ink_in_a_frame_of_its_colour(ax, theme):
+    draw_picture(field("limit", levels=(1.0,)), ax, theme)
+    name = artist_of(ax, "circles name 0")
+    assert to_hex(name.get_color()) == colour("ink", theme=theme)
+    assert to_hex(name.get_bbox_patch().get_edgecolor()) == colour("guide", theme=theme)
+    assert to_hex(name.get_bbox_patch().get_facecolor()) == colour("paper", theme=theme)
+
+
+def test_words_take_their_numbers_and_are_not_shown_where_there_is_no_place(ax):
+    def told(x, value):
+        return Picture.of(Axes(), Text("told", x, 2.0, "{:.1f} mm", values=(value,)))
+
+    draw_picture(told(1.0, 3.14), ax)
+    assert artist_of(ax, "told").get_text() == "3.1 mm"
+    draw_picture(told(np.nan, 3.14), ax)
+    assert artist_of(ax, "told").get_text() == ""
+    draw_picture(told(4.0, np.float64(2)), ax)
+    assert (artist_of(ax, "told").get_text(), artist_of(ax, "told").get_position()) == ("2.0 mm", (4.0, 2.0))
 
 
 def test_words_between_dollars_are_no_formula(ax):
