@@ -34,6 +34,7 @@ from dataclasses import dataclass  # noqa: F401 - for the example above
 from .declaration import (
     Analysable,
     Choice,
+    D,
     Declared,
     Quantity,
     UnitRemark,
@@ -56,6 +57,7 @@ from .tree import Paths, choices_of, declared_in, members, quantities_of, value_
 __all__ = [
     "Analysable",
     "Choice",
+    "D",
     "Declared",
     "Design",
     "Measure",

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any, ClassVar, Protocol, runtime_checkable
+from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -293,9 +293,13 @@ class Analysable(Protocol):
 
     __dataclass_fields__: ClassVar[dict[str, Any]]
 
-    def analyse(self) -> Any:
-        """Everything that follows from the design."""
+    def analyse(self, at: Any = ..., /) -> Any:
+        """Everything that follows from the design, at so many positions or at these."""
         ...
+
+
+D = TypeVar("D", bound=Analysable)
+"""The kind of design that a study is of, and so its front and its minimum."""
 
 
 def refuse_design(design: Any, what: str) -> None:

@@ -14,7 +14,7 @@ import typing
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence, Sized
 from contextlib import contextmanager
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
@@ -354,6 +354,8 @@ def _kind(hint: Any) -> Kind | None:
     if getattr(hint, "_is_protocol", False):
         said = str(inspect.getdoc(hint)).partition("\n")[0].rstrip(".")
         return Kind(lambda v: isinstance(v, hint) and not isinstance(v, type), said[0].lower() + said[1:])
+    if isinstance(origin, type) and issubclass(origin, Generic):
+        return _kind(origin)
     if isinstance(hint, type):
         return Kind(lambda v: isinstance(v, hint), f"{_article(hint.__name__)} {hint.__name__}")
     return None

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from ..decision.choosers import normalised
-from ..quantities import counted
+from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Evaluation, Study
 from .checkpoint import versions
@@ -66,7 +66,7 @@ class Archive(NamedTuple):
     missed: np.ndarray
 
 
-def quick_front(study: Study, size: int = 100, start: Front | None = None) -> Front:
+def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None) -> Front[D]:
     """The Pareto front of ``study``, up to ``size`` designs, in tenths of a second; the same at every call.
 
     ``start`` is the front of a study like this one, which saves most of the search.  Every design that is returned

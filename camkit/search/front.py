@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 from scipy.stats import qmc
 
-from ..quantities import counted
+from ..quantities import D, counted
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..study.study import Evaluation, Study
 
 
 @dataclass(frozen=True)
-class Front:
+class Front(Generic[D]):
     """Designs of which none is better than another in every objective, in order of the first objective.
 
     ``len(front)``, ``front[i]`` is a design again, ``front.x`` and ``front.f`` are ``(p, n)`` arrays in SI.
@@ -23,7 +23,7 @@ class Front:
     generations and seed or how many designs were looked at, seconds, versions.
     """
 
-    study: Study
+    study: Study[D]
     x: np.ndarray
     f: np.ndarray
     message: str = ""
@@ -41,7 +41,7 @@ class Front:
     def __len__(self) -> int:
         return len(self.x)
 
-    def __getitem__(self, i: int) -> Any:
+    def __getitem__(self, i: int) -> D:
         return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
 
     def _place(self, i: Any) -> Any:
@@ -66,7 +66,7 @@ class Front:
 
         return float(hypervolume(self.f, ref=point)) if len(self) else 0.0
 
-    def judged_by(self, study: Study) -> Front:
+    def judged_by(self, study: Study[D]) -> Front[D]:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""
         refuse_arguments(Front.judged_by, locals())
         if not len(self):
@@ -85,7 +85,7 @@ def _point(reference: Any, k: int) -> np.ndarray:
     return point
 
 
-def front_of(evaluation: Evaluation, study: Study) -> Front:
+def front_of(evaluation: Evaluation, study: Study[D]) -> Front[D]:
     """The feasible designs of an evaluation that no other dominates."""
     refuse_arguments(front_of, locals())
     kept = np.flatnonzero(evaluation.feasible)

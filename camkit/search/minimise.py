@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import differential_evolution
 from scipy.stats import qmc
 
-from ..quantities import counted
+from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
@@ -33,14 +33,14 @@ TRIES = 4
 
 
 def minimise(
-    study: Study,
+    study: Study[D],
     method: str = "slsqp",
     seed: int = 1,
     *,
     starts: int = 1,
     designs: int = 20_000,
     recheck: int | None = None,
-) -> Minimum:
+) -> Minimum[D]:
     """The design with the least objective that keeps all limits of ``study``.
 
     - ``"slsqp"`` descends from the study's start and from ``starts - 1`` random designs; seconds.  Where the

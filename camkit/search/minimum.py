@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure, PeakMeasure, words
+from ..quantities import D, Measure, PeakMeasure, words
 from ..study.study import Evaluation, Study
 from ..units import deg
 from .minimax import parts_of
@@ -33,7 +33,7 @@ class Active(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Minimum:
+class Minimum(Generic[D]):
     """The best design that a search found; ``message`` says in words why it stopped and what holds the design there.
 
     ``x`` are its free values in SI, ``f`` the objective, ``ends`` the objectives at which each start ended (``inf``
@@ -41,7 +41,7 @@ class Minimum:
     on, ``message``, ``ends`` and ``active`` are empty.
     """
 
-    study: Study
+    study: Study[D]
     x: np.ndarray
     f: float
     feasible: bool
@@ -53,7 +53,7 @@ class Minimum:
     """Free values where a descent from ``x`` ends; ``None`` after a search that is a descent itself."""
 
     @property
-    def design(self) -> Any:
+    def design(self) -> D:
         """The design itself."""
         return self.study.design(self.x)
 
@@ -68,7 +68,7 @@ class Found(NamedTuple):
     descended: np.ndarray | None = None
 
 
-def described(study: Study, found: Found) -> Minimum:
+def described(study: Study[D], found: Found) -> Minimum[D]:
     """What was found, with the words for it."""
     evaluation = study.evaluate(found.x)
     built, feasible = bool(np.isfinite(evaluation.f).all()), bool(evaluation.feasible[0])

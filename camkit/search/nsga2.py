@@ -12,6 +12,7 @@ import numpy as np
 from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.population import Population
 
+from ..quantities import D
 from ..quantities.kinds import refuse_arguments, whole
 from ..study.study import Evaluation, Study
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, resume, versions, why
@@ -89,12 +90,12 @@ def _go_on(algorithm: NSGA2, found: Checkpoint) -> None:
 
 
 def nsga2(
-    study: Study,
+    study: Study[D],
     population: int = 100,
     generations: int = 200,
     seed: int = 1,
     checkpoint: str | Path | None = None,
-) -> Front:
+) -> Front[D]:
     """The Pareto front of ``study`` by NSGA-II (Deb et al. 2002), through pymoo.
 
     A generation is one batched evaluation.  The result is repeatable for a seed; a front without a design says

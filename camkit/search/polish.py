@@ -6,10 +6,9 @@ and small where the sum of all ``t`` is small.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from ..quantities import D
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..study.residuals import SumOfResiduals
 from ..study.study import KEPT, Evaluation, Study
@@ -17,7 +16,7 @@ from .minimax import Epigraph
 from .minimum import Minimum
 
 
-def polish(study: Study, x: Any = None) -> Minimum:
+def polish(study: Study[D], x: object = None) -> Minimum[D]:
     """The best design next to ``x`` (default: the study's start) within all limits, by SLSQP.
 
     The study's objective is a `SumOfResiduals`; what else there is to be small is the business of `minimise`.

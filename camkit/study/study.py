@@ -9,11 +9,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
-from typing import Any
+from typing import Any, Generic, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..quantities import Measure, Paths, Quantity, counted, refuse_design, unremarked, words
+from ..quantities import Analysable, D, Measure, Paths, Quantity, counted, refuse_design, unremarked, words
 from ..quantities.kinds import finite, listed, number, numbers, one_number, refuse_fields, refuse_kinds, shown
 
 Space = Mapping[str, tuple[float, float]]
@@ -165,7 +166,7 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class Study:
+class Study(Generic[D]):
     """Search space, objectives and limits around a starting design.
 
     ``free`` are paths of quantities of the design, with bounds in SI or, as a bare path, with the range that its
@@ -178,7 +179,7 @@ class Study:
     no objective at all.  `evaluate` does for a measure that does not apply to the design.
     """
 
-    start: Any
+    start: D
     free: Any
     minimise: tuple[Measure, ...]
     at_most: Mapping[Measure, float] | None = None
@@ -229,7 +230,7 @@ class Study:
         """The starting design's free values, ``(n_free,)``, SI."""
         return self.x_of(self.start)
 
-    def x_of(self, design: Any) -> np.ndarray:
+    def x_of(self, design: Analysable) -> np.ndarray:
         """The free values of a design of the same kind as the start, ``(n_free,)``, SI."""
         refuse_design(design, "the design")
         return np.array(self._paths.values(design), dtype=float)
@@ -249,7 +250,7 @@ class Study:
         told = (*self.minimise, *(measure for measure, _, _ in self.limits))
         return tuple(part for m in told for part in (m.parts if isinstance(m, WeightedSum) else (m,)))
 
-    def design(self, x: Any) -> Any:
+    def design(self, x: ArrayLike) -> D:
         """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
         x = numbers(x, "the free values")
         if np.shape(x)[-1:] != (len(self.free),):
@@ -260,12 +261,12 @@ class Study:
         with unremarked():
             return self._paths.put(self.start, columns)
 
-    def analysis(self, x: Any) -> Any:
+    def analysis(self, x: ArrayLike) -> Any:
         """The analysis of the design or population ``x``."""
         analysis = self.design(x).analyse(self.angles)
         return replace(analysis, rough=True) if self.rough and hasattr(analysis, "rough") else analysis
 
-    def evaluate(self, x: Any) -> Evaluation:
+    def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
         try:
             x = np.atleast_2d(numbers(x, "the free values"))
@@ -296,12 +297,12 @@ class Study:
         bound = "at most" if sense > 0 else "at least"
         return f"the {measure.name} of {bound} {measure.text(limit)} by {measure.text(missed)}"
 
-    def weighing(self, weights: Any) -> Study:
+    def weighing(self, weights: ArrayLike) -> Self:
         """The same study with other weights in the objectives that are weighted sums."""
         changed = (m.with_weights(weights) if isinstance(m, WeightedSum) else m for m in self.minimise)
         return replace(self, minimise=tuple(changed))
 
-    def replace(self, **changes: Any) -> Study:
+    def replace(self, **changes: Any) -> Self:
         """The same study with some fields changed."""
         refuse_fields(self, changes)
         return replace(self, **changes)
