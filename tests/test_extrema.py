@@ -28,7 +28,7 @@ from camkit.cam.slide import SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.extrema import highest, highest_between, raised
-from camkit.machines import high_speed_study, valve_study
+from camkit.machines import high_speed_measures, valve_measures
 from camkit.machines.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, lever_wear
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque, InertialSpringLoad
@@ -263,17 +263,17 @@ def test_peaks_of_a_high_speed_cam(law):
     rise, fall = cam.analyse(20_001).intervals
     few = cam.analyse(5)
     expected = {
-        high_speed_study.max_pressure_angle: [abs(part.pressure_angle).max() for part in (rise, fall)],
-        high_speed_study.peak_force: [part.contact_force.max() for part in (rise, fall)],
-        high_speed_study.peak_torque: [abs(part.cam_torque).max() for part in (rise, fall)],
-        high_speed_study.peak_stress: [np.nanmax(part.stress_coefficient) / mm**0.5 for part in (rise, fall)],
-        high_speed_study.peak_wear: [np.nanmax(part.wear_coefficient) / mm**0.5 for part in (rise, fall)],
-        high_speed_study.peak_pressure: [np.nanmax(part.hertz_pressure) for part in (rise, fall)],
+        high_speed_measures.max_pressure_angle: [abs(part.pressure_angle).max() for part in (rise, fall)],
+        high_speed_measures.peak_force: [part.contact_force.max() for part in (rise, fall)],
+        high_speed_measures.peak_torque: [abs(part.cam_torque).max() for part in (rise, fall)],
+        high_speed_measures.peak_stress: [np.nanmax(part.stress_coefficient) / mm**0.5 for part in (rise, fall)],
+        high_speed_measures.peak_wear: [np.nanmax(part.wear_coefficient) / mm**0.5 for part in (rise, fall)],
+        high_speed_measures.peak_pressure: [np.nanmax(part.hertz_pressure) for part in (rise, fall)],
     }
     for measure, values in expected.items():
         assert measure(few) == pytest.approx(max(values), rel=3e-4), measure.name
     least = min(part.margin.min() for part in (rise, fall))
-    assert high_speed_study.undercut_margin(few) == pytest.approx(least, abs=3e-4)
+    assert high_speed_measures.undercut_margin(few) == pytest.approx(least, abs=3e-4)
 
 
 def travel_of_345(u):
@@ -311,22 +311,22 @@ def curves_of(analysis):
         return np.where(moved, -at.acceleration / np.where(moved, at.motion.s, 1), -np.inf) * cam.speed**2 / spring
 
     curves = {
-        high_speed_study.max_pressure_angle: lambda at: abs(at.pressure_angle),
-        high_speed_study.peak_force: force,
-        high_speed_study.peak_torque: lambda at: abs(at.resisting_torque * at.velocity),
-        -high_speed_study.undercut_margin: lambda at: cam.roller_radius * at.curvature - 1,
-        -high_speed_study.min_lead: lambda at: -least_share(cam, at),
-        high_speed_study.overrun: lambda at: np.maximum(-at.motion.s, at.motion.s - cam.swing) / cam.swing,
+        high_speed_measures.max_pressure_angle: lambda at: abs(at.pressure_angle),
+        high_speed_measures.peak_force: force,
+        high_speed_measures.peak_torque: lambda at: abs(at.resisting_torque * at.velocity),
+        -high_speed_measures.undercut_margin: lambda at: cam.roller_radius * at.curvature - 1,
+        -high_speed_measures.min_lead: lambda at: -least_share(cam, at),
+        high_speed_measures.overrun: lambda at: np.maximum(-at.motion.s, at.motion.s - cam.swing) / cam.swing,
     }
     press = getattr(analysis, "press", None)
     if press is None:
-        own = {high_speed_study.spring_use: spring_use, -high_speed_study.min_force: lambda at: -force(at)}
-        return curves | own | {high_speed_study.peak_stress: stress, high_speed_study.peak_wear: wear}
+        own = {high_speed_measures.spring_use: spring_use, -high_speed_measures.min_force: lambda at: -force(at)}
+        return curves | own | {high_speed_measures.peak_stress: stress, high_speed_measures.peak_wear: wear}
     factor = press.inertia_speed2 / (press.weight * press.lever)
     return curves | {closing_share: lambda at: -at.acceleration * factor, lever_stress: stress, lever_wear: wear}
 
 
-STRESSES = (high_speed_study.peak_stress, high_speed_study.peak_wear, lever_stress, lever_wear)
+STRESSES = (high_speed_measures.peak_stress, high_speed_measures.peak_wear, lever_stress, lever_wear)
 
 
 def tops_of(analysis, curves):
@@ -371,17 +371,17 @@ def right_everywhere(analysis, measures):
     with np.errstate(all="ignore"):
         tops = tops_of(analysis, curves_of(analysis) | {"pull": lambda at: -at.resisting_torque})
     pull = tops.pop("pull")
-    pressed = tops[-high_speed_study.undercut_margin] < 0 and pull < 0
+    pressed = tops[-high_speed_measures.undercut_margin] < 0 and pull < 0
     assert set(tops) <= {*measures, *(-m for m in measures)}
     for measure, top in tops.items():
         value = measure(analysis)
         if measure in STRESSES and not pressed:
             assert np.isnan(value), measure.name
-        elif measure == -high_speed_study.undercut_margin and analysis.corner(-1).value > 0:
+        elif measure == -high_speed_measures.undercut_margin and analysis.corner(-1).value > 0:
             assert value == np.inf
-        elif measure == high_speed_study.overrun:
+        elif measure == high_speed_measures.overrun:
             assert value == pytest.approx(top if top > 2e-6 else 0, rel=1e-3, abs=2e-6)
-        elif measure != high_speed_study.spring_use or not analysis.passes_start:  # else no spring holds the arm
+        elif measure != high_speed_measures.spring_use or not analysis.passes_start:  # else no spring holds the arm
             assert value == pytest.approx(top, rel=1e-3, abs=1e-5), measure.name
 
 
@@ -416,7 +416,7 @@ def test_peaks_of_high_speed_cams_with_free_laws(family, law):
     for k, (load, speed, spring, share) in enumerate(CASES):
         laws = {"rise_law": ShapedLaw(FREE[law], family=family), "return_law": ShapedLaw(family=family)}
         cam = HighSpeedCam(load=load, speed=speed, spring_factor=spring, **laws)
-        study = high_speed_study.high_speed_study(cam, free_laws=True, free_spring=False)
+        study = high_speed_measures.high_speed_study(cam, free_laws=True, free_spring=False)
         study = study.replace(start=cam)
         checked(study, random_designs(study, 10 * list(FREE).index(law) + k, 4, share), HighSpeedCam.measures)
 
@@ -452,9 +452,9 @@ def test_peaks_of_a_valve_cam(n, m):
         fine, few = cam.analyse(20_001), cam.analyse(3)
         assert max_pressure_angle(few) == pytest.approx(abs(fine.pressure_angle).max(), rel=1e-5)
         assert peak_force(few) == pytest.approx(abs(fine.contact_force).max(), rel=1e-5)
-        assert valve_study.peak_stress(few) == pytest.approx(fine.contact_stress.max(), rel=1e-5, nan_ok=True)
-        assert valve_study.peak_camshaft_torque(few) == pytest.approx(abs(fine.cam_torque).max(), rel=1e-5)
-        assert valve_study.face_reach(few) == pytest.approx(abs(fine.velocity).max(), rel=1e-5)
+        assert valve_measures.peak_stress(few) == pytest.approx(fine.contact_stress.max(), rel=1e-5, nan_ok=True)
+        assert valve_measures.peak_camshaft_torque(few) == pytest.approx(abs(fine.cam_torque).max(), rel=1e-5)
+        assert valve_measures.face_reach(few) == pytest.approx(abs(fine.velocity).max(), rel=1e-5)
         tightest = (
             fine.profile_radius.min() if follower == FOLLOWERS[0] else 1 / fine.curvature.max() - cam.roller_radius
         )

@@ -4,7 +4,6 @@ from functools import partial
 from operator import methodcaller
 
 import pytest
-from camkit.views.shaft import utilisation
 
 from camkit import explore, kW, mm, try_everything
 from camkit.machines.shaft import (
@@ -18,6 +17,7 @@ from camkit.machines.shaft import (
     tube_area,
 )
 from camkit.panels.presets import Presets, presets
+from camkit.views import utilisation
 
 SEAMLESS = standard_tubes("GB/T 17395")
 
