@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from ..quantities.kinds import shown
 from .entries import MOST_ROWS, is_number
-from .json_file import shown
 
 PLAIN = re.compile(r"\w[\w +,.:;()/%^-]*")
 """Names in files: letters, digits, spaces and the signs of camkit's own names."""

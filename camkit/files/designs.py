@@ -13,12 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..quantities import Design, Measure, kinds
+from ..quantities import Design, Measure
+from ..quantities.kinds import kind_words, refuse_arguments, shown
 from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
 from .checks import mapping
 from .entries import Reading, entry_of
-from .json_file import MOST_BYTES, content_of, digest_remarks, shown, signed, text_of
+from .json_file import MOST_BYTES, content_of, digest_remarks, signed, text_of
 from .sessions import Session, entries, front_entry, session_entry, session_of
 
 SCHEMA = "camkit/1"
@@ -47,7 +48,7 @@ def _path(path: Any) -> Path:
             return Path(name)
     except (TypeError, UnicodeError):
         pass
-    raise ValueError(f"the path of the file is {kinds.shown(path)}; it must be a text such as 'design.json', or a Path")
+    raise ValueError(f"the path of the file is {shown(path)}; it must be a text such as 'design.json', or a Path")
 
 
 def read(
@@ -62,7 +63,7 @@ def read(
     """
     path = _path(path)
     if not callable(tell):
-        raise ValueError(f"the argument tell is {kinds.shown(tell)}; it must be a function")
+        raise ValueError(f"the argument tell is {shown(tell)}; it must be a function")
     with path.open("rb") as file:
         found = read_json(file.read(MOST_BYTES + 1), kind, measures)
     for remark in found.remarks:
@@ -95,7 +96,7 @@ def _content(thing: Any) -> dict[str, Any]:
         return {"session": session_entry(thing)}
     if isinstance(thing, Front):
         return {"front": front_entry(thing, thing.study)}
-    raise ValueError(f"this is {kinds.shown(thing)}; a design, a front or a Session can be saved")
+    raise ValueError(f"this is {shown(thing)}; a design, a front or a Session can be saved")
 
 
 def from_json(file: str | bytes, kind: type | None = None, measures: Sequence[Measure] = ()) -> Any:
@@ -118,7 +119,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
     an entry that is not of the kind that belongs there, an absurd count, or a number that cannot be built.
     """
     text = text_of(file)
-    kinds.refuse_arguments(read_json, locals() | {"file": text})
+    refuse_arguments(read_json, locals() | {"file": text})
     content = content_of(text)
     digest = content.pop("digest", None)
     if content["schema"] != SCHEMA:
@@ -147,8 +148,8 @@ def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures:
 
 def _refuse_other(thing: Any, held: str, kind: type | None) -> None:
     if not isinstance(thing, kind or (Design if held == "design" else object)):
-        wanted = kinds.kind_words(kind, article=True) if kind else "a design"
-        raise ValueError(f"the file holds {kinds.kind_words(type(thing), article=True)}; {wanted} is wanted here")
+        wanted = kind_words(kind, article=True) if kind else "a design"
+        raise ValueError(f"the file holds {kind_words(type(thing), article=True)}; {wanted} is wanted here")
 
 
 def _lacking(missing: Sequence[str]) -> list[str]:

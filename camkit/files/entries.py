@@ -18,9 +18,8 @@ import numpy as np
 
 from ..motion import Law, MotionProgram, Segment
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
-from ..quantities.kinds import kind_words
+from ..quantities.kinds import kind_words, shown
 from ..units import factor, in_unit
-from .json_file import shown
 from .renamed import Given, Renaming, fields_renamed, is_earlier
 
 MOST_ROWS = 5000

@@ -11,10 +11,9 @@ import hashlib
 import json
 import re
 from collections.abc import Iterable
-from reprlib import Repr
 from typing import Any
 
-from ..quantities import kinds
+from ..quantities.kinds import shown
 
 MOST_BYTES = 10_000_000
 MOST_ENTRIES = 200_000
@@ -49,23 +48,8 @@ TEXTS = {
 }
 """What other texts begin with."""
 
-LONGEST = 120
-"""Letters of a value in a sentence."""
-_shown = Repr()
-_shown.maxstring = _shown.maxother = 60
-_shown.maxlong = MOST_DIGITS
 _COMPACT = re.compile(r'("[^"\\]*(?:\\.[^"\\]*)*")|\s+')
 _DIGEST = re.compile(r'"digest":"[^"]*",?')
-
-
-def shown(value: Any) -> str:
-    """A value of a file as a sentence can hold it: short, in one line.
-
-    >>> shown("x" * 1000)
-    "'xxxxxxxxxxxxxxxxxxxxxxxxxxx...xxxxxxxxxxxxxxxxxxxxxxxxxxxx'"
-    """
-    text = _shown.repr(value)
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def signed(content: dict[str, Any]) -> str:
@@ -106,8 +90,7 @@ def text_of(file: str | bytes) -> str:
     """The text of a file in UTF-8, with or without a byte order mark, that may be JSON."""
     if not isinstance(file, (str, bytes, bytearray, memoryview)):
         raise ValueError(
-            f"what is to be read is {kinds.shown(file)}; it must be the text of a file, or its bytes "
-            "(`read` takes a path)"
+            f"what is to be read is {shown(file)}; it must be the text of a file, or its bytes (`read` takes a path)"
         )
     data = file.encode("utf-8", "surrogatepass") if isinstance(file, str) else bytes(file)
     if len(data) > MOST_BYTES:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from ..quantities.kinds import shown
 from ..units import factor
-from .json_file import shown
 
 RENAMED: dict[tuple[str, str], str] = {
     ("DoorHandleCam", "friction"): "friction.coefficient",

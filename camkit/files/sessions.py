@@ -10,12 +10,11 @@ import numpy as np
 
 from ..decision import Judgements
 from ..quantities import Analysable, Measure
-from ..quantities.kinds import refuse_kinds
+from ..quantities.kinds import refuse_kinds, shown
 from ..search.front import Front, front_of
 from ..study.study import Study
 from .checks import count, listed, mapping, message, plain
 from .entries import MOST_ROWS, Reading, entry_of, is_number
-from .json_file import shown
 from .renamed import Renaming
 from .studies import rows, study_entry, study_of, x_of
 

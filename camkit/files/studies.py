@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Design, Measure, measures_of, quantities_of
-from ..quantities.kinds import kind_words
+from ..quantities.kinds import kind_words, shown
 from ..study.study import Study, WeightedSum, refuse_bounds, weighted
 from ..units import factor
 from .checks import all_numbers, count, listed, mapping, one_number, plain
 from .entries import Reading, entry_of, exact_in_unit, is_number, key
-from .json_file import shown
 from .renamed import Given, Renaming
 
 Find = Callable[[str], Measure]

@@ -138,7 +138,11 @@ def shown(value: Any) -> str:
 
     >>> shown("22"), shown([]), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
     ("'22'", 'an empty list', 'an array of shape (3,)', 'a dict')
+    >>> shown("x" * 1000)
+    "'xxxxxxxxxxxxxxxxxxxxxxxxxxx...xxxxxxxxxxxxxxxxxxxxxxxxxxx'"
     """
+    if isinstance(value, str) and len(value) + 2 > LONGEST:
+        value = f"{value[:27]}...{value[-27:]}"
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, np.ndarray) and not plain(value):

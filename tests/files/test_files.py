@@ -581,7 +581,7 @@ ABSURD = {
     "a script as a version": (work_with("record", "versions", "numpy", to="<b>"), "the file has the name '<b>'"),
     "a class of Python": (design_with("kind", to="Path"), "the file names a 'Path'"),
     "a list as a kind": (design_with("kind", to=["x"]), r"it says \['x'\] for 'kind', where a name belongs"),
-    "a law without a kind": (design_with("motion_law", to={}), "it says {} without a kind"),
+    "a law without a kind": (design_with("motion_law", to={}), "it says an empty dict without a kind"),
     "a load of no kind": (
         design_with("load", "kind", of="program", to=None), "it says None for 'kind', where a name belongs"
     ),

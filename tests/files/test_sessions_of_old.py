@@ -197,7 +197,7 @@ SPOILED = {
     ),
     "true": (put("start", to={SPEED: True}), f"says True for '{SPEED}'; it must be"),
     "a list": (put("start", to={SPEED: [1.0]}), f"says [1.0] for '{SPEED}'; it must be"),
-    "below its bounds": (put("start", to={SPEED: -90.0}), f"says -90.0 for '{SPEED}': the speed"),
+    "below its bounds": (put("start", to={SPEED: -90.0}), f"says -90 for '{SPEED}': the speed"),
     "bounds of text": (put("free", to={SPEED: ["x", 1]}), f"is damaged: it says ['x', 1] for '{SPEED}', where 2 num"),
     "bounds that are reversed": (put("free", to={SPEED: [90.0, 45.0]}), f"says [90.0, 45.0] for '{SPEED}': the bounds"),
     "true in the front": (free_speed(True), "is damaged: its front does not have 8 values for each design"),
