@@ -43,7 +43,7 @@ from camkit import (
     try_everything,
 )
 from camkit.decision import CHOOSERS
-from camkit.files import from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import (
@@ -1156,6 +1156,16 @@ def test_a_page_that_somebody_made_is_refused_and_the_lock_let_go(a_stopped_sear
     run(finder, generations=12)
     assert finder.status.value.startswith("generation 12 of 12: ")
     assert alert(finder) == ""
+
+
+def test_the_page_the_download_and_the_file_to_resume_from_are_one_session(finder, stopped):
+    finder.generations.value = 1000
+    finder.criteria.sliders[(0, 2)].value = 3.0
+    page = next(name for name in stopped() if name.endswith(".json"))
+    saved = downloaded(finder, "Save study")["text"]
+    assert saved == to_json(finder.session())
+    began = replace(from_json(saved, Session), front=None)  # as it was at Optimise
+    assert (Path(".camkit") / page).read_text() == to_json(began)
 
 
 def test_the_status_tells_the_time_that_is_left():
