@@ -157,7 +157,7 @@ def draw_picture(picture: shown.Picture, ax: Axes, theme: str = "light") -> None
     marks = outlined(picture, np.array([box.width, box.height]) * 100 / ax.figure.dpi)
     for gone in there.keys() - {mark.key for mark in marks}:
         there[gone].remove()
-    for order, mark in enumerate(marks):
+    for order, mark in enumerate(sorted(marks, key=lambda mark: float(mark.height))):
         _put(ax, mark, there.get(mark.key), theme).set_zorder(2.6 + 0.002 * order)
     _frame(ax, picture.axes)
     _legend(ax, picture)

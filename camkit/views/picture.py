@@ -76,6 +76,8 @@ class Mark:
     label: str = field(kw_only=True, default="")
     """Its name in the legend."""
     opacity: float = field(kw_only=True, default=1.0)
+    height: Any = field(kw_only=True, default=0.0)
+    """Marks of a larger one lie above, whatever their order."""
 
 
 @dataclass(frozen=True)

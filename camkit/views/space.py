@@ -56,8 +56,8 @@ def linkage_in_space(
     return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
 
 
-def _middle(analysis: Any) -> float:
-    return float(analysis.crank_angle[[0, -1]].mean())
+def _middle(analysis: Any) -> Any:
+    return analysis.crank_angle[[0, -1]].mean()
 
 
 def crank_circle(linkage: Any, angle: Any) -> np.ndarray:
@@ -75,9 +75,9 @@ def scene_of(linkage: Any, boxes: Any, azimuth: float, elevation: float) -> Turn
     corners = (np.transpose(list(product(*zip(box.low, box.high, strict=True)))) / mm for box in boxes)
     points = np.hstack([crank_circle(linkage, CIRCLE), rocker_circle(linkage, CIRCLE), *corners])
     centre = (points.min(1) + points.max(1)) / 2
-    radius = 1.02 * float(np.linalg.norm(points - centre[:, None], axis=0).max())
+    radius = 1.02 * np.linalg.norm(points - centre[:, None], axis=0).max()
     x, up = np.array([1.0, 0.0, 0.0]), linkage.rocker_axis
-    depth = float((up @ (centre[:, None] - points)).max()) + 20
+    depth = (up @ (centre[:, None] - points)).max() + 20
     return Turntable(np.stack([x, np.cross(up, x), up]), centre, radius, depth, azimuth, elevation)
 
 
@@ -132,7 +132,7 @@ def _leaf(scene: Turntable, here: Any) -> None:
 def _links(scene: Turntable, here: Any) -> None:
     """Crank, coupler and rocker, and faintly the coupler and the rocker of the other branch."""
     root, b, c, hinge = np.moveaxis(here.chain[..., 0] / mm, 1, 0)
-    other = here.at(float(here.crank_angle[0]), -here.branch).rocker_joint[:, 0] / mm
+    other = here.at(here.crank_angle[0], -here.branch).rocker_joint[:, 0] / mm
     faint = np.stack([b, other, hinge], axis=1)
     scene.path("other branch", faint, at=4.5, role="ghost", stroke="arm", label="other branch")
     for name, ends, style in (("crank", (root, b), CRANK), ("coupler", (b, c), {}), ("rocker", (hinge, c), ROCKER)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from typing import Any
@@ -26,8 +26,8 @@ class Turntable:
     """How far the floor lies below the centre."""
     azimuth: Any
     elevation: Any
-    drawn: list[tuple[Any, Mark]] = field(default_factory=list)
-    """Marks so far, each with its height in the drawing."""
+    drawn: list[Mark] = field(default_factory=list)
+    """Marks so far, nearer things higher."""
 
     @cached_property
     def eye(self) -> np.ndarray:
@@ -49,12 +49,11 @@ class Turntable:
 
     def picture(self, axes: Axes, *more: Mark) -> Picture:
         """What has been put on the table, nearer things above, with ``more`` above all."""
-        order = np.argsort([float(height) for height, _ in self.drawn], kind="stable")
-        return Picture.of(axes, [self.drawn[i][1] for i in order], more)
+        return Picture.of(axes, self.drawn, (replace(mark, height=np.inf) for mark in more))
 
     def put(self, height: Any, mark: Mark) -> None:
         """Put a mark into the drawing at a height."""
-        self.drawn.append((height, mark))
+        self.drawn.append(replace(mark, height=height))
 
     def _height(self, near: Any) -> Any:
         return NEAR + 4 * np.mean(near) / self.radius

@@ -73,6 +73,12 @@ def test_marks_lie_above_each_other_in_their_order(ax):
     assert [artist.get_gid() for artist in moving(ax)] == [mark.key for mark in shown.marks[::-1]]
 
 
+def test_a_height_counts_before_the_order(ax):
+    heights = {"low": -1.0, "above all": np.inf, "plain": 0.0, "first": 2.0, "second": 2.0}
+    draw_picture(Picture.of(Axes(), (Points(key, 1, 1, height=h) for key, h in heights.items())), ax)
+    assert [artist.get_gid() for artist in moving(ax)] == ["low", "plain", "first", "second", "above all"]
+
+
 def test_a_role_may_change(ax):
     for role in ("ink", "trouble"):
         draw_picture(Picture.of(Axes(), Line("line", HERE, FAR, role=role)), ax)
@@ -141,9 +147,9 @@ def test_contours_are_lines_and_regions_are_outlines(ax):
     draw_picture(field(), ax)
     radius = np.hypot(*artist_of(ax, "circles").get_data())
     assert_allclose([np.nanmin(abs(radius - level)) for level in (0.5, 1.0, 1.5)], 0, atol=2e-3)
-    assert_allclose(np.nanmin(abs(radius[:, None] - [0.5, 1.0, 1.5]), axis=1)[np.isfinite(radius)], 0, atol=2e-3)
     ring = np.hypot(*artist_of(ax, "ring").get_xy().T)
-    assert_allclose(np.nanmin(abs(ring[:, None] - [1.0, 1.5]), axis=1)[np.isfinite(ring)], 0, atol=2e-3)
+    for found, levels in ((radius, [0.5, 1.0, 1.5]), (ring, [1.0, 1.5])):
+        assert_allclose(abs(found[np.isfinite(found), None] - levels).min(axis=1), 0, atol=2e-3)
     assert names(ax) == ["ring", "circles"]
 
 
