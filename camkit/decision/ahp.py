@@ -99,7 +99,7 @@ class Judgements:
         """The places in the matrix of what is `above` its diagonal."""
         return list(combinations(range(len(self.matrix)), 2))
 
-    def judging(self, pair: tuple[int, int], value: Any) -> Judgements:
+    def judging(self, pair: tuple[int, int], value: object) -> Judgements:
         """The same judgements but for one pair; ``None`` leaves it open.
 
         >>> Judgements(("a", "b"), [3]).judging((0, 1), "1/5").above
@@ -178,7 +178,7 @@ class Judgements:
         return iter((self.weights, self.consistency_ratio))
 
 
-def _matrix(judgements: Any) -> tuple[np.ndarray, str]:
+def _matrix(judgements: object) -> tuple[np.ndarray, str]:
     """The reciprocal matrix, and a note on the rounded reciprocals in it."""
     given = _entries(judgements)
     a = _from_above(given) if given.ndim == 1 else given
@@ -213,7 +213,7 @@ def _exact_reciprocals(a: np.ndarray) -> list[str]:
 ONE_OVER_THE_OTHER = "one must be 1 over the other (text such as '1/3' is exact, None leaves a place open)"
 
 
-def _entries(judgements: Any) -> np.ndarray:
+def _entries(judgements: object) -> np.ndarray:
     """Judgements as numbers, ``nan`` for none."""
     wrong = "the judgements must be a square matrix of numbers, or what is above its diagonal"
     try:
@@ -227,7 +227,7 @@ def _entries(judgements: Any) -> np.ndarray:
     return np.array([_entry(entry, wrong) for entry in given.flat]).reshape(given.shape)
 
 
-def _entry(entry: Any, wrong: str) -> float:
+def _entry(entry: object, wrong: str) -> float:
     if entry is None:
         return math.nan
     if isinstance(entry, str):
@@ -311,7 +311,7 @@ def _from_above(values: np.ndarray) -> np.ndarray:
     return a
 
 
-def ahp(judgements: Any, method: str | None = None) -> Judgements:
+def ahp(judgements: object, method: str | None = None) -> Judgements:
     """Pairwise judgements with their weights and consistency (Saaty 1980); unpacks as weights and consistency ratio.
 
     ``judgements`` are `Judgements`, or a reciprocal matrix or what is above its diagonal, whose criteria have no names.

@@ -16,7 +16,7 @@ from ..quantities.kinds import numbers, shown
 from .ahp import Judgements
 
 
-def _numbers(value: Any, must: str) -> np.ndarray:
+def _numbers(value: object, must: str) -> np.ndarray:
     """An array of numbers, refused with a sentence where it is none."""
     try:
         return numbers(value, "all")
@@ -24,7 +24,7 @@ def _numbers(value: Any, must: str) -> np.ndarray:
         raise ValueError(must) from None
 
 
-def objectives_of(front: Any) -> np.ndarray:
+def objectives_of(front: object) -> np.ndarray:
     """The objectives of a front, ``(p, k)``; ``ValueError`` for what is no front to choose from."""
     f = _numbers(getattr(front, "f", front), "the front must be a table of numbers, a row for each design")
     if not f.size:
@@ -36,7 +36,7 @@ def objectives_of(front: Any) -> np.ndarray:
     return f
 
 
-def _weights(weights: Any, k: int) -> np.ndarray:
+def _weights(weights: object, k: int) -> np.ndarray:
     weights = weights.weights if isinstance(weights, Judgements) else weights
     must = f"the weights are {shown(weights)}; they must be numbers"
     w = np.full(k, 1 / k) if weights is None else _numbers(weights, must)
@@ -58,7 +58,7 @@ def _whatever_the_weights(index: int, weights: Any, k: int) -> Any:
     return index if _weights(weights, k).ndim == 1 else np.full(len(weights), index)
 
 
-def normalised(f: Any) -> np.ndarray:
+def normalised(f: object) -> np.ndarray:
     """Objectives scaled to 0 (best of the front) .. 1 (worst)."""
     f = _of_size_one(objectives_of(f))
     span = np.ptp(f, axis=0)
@@ -70,14 +70,14 @@ def _of_size_one(f: np.ndarray) -> np.ndarray:
     return np.asarray(np.ldexp(f, -np.frexp(abs(f).max(axis=0))[1]))
 
 
-def _of_length_one(f: Any) -> np.ndarray:
+def _of_length_one(f: object) -> np.ndarray:
     """Each objective as a vector over the designs, divided by its length."""
     f = _of_size_one(objectives_of(f))
     length = np.sqrt((f**2).sum(axis=0))
     return np.asarray(f / np.where(length > 0, length, 1))
 
 
-def weighted_sum(front: Any, weights: Any = None) -> Any:
+def weighted_sum(front: object, weights: object = None) -> Any:
     """The design with the least weighted sum of normalised objectives.
 
     >>> weighted_sum([[0, 1], [0.2, 0.2], [1, 0]])
@@ -93,7 +93,7 @@ SCALES: dict[str, Callable[[Any], np.ndarray]] = {"vector": _of_length_one, "ran
 """Ways to make objectives comparable, by name."""
 
 
-def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
+def topsis(front: object, weights: object = None, scale: str = "vector") -> Any:
     """The design nearest the ideal and farthest from the worst (Hwang, Yoon 1981).
 
     ``scale`` makes the objectives comparable: ``"vector"``, Hwang and Yoon's own way, divides each by its length as a
@@ -115,7 +115,7 @@ def topsis(front: Any, weights: Any = None, scale: str = "vector") -> Any:
     return _chosen(np.divide(to_worst, total, out=np.ones_like(total), where=total > 0))
 
 
-def knee(front: Any, weights: Any = None) -> Any:
+def knee(front: object, weights: object = None) -> Any:
     """The design farthest from the plane through the best of each objective, towards the ideal (Das 1999).
 
     Beyond it a little more of one wish costs much of another.  Objectives are normalised.  Of two objectives the plane
@@ -136,7 +136,7 @@ def knee(front: Any, weights: Any = None) -> Any:
     return _whatever_the_weights(int(np.argmin(y @ normal)), weights, f.shape[1])
 
 
-def crowding_distance(f: Any) -> np.ndarray:
+def crowding_distance(f: object) -> np.ndarray:
     """Crowding distance of each member of a front, ``inf`` at the ends (Deb et al. 2002)."""
     y = normalised(f)
     distance = np.zeros(len(y))
@@ -148,7 +148,7 @@ def crowding_distance(f: Any) -> np.ndarray:
     return distance
 
 
-def most_isolated(front: Any, weights: Any = None) -> Any:
+def most_isolated(front: object, weights: object = None) -> Any:
     """The inner design that stands most alone on the front, the way in which the door-handle paper chooses.
 
     ``weights`` are not used; they are there so that every chooser is called alike.

@@ -40,14 +40,14 @@ class JudgementRange:
     above: int | None
 
 
-def _refuse_no_rule(choose: Any) -> None:
+def _refuse_no_rule(choose: object) -> None:
     if not callable(choose):
         raise ValueError(
             f"the rule is {choose!r}; it must be weighted_sum, topsis, knee, most_isolated or one like them"
         )
 
 
-def judgement_ranges(front: Any, judgements: Any, choose: Chooser = weighted_sum) -> tuple[JudgementRange, ...]:
+def judgement_ranges(front: object, judgements: object, choose: Chooser = weighted_sum) -> tuple[JudgementRange, ...]:
     """How far each judgement of the objectives may move before ``choose`` takes another design.
 
     Each judgement is moved by itself on the continuous scale 1/9 .. 9, in even steps of its logarithm; the step in
@@ -146,7 +146,7 @@ LATTICE = {1: 1, 2: 1000, 3: 60, 4: 20, 5: 12}
 """Steps of a `winner_map` for so many objectives; 8 for more."""
 
 
-def winner_map(front: Any, choose: Chooser = weighted_sum) -> WinnerMap:
+def winner_map(front: object, choose: Chooser = weighted_sum) -> WinnerMap:
     """Who wins at every set of weights, on an even lattice of them.
 
     >>> {design: round(share, 2) for design, share in winner_map([[0, 1], [0.2, 0.2], [1, 0]]).shares.items()}

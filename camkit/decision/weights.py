@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,7 @@ SQUARINGS = 50
 """How often a matrix is squared at most until its columns are its eigenvector."""
 
 
-def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
+def judged_weights(matrices: object, method: str = "eigenvector") -> np.ndarray:
     """Weights ``(..., n)`` of reciprocal matrices ``(..., n, n)``, `completed` where nobody has judged.
 
     ``"eigenvector"``: the principal eigenvector (Saaty 1980).  ``"geometric"``: the geometric means of the rows
@@ -27,7 +26,7 @@ def judged_weights(matrices: Any, method: str = "eigenvector") -> np.ndarray:
     return np.asarray(w / w.sum(-1, keepdims=True))
 
 
-def completed(matrices: Any) -> np.ndarray:
+def completed(matrices: object) -> np.ndarray:
     """Reciprocal matrices ``(..., n, n)`` with the missing judgements (``nan``) that contradict the others least.
 
     They are those with the least ``lambda_max`` (Bozoki, Fulop, Ronyai 2010: there is one such completion).  With the
@@ -110,7 +109,7 @@ METHODS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 """Ways from judgements to weights, by name."""
 
 
-def refuse_method(method: Any) -> None:
+def refuse_method(method: str) -> None:
     """``ValueError`` in a sentence for what is no method of `METHODS`."""
     if not isinstance(method, str) or method not in METHODS:
         raise ValueError(f"the method is {shown(method)}; there are {' and '.join(map(repr, METHODS))}")

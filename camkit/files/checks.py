@@ -12,14 +12,14 @@ PLAIN = re.compile(r"\w[\w +,.:;()/%^-]*")
 """Names in files: letters, digits, spaces and the signs of camkit's own names."""
 
 
-def mapping(entry: Any, name: str) -> dict[str, Any]:
+def mapping(entry: object, name: str) -> dict[str, Any]:
     """``entry`` if it is an object of JSON: names and values."""
     if not isinstance(entry, dict):
         raise ValueError(f"the file is damaged: it says {shown(entry)} for {name!r}, where names and values belong")
     return entry
 
 
-def listed(entry: Any, name: str) -> list[Any]:
+def listed(entry: object, name: str) -> list[Any]:
     """``entry`` if it is a list that is not too long."""
     if not isinstance(entry, list):
         raise ValueError(f"the file is damaged: it says {shown(entry)} for {name!r}, where a list belongs")
@@ -35,7 +35,7 @@ def one_number(entry: Any, name: str) -> float:
     return float(entry)
 
 
-def all_numbers(entry: Any, name: str, count: int) -> list[float]:
+def all_numbers(entry: object, name: str, count: int) -> list[float]:
     """``entry`` if it is a list of so many numbers."""
     if not isinstance(entry, list) or len(entry) != count or not all(map(is_number, entry)):
         wanted = f"{count} numbers belong"
@@ -43,7 +43,7 @@ def all_numbers(entry: Any, name: str, count: int) -> list[float]:
     return [float(number) for number in entry]
 
 
-def count(name: str, value: Any, least: int, most: int) -> int:
+def count(name: str, value: object, least: int, most: int) -> int:
     """``value`` if it is a whole number from ``least`` to ``most``."""
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         raise ValueError(
@@ -52,7 +52,7 @@ def count(name: str, value: Any, least: int, most: int) -> int:
     return value
 
 
-def plain(name: Any, longest: int = 100) -> str:
+def plain(name: object, longest: int = 100) -> str:
     """``name`` if a file may have it."""
     if not isinstance(name, str) or not PLAIN.fullmatch(name) or len(name) > longest:
         raise ValueError(
@@ -62,6 +62,6 @@ def plain(name: Any, longest: int = 100) -> str:
     return name
 
 
-def message(entry: Any) -> str:
+def message(entry: object) -> str:
     """What a front says, which may be nothing."""
     return plain(entry, 1000) if entry != "" else ""

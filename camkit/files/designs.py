@@ -33,7 +33,7 @@ class Read:
     remarks: tuple[str, ...] = ()
 
 
-def write(thing: Any, path: str | Path) -> None:
+def write(thing: object, path: str | Path) -> None:
     """Write a design, a front or a `Session` to a JSON file; one that is there stays until the new one is whole."""
     text, path = to_json(thing), _path(path)
     remove_parts(path)
@@ -89,7 +89,7 @@ def to_json(thing: Any) -> str:
     return text
 
 
-def _content(thing: Any) -> dict[str, Any]:
+def _content(thing: object) -> dict[str, Any]:
     if isinstance(thing, Design):
         return {"design": entry_of(thing)}
     if isinstance(thing, Session):
@@ -139,14 +139,14 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
     return Read(thing, remarks)
 
 
-def _thing(held: str, entry: Any, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> Any:
+def _thing(held: str, entry: object, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> Any:
     if held == "design":
         return reading.thing(mapping(entry, held), kind or object)
     session = session_of(entries(entry, held, reading), reading, measures)
     return session if held == "session" or kind is Session else session.front
 
 
-def _refuse_other(thing: Any, held: str, kind: type | None) -> None:
+def _refuse_other(thing: object, held: str, kind: type | None) -> None:
     if not isinstance(thing, kind or (Design if held == "design" else object)):
         wanted = kind_words(kind, article=True) if kind else "a design"
         raise ValueError(f"the file holds {kind_words(type(thing), article=True)}; {wanted} is wanted here")

@@ -47,7 +47,7 @@ def exact_in_unit(value: float, unit: str) -> float:
     return min(tried, key=lambda number: abs(number * si - value))
 
 
-def entry_of(thing: Any, where: str = "value") -> Any:
+def entry_of(thing: object, where: str = "value") -> Any:
     """A value as JSON knows it; ``where`` names it in the refusal of what no file can hold."""
     if isinstance(thing, (np.generic, np.ndarray)) and np.ndim(thing) == 0:
         return thing.item()
@@ -132,7 +132,7 @@ class Reading:
     held: Counter[str] = field(default_factory=Counter)
     """How many entries one design has so far in lists that take long to work out."""
 
-    def thing(self, entry: Any, hint: Any = object, most: int = MOST_ROWS) -> Any:
+    def thing(self, entry: object, hint: object = object, most: int = MOST_ROWS) -> Any:
         """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
         if isinstance(entry, list):
             most = min(most, MOST_THINGS) if any(isinstance(value, dict) for value in entry) else most
@@ -157,7 +157,7 @@ class Reading:
         except (TypeError, AttributeError, IndexError, ArithmeticError):
             raise ValueError(f"the file is damaged: no {kind_words(kind)} can be built of what it says") from None
 
-    def _kind(self, entry: Mapping[str, Any], hint: Any) -> type:
+    def _kind(self, entry: Mapping[str, Any], hint: object) -> type:
         """The class that an entry names: a known one, or one that its field is annotated with."""
         known, name = kinds() | {k.__name__: k for k in _classes(hint)}, entry.get("kind")
         if not isinstance(name, str):
@@ -172,7 +172,7 @@ class Reading:
             raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
         return known[now]
 
-    def _with(self, thing: Any, entries: Mapping[str, Given]) -> Any:
+    def _with(self, thing: object, entries: Mapping[str, Given]) -> Any:
         """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
         for k, given in entries.items():
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
@@ -218,7 +218,7 @@ class Reading:
             raise ValueError(f"the file lacks {name!r} of the {kind}")
         self.missing.append(f"{name!r} of the {kind}")
 
-    def _field(self, given: Given, of: Field[Any], declared: Any, hint: Any) -> Any:
+    def _field(self, given: Given, of: Field[Any], declared: object, hint: object) -> Any:
         if isinstance(declared, (Quantity, Choice)):
             return self._declared(given, declared)
         value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
@@ -241,7 +241,7 @@ class Reading:
         if self.held[what] > most:
             raise ValueError(f"the file has more than {most} {what} in all; they would take too long to work out")
 
-    def _choice(self, entry: Any, name: str, declared: Choice) -> Any:
+    def _choice(self, entry: object, name: str, declared: Choice) -> Any:
         """An option by its name, or something of one's own that has all that the options have in common."""
         for name_of_it, option in declared.named.items():
             if name_of_it == entry or (type(option) is type(entry) and option == entry):
@@ -263,7 +263,7 @@ def _refuse_both(entry: Mapping[str, Any], deeper: Mapping[str, Given]) -> None:
             raise ValueError(f"the file has {shown(given.name)} and {shown(path)}, which are one and the same")
 
 
-def _says(entry: Any, path: str) -> bool:
+def _says(entry: object, path: str) -> bool:
     """Whether a file says what stands at ``path`` within ``entry``; of a program it says everything."""
     if not isinstance(entry, dict) or "segments" in entry:
         return isinstance(entry, dict)
@@ -287,7 +287,7 @@ def _hints(kind: type) -> dict[str, Any]:
     return hints if _ours(kind) else {name: object if hint is Any else hint for name, hint in hints.items()}
 
 
-def fits(value: Any, hint: Any) -> bool:
+def fits(value: Any, hint: object) -> bool:
     """Whether a value of a file is of the kind that an annotation names; ``Any`` stands for a number.
 
     >>> fits(((0.0, 1.0),), tuple[tuple[float, float], ...]), fits(((),), tuple[tuple[float, float], ...])
@@ -310,7 +310,7 @@ def fits(value: Any, hint: Any) -> bool:
     return isinstance(hint, type) and isinstance(value, hint)
 
 
-def _classes(hint: Any) -> list[type]:
+def _classes(hint: object) -> list[type]:
     """The classes of ours or one's own that an annotation names."""
     return [h for h in (hint, *get_args(hint)) if isinstance(h, type) and is_dataclass(h)]
 

@@ -79,7 +79,7 @@ def content_of(text: str) -> dict[str, Any]:
     return content
 
 
-def digest_remarks(text: str, told: Any) -> list[str]:
+def digest_remarks(text: str, told: object) -> list[str]:
     """What is to be remarked about a file with the digest ``told``; nothing if it is as it was saved."""
     if told is None:
         return [UNMARKED]
@@ -147,7 +147,7 @@ def _too_deep() -> ValueError:
     return ValueError("the file is damaged: it is nested too deeply")
 
 
-def _refuse_depth(content: Any) -> None:
+def _refuse_depth(content: object) -> None:
     level: list[Any] = [content]
     for _ in range(MOST_NESTED):
         level = [inner for outer in level for inner in _inside(outer) if isinstance(inner, (list, dict))]
@@ -156,7 +156,7 @@ def _refuse_depth(content: Any) -> None:
     raise _too_deep()
 
 
-def _inside(value: Any) -> Iterable[Any]:
+def _inside(value: object) -> Iterable[Any]:
     return value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
 
 

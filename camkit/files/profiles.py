@@ -43,7 +43,7 @@ def table_csv(columns: Mapping[str, Sequence[Any]]) -> str:
     return out.getvalue()
 
 
-def profile_csv(analysis: Any) -> str:
+def profile_csv(analysis: object) -> str:
     """The profile of a cam as CSV text, a row for each cam angle, units in the heading.
 
     Of an analysis that covers a part of the cam it takes the ``whole``.  Where the cam is undercut, the flank is what

@@ -91,7 +91,7 @@ def front_entry(front: Front, study: Study) -> dict[str, Any]:
     }
 
 
-def entries(entry: Any, held: str, reading: Reading) -> dict[str, Any]:
+def entries(entry: object, held: str, reading: Reading) -> dict[str, Any]:
     """All entries of a study, those that are lacking with their defaults."""
     given, known = mapping(entry, held), {*NEEDED, *DEFAULTS, *SESSION, "message"}
     known -= SESSION if held == "front" else set()
@@ -143,7 +143,7 @@ def left_out(told: int, kept: int) -> list[str]:
     return [f"{told - kept} of its {told} designs miss a limit or are dominated and were left out"]
 
 
-def _setting(name: str, value: Any, renaming: Renaming) -> Any:
+def _setting(name: str, value: object, renaming: Renaming) -> Any:
     if name in COUNTS and name in SETTINGS:
         return count(name, value, *COUNTS[name])
     if name not in SETTINGS or not isinstance(value, SETTINGS[name]):
@@ -151,7 +151,7 @@ def _setting(name: str, value: Any, renaming: Renaming) -> Any:
     return renaming.name(name, plain(value))
 
 
-def _judged(name: str, entry: Any, method: Any = None) -> Judgements:
+def _judged(name: str, entry: object, method: object = None) -> Judgements:
     """Judgements; in a file of 0.1.0 a matrix or what is above its diagonal, and its ``method`` if that is known."""
     if isinstance(entry, list):
         entry = {"names": [], "above": entry, "method": "eigenvector" if method is None else method}
@@ -167,7 +167,7 @@ def _judged(name: str, entry: Any, method: Any = None) -> Judgements:
         raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
 
 
-def _record(entry: Any) -> dict[str, Any]:
+def _record(entry: object) -> dict[str, Any]:
     """The record of a search by NSGA-II, or of a quick front, which has no seed."""
     if entry == {}:
         return {}

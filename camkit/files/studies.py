@@ -78,7 +78,7 @@ def study_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Meas
     return Study(start, free, minimise, angles=count("angles", entry["angles"], 2, MOST_ANGLES), **limits)
 
 
-def _free(entry: Mapping[str, Any], start: Any, reading: Reading) -> dict[str, tuple[Given, float]]:
+def _free(entry: Mapping[str, Any], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:
     """What a file frees, by its path of today, and what the file's numbers are multiplied by to be SI."""
     declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
     found = {}
@@ -91,7 +91,7 @@ def _free(entry: Mapping[str, Any], start: Any, reading: Reading) -> dict[str, t
     return found
 
 
-def _bounds(start: Any, path: str, given: Given, scale: float) -> tuple[float, float]:
+def _bounds(start: object, path: str, given: Given, scale: float) -> tuple[float, float]:
     first, second = (b * scale + 0.0 for b in all_numbers(given.value, given.name, 2))
     bounds = (first, second) if scale > 0 else (second, first)
     try:
@@ -132,7 +132,7 @@ def _key(measure: Measure) -> str:
     return f"{measure.name} [{measure.unit}]" if measure.unit else measure.name
 
 
-def _declared_measures(start: Any) -> dict[str, Measure]:
+def _declared_measures(start: object) -> dict[str, Measure]:
     return {_key(m): m for m in measures_of(start)}
 
 
@@ -149,7 +149,7 @@ def _made(k: str, entry: Given, start: Any) -> Measure:
     return measure
 
 
-def _given(value: Any) -> Any:
+def _given(value: object) -> Any:
     if isinstance(value, list):
         return tuple(all_numbers(value, "made", len(value)))
     return value if is_number(value) else plain(value)
@@ -200,7 +200,7 @@ def _found(named: Mapping[str, Measure], renaming: Renaming, k: str) -> Measure:
     )
 
 
-def _by_measure(entry: Any, name: str, find: Find) -> dict[Measure, float]:
+def _by_measure(entry: object, name: str, find: Find) -> dict[Measure, float]:
     """Numbers by the measure that their key names."""
     found: dict[Measure, float] = {}
     for k, value in mapping(entry, name).items():
@@ -210,7 +210,7 @@ def _by_measure(entry: Any, name: str, find: Find) -> dict[Measure, float]:
     return found
 
 
-def _objective(entry: Any, find: Find) -> Measure:
+def _objective(entry: object, find: Find) -> Measure:
     if isinstance(entry, dict):
         return _sum(entry, find)
     if not isinstance(entry, str):
@@ -219,7 +219,7 @@ def _objective(entry: Any, find: Find) -> Measure:
     return found if (found.sign < 0) == entry.startswith("-") else -found
 
 
-def _sum(entry: Any, find: Find) -> WeightedSum:
+def _sum(entry: object, find: Find) -> WeightedSum:
     """A weighted sum."""
     entry = {"sign": 1} | mapping(entry, "weighted sum")
     if (

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..units import factor, in_unit
 from .kinds import columns, number, one_number, refuse_fields, refuse_kinds, shown, whole
+from .types import Value
 
 OURS = __name__.partition(".")[0]
 BEYOND = 1000
@@ -102,7 +103,7 @@ class Quantity:
         """The hard limit in words for somebody who wanted ``value`` (SI): the largest size too, if that is missed."""
         return self._possible(np.isfinite(value) and abs(value) > self._most)
 
-    def _possible(self, most: Any) -> str:
+    def _possible(self, most: object) -> str:
         unit = f" {self.unit}" if self.unit else ""
         upto = f"at most {self.most:.6g}{unit}"
         if self.at_least is not None:
@@ -141,7 +142,7 @@ class Quantity:
         low = min(abs(self.low), abs(self.high)) * self.factor if self.low * self.high > 0 else top / 20
         return low, top, max(FAR, self.factor**0.5, self.factor**-0.5)
 
-    def remark(self, name: str, value: Any) -> None:
+    def remark(self, name: str, value: Value) -> None:
         """A `UnitRemark` if ``value`` (SI) is one number that looks as if its unit had been left out."""
         if _silent.get() or isinstance(value, np.ndarray) or not self.unit_left_out(value):
             return
@@ -177,13 +178,13 @@ class Choice:
         options: tuple[Any, ...] = tuple(self.options)
         return {option.name: option for option in options}
 
-    def text(self, value: Any) -> str:
+    def text(self, value: Value) -> str:
         """What the option ``value``, or another like them, is called."""
         if self._plain:
             return next((name for name, option in self.named.items() if option == value), shown(value))
         return str(getattr(value, "name", shown(value)))
 
-    def option(self, wanted: Any) -> Any:
+    def option(self, wanted: object) -> Any:
         """The option that is ``wanted`` by its name or as it is; anything else is left to whom it is for."""
         return self.named.get(wanted, wanted) if isinstance(wanted, str) else wanted
 
@@ -199,7 +200,7 @@ class Choice:
         bases = (base for o in self.options for base in type(o).__mro__ if base.__module__.startswith(__package__))
         return frozenset.intersection(*asked).difference(*map(dir, bases))
 
-    def allows(self, value: Any) -> bool:
+    def allows(self, value: object) -> bool:
         """Whether ``value`` is one of the options or, where they are more than plain values, another like them."""
         if self._plain:
             return isinstance(value, Hashable) and value in self.options
@@ -207,7 +208,7 @@ class Choice:
             return False
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
 
-    def same_as(self, value: Any) -> Any:
+    def same_as(self, value: object) -> Any:
         """The plain option that equals ``value``, whose type may be another, such as numpy's; else ``value`` itself."""
         return next(option for option in self.options if option == value) if self._plain else value
 
@@ -251,7 +252,7 @@ def quantity(
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
-def choice(symbol: str, default: Any, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: Any) -> Any:
+def choice(symbol: str, default: object, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: Any) -> Any:
     """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names.
 
     ``says`` what the options leave to their owner, such as the letter of numbers in a row, by the name of their field.
@@ -274,7 +275,7 @@ def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quanti
     return cache(lambda i: (f"{name}{i}", replace(declared, symbol=f"{declared.symbol}_{i}")))
 
 
-def declarations(design: Any) -> dict[str, Quantity | Choice]:
+def declarations(design: object) -> dict[str, Quantity | Choice]:
     """The declared fields of a design or a design class, in order; not those of what it holds (`declared_in`)."""
     kind = design if isinstance(design, type) else type(design)
     if not dataclasses.is_dataclass(kind):
@@ -302,14 +303,14 @@ D = TypeVar("D", bound=Analysable)
 """The kind of design that a study is of, and so its front and its minimum."""
 
 
-def refuse_design(design: Any, what: str) -> None:
+def refuse_design(design: object, what: str) -> None:
     """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
     if not isinstance(design, Analysable) or isinstance(design, type):
         raise ValueError(f"{what} is {shown(design)}; it must be a design that can be analysed, such as a cam")
     refuse_population(design, what)
 
 
-def refuse_population(thing: Any, what: str) -> None:
+def refuse_population(thing: object, what: str) -> None:
     """``ValueError`` in a sentence for a population of designs, or what holds one, such as its analysis."""
     for part in (thing, *getattr(thing, "__dict__", {}).values()):
         if isinstance(part, Declared) and columns(part):
@@ -323,7 +324,7 @@ def fails(ok: Any) -> bool:
     return np.ndim(ok) == 0 and not ok
 
 
-def counted(n: Any, what: str, least: int = 2, most: int = 1_000_000) -> int:
+def counted(n: int, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     return whole(n, f"the number of {what}", least, most)
 

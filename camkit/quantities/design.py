@@ -40,7 +40,7 @@ class Design(Declared):
         return table((), rows, type(self).__name__)
 
 
-def measures_of(design: Any) -> tuple[Measure, ...]:
+def measures_of(design: object) -> tuple[Measure, ...]:
     """Every measure of a design: those of all of its kind, and those of the parts that it holds, such as a contact.
 
     >>> from camkit.cam import ContactPair, TranslatingRollerCam

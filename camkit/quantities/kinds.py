@@ -90,7 +90,7 @@ def one_number(
     return float(known)
 
 
-def numbers(value: Any, what: str) -> np.ndarray:
+def numbers(value: object, what: str) -> np.ndarray:
     """``value`` as an array of floats of any shape; ``ValueError`` for what holds anything but real numbers.
 
     Of what is nested more than `DEEPEST` times too: numpy's functions take no more dimensions than 32.
@@ -106,7 +106,7 @@ def numbers(value: Any, what: str) -> np.ndarray:
         raise ValueError(f"{what} must be numbers; given is {shown(value)}") from None
 
 
-def whole(value: Any, what: str, least: int, most: int = 1_000_000) -> int:
+def whole(value: object, what: str, least: int, most: int = 1_000_000) -> int:
     """``value`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise ValueError(f"{what} is {shown(value)}; it must be a whole number of at least {least}")
@@ -115,7 +115,7 @@ def whole(value: Any, what: str, least: int, most: int = 1_000_000) -> int:
     return int(value)
 
 
-def listed(value: Any, what: str, each: str = "number") -> tuple[Any, ...]:
+def listed(value: object, what: str, each: str = "number") -> tuple[Any, ...]:
     """``value`` as a tuple; ``ValueError`` for what is no tuple, list or array."""
     if isinstance(value, (tuple, list)) or (isinstance(value, np.ndarray) and value.ndim):
         return tuple(value)
@@ -190,7 +190,7 @@ class Kind(NamedTuple):
     said: str
 
 
-def refuse_kinds(thing: Any, but: Container[str] = ()) -> None:
+def refuse_kinds(thing: object, but: Container[str] = ()) -> None:
     """``ValueError`` in a sentence for a field of the dataclass ``thing`` that is not of its annotation's kind.
 
     The fields in ``but`` are left out, and those annotated ``Any``.
@@ -246,7 +246,7 @@ def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[inspect.Paramet
 
 
 @contextmanager
-def applied(what: str, thing: Any) -> Iterator[None]:
+def applied(what: str, thing: object) -> Iterator[None]:
     """A context in which ``what`` asks ``thing`` for its parts: ``ValueError`` in a sentence where it lacks one."""
     try:
         yield
@@ -278,7 +278,7 @@ def refuse_unequal(held: Mapping[str, Any], what: str) -> None:
         raise ValueError(f"the {what} has columns of {told}; they must be equally long")
 
 
-def _lengths_of(value: Any, name: str) -> set[int]:
+def _lengths_of(value: object, name: str) -> set[int]:
     try:
         return _lengths(value)
     except RecursionError:
@@ -294,7 +294,7 @@ def columns(thing: Any) -> bool:
     return bool(_lengths(thing))
 
 
-def _lengths(value: Any) -> set[int]:
+def _lengths(value: object) -> set[int]:
     """How many members the columns within ``value`` have."""
     if type(value) is float:
         return set()
@@ -315,7 +315,7 @@ def _kinds(cls: type) -> tuple[tuple[str, Kind], ...]:
     return tuple((name, kind) for name, kind in kinds if kind is not None)
 
 
-def _one(value: Any) -> bool:
+def _one(value: object) -> bool:
     known = number(value)
     return known is not None and np.ndim(known) == 0 and bool(np.isfinite(known))
 

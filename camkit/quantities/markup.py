@@ -21,7 +21,7 @@ class Html(str):
     __slots__ = ()
 
 
-def escaped(text: Any) -> Html:
+def escaped(text: object) -> Html:
     """``text`` as HTML shows it letter by letter in an element; in an attribute see `attribute`.
 
     >>> escaped("<script>f()</script>")
@@ -30,7 +30,7 @@ def escaped(text: Any) -> Html:
     return text if isinstance(text, Html) else Html(escape(_visible(text), quote=False))
 
 
-def attribute(name: str, text: Any) -> Html:
+def attribute(name: str, text: object) -> Html:
     """An attribute of an element, whatever its text holds.
 
     >>> html("<i {}>{}</i>", attribute("title", "l'arm"), "l'arm")
@@ -53,7 +53,7 @@ def joined(parts: Iterable[Any], between: str = "") -> Html:
     return Html(between.join(map(escaped, parts)))
 
 
-def table(head: Sequence[Any], rows: Iterable[Sequence[Any]], caption: Any = "", style: str = "") -> Html:
+def table(head: Sequence[Any], rows: Iterable[Sequence[Any]], caption: object = "", style: str = "") -> Html:
     """An HTML table; ``style`` is that of every cell.
 
     >>> table(["law"], [["a & b"]])
@@ -73,7 +73,7 @@ def _row(kind: str, cells: Iterable[Any], style: str) -> Html:
 _MARKDOWN = {c: f"\\{c}" for c in "\\`*_[]#|~"} | {"&": "&amp;", "<": "&lt;", ">": "&gt;", "$": "&#36;"}
 
 
-def markdown(text: Any) -> str:
+def markdown(text: object) -> str:
     r"""``text`` in one line that Markdown shows letter by letter, also in a cell of a table.
 
     >>> markdown("a_b | <c>")
@@ -87,7 +87,7 @@ _INNER_FORMULA = re.compile(r";(?=[\s\"]*[=+\-@＝＋－＠])")
 """Where a spreadsheet that separates cells by semicolons would begin one."""
 
 
-def csv_cell(text: Any) -> str:
+def csv_cell(text: object) -> str:
     """``text`` in one line that no spreadsheet takes for a formula; a number stays as it is.
 
     >>> csv_cell("=1+1"), csv_cell("-3.5"), csv_cell("-least radius")
@@ -110,12 +110,12 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _one_line(text: Any) -> str:
+def _one_line(text: object) -> str:
     """Control characters, tabs and ends of lines as blanks."""
     return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+", " ", _visible(text))
 
 
-def _visible(text: Any) -> str:
+def _visible(text: object) -> str:
     """``text`` without what shows nothing but changes what is around it, such as the direction of writing."""
     said = str(text)
     return said if said.isascii() else "".join(c for c in said if unicodedata.category(c) != "Cf")

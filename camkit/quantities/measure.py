@@ -49,7 +49,7 @@ class Measure:
             raise ValueError(f"the {self.name} gives {shown(value)}; a measure gives real numbers, one or an array")
         return value
 
-    def __call__(self, analysis: Any) -> Any:
+    def __call__(self, analysis: object) -> Any:
         return self.sign * self.given(analysis)
 
     def __neg__(self) -> Measure:
@@ -81,7 +81,7 @@ class PeakMeasure(Measure):
 
     angle: Callable[[Any], Any] | None = field(default=None, repr=False, compare=False)
 
-    def curve(self, analysis: Any) -> Any:
+    def curve(self, analysis: object) -> Any:
         """The value at every point, before the sign."""
         curve = self.given(analysis)
         if not np.ndim(curve) or not np.shape(curve)[-1]:
@@ -90,5 +90,5 @@ class PeakMeasure(Measure):
             )
         return curve
 
-    def __call__(self, analysis: Any) -> Any:
+    def __call__(self, analysis: object) -> Any:
         return self.sign * self.curve(analysis).max(-1)

@@ -76,24 +76,24 @@ def _walk(part: Any, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
                 yield path, leaf
 
 
-def refuse_no_design(design: Any) -> None:
+def refuse_no_design(design: object) -> None:
     """``ValueError`` for what is no design, nor a part of one."""
     if not isinstance(design, Declared) or not dataclasses.is_dataclass(design):
         raise ValueError(f"the design is {shown(design)}; it must be a design, such as a cam, or a part of one")
 
 
-def _leaves_of(design: Any) -> dict[str, Leaf]:
+def _leaves_of(design: object) -> dict[str, Leaf]:
     """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
     refuse_no_design(design)
     return dict(_walk(design, {}))
 
 
-def declared_in(design: Any) -> dict[str, Quantity | Choice]:
+def declared_in(design: object) -> dict[str, Quantity | Choice]:
     """The declarations of a design and of all that it holds, by path and in order."""
     return {path: leaf.declared for path, leaf in _leaves_of(design).items()}
 
 
-def quantities_of(design: Any) -> dict[str, Quantity]:
+def quantities_of(design: object) -> dict[str, Quantity]:
     """The numbers among them.
 
     >>> from camkit import TranslatingRollerCam
@@ -103,17 +103,17 @@ def quantities_of(design: Any) -> dict[str, Quantity]:
     return {path: declared for path, declared in declared_in(design).items() if isinstance(declared, Quantity)}
 
 
-def choices_of(design: Any) -> dict[str, Choice]:
+def choices_of(design: object) -> dict[str, Choice]:
     """The choices among them, such as a motion law, a follower or a direction of rotation."""
     return {path: declared for path, declared in declared_in(design).items() if isinstance(declared, Choice)}
 
 
-def value_of(design: Any, path: str) -> Any:
+def value_of(design: object, path: str) -> Any:
     """The value of a quantity (SI) or of a choice."""
     return Paths(design, (path,)).values(design)[0]
 
 
-def with_quantities(design: Any, values: Mapping[str, Any]) -> Any:
+def with_quantities(design: object, values: Mapping[str, Any]) -> Any:
     """The design with other values by path: numbers, columns ``(p, 1)``, and options of choices or their names.
 
     All that changes in one part changes at once, and what its constructor refuses is refused.
@@ -175,7 +175,7 @@ class Paths:
     ``declared`` are their declarations in order.  Raises ``ValueError`` for a path that the design does not have.
     """
 
-    def __init__(self, design: Any, paths: Iterable[str], kind: type = object) -> None:
+    def __init__(self, design: object, paths: Iterable[str], kind: type = object) -> None:
         if isinstance(paths, str) or not isinstance(paths, Iterable):
             raise ValueError(f"the paths are {shown(paths)}; they must be a tuple of paths")
         self._kind = type(design)
@@ -189,7 +189,7 @@ class Paths:
             self._change.plan(path, place, every[path])
             self._leaves.append((path.split(".")[:-1], every[path]))
 
-    def values(self, design: Any) -> list[Any]:
+    def values(self, design: object) -> list[Any]:
         """The values that ``design`` has; ``ValueError`` for one of another kind, or one that lacks a path."""
         if not isinstance(design, self._kind):
             raise ValueError(f"the design is {shown(design)}; it must be a {self._kind.__name__}")
@@ -199,7 +199,7 @@ class Paths:
             paths = ", ".join(self.declared)
             raise ValueError(f"this {type(design).__name__} is made in another way: it lacks one of {paths}") from None
 
-    def put(self, design: Any, values: Sequence[Any]) -> Any:
+    def put(self, design: object, values: Sequence[Any]) -> Any:
         """``design``, of the same make, with other values in the order of the paths."""
         return self._change.put(design, values) if self._leaves else design
 
@@ -210,7 +210,7 @@ def _part(design: Any, way: Sequence[str]) -> Any:
     return design
 
 
-def _unknown(design: Any, path: Any, known: Iterable[str], kind: type) -> str:
+def _unknown(design: object, path: object, known: Iterable[str], kind: type) -> str:
     """Why a path is refused, in a sentence."""
     what = {Quantity: "quantity", Choice: "choice"}.get(kind, "path")
     said = f"{shown(path)} is no {what} of {type(design).__name__}"

@@ -77,7 +77,7 @@ class CompetitiveAlgorithm(OneObjective):
         x, f = zip(*self._path, strict=True)
         return np.array(x), np.array(f)
 
-    def _setup(self, problem: Any, **kwargs: Any) -> None:
+    def _setup(self, problem: object, **kwargs: Any) -> None:
         super()._setup(problem, **kwargs)
         self._path = []
 

@@ -96,7 +96,7 @@ class _Tradeoff:
         return Step(len(x), self.points, self.study, found, self.evaluated, step.best, message)
 
 
-def dominated_shares(fronts: Mapping[str, Front], worst: Any) -> dict[str, float]:
+def dominated_shares(fronts: Mapping[str, Front], worst: object) -> dict[str, float]:
     """Hypervolumes that can be compared: which share of a box each front dominates.
 
     The box goes from the best in each objective, of all fronts, to ``worst``; 1 would be a design that is best in

@@ -44,7 +44,7 @@ class Front(Generic[D]):
     def __getitem__(self, i: int) -> D:
         return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
 
-    def _place(self, i: Any) -> Any:
+    def _place(self, i: object) -> Any:
         """One or more places on the front; past its end `IndexError`, by which a loop over it ends."""
         numbers(i, "the place on the front")
         place = np.asarray(i)
@@ -54,7 +54,7 @@ class Front(Generic[D]):
             raise IndexError(f"there is no design {shown(i)} on the front; it has {len(self)}, counted from 0")
         return place
 
-    def hypervolume(self, reference: Any = None) -> float:
+    def hypervolume(self, reference: object = None) -> float:
         """The volume of objectives that the front dominates up to ``reference`` (default: `reference_point`).
 
         Raises ``ValueError`` for a reference that is not one finite number for each objective.
@@ -74,7 +74,7 @@ class Front(Generic[D]):
         return replace(front_of(study.evaluate(self.x), study), record=self.record)
 
 
-def _point(reference: Any, k: int) -> np.ndarray:
+def _point(reference: object, k: int) -> np.ndarray:
     """A point in the space of ``k`` objectives."""
     try:
         point = numbers(reference, "the reference point")

@@ -34,7 +34,7 @@ def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
     return [(1.0, measure)]
 
 
-def points_of(measure: Measure, analysis: Any, factor: float, p: int) -> np.ndarray:
+def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.ndarray:
     """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
     if isinstance(measure, PeakMeasure) and factor * measure.sign > 0:
         curve = np.asarray(abs(factor) * measure.curve(analysis))

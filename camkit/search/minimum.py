@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple
+from typing import Generic, NamedTuple
 
 import numpy as np
 
@@ -132,12 +132,12 @@ def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
     return (*peaks, *limits, *_bounds_reached(study, evaluation.x[0]))
 
 
-def _reached(kind: str, measure: Measure, analysis: Any, sense: int) -> Active:
+def _reached(kind: str, measure: Measure, analysis: object, sense: int) -> Active:
     value = measure.text(float(np.ravel(measure(analysis))[0]))
     return Active(kind, measure.name, value, _peak_angles(measure, analysis, sense))
 
 
-def _peak_angles(measure: Measure, analysis: Any, sense: int) -> tuple[float, ...]:
+def _peak_angles(measure: Measure, analysis: object, sense: int) -> tuple[float, ...]:
     """The angles at which a curve comes to its peak, one for each hill."""
     if not isinstance(measure, PeakMeasure) or measure.angle is None or sense * measure.sign < 0:
         return ()

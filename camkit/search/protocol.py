@@ -189,7 +189,7 @@ def relayed(work: Callable[[Callable[[Any], None]], None]) -> Iterator[Any]:
     asked: SimpleQueue[bool] = SimpleQueue()
     given: SimpleQueue[tuple[bool, Any]] = SimpleQueue()
 
-    def give(thing: Any) -> None:
+    def give(thing: object) -> None:
         given.put((True, thing))
         if not asked.get():
             raise SearchStopped

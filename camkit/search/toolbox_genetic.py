@@ -32,7 +32,7 @@ def selection_chances(count: int, best: float) -> np.ndarray:
     return np.asarray(best / (1 - (1 - best) ** count) * falling)
 
 
-def crossed(first: Any, second: Any, share: Any) -> tuple[Any, Any]:
+def crossed(first: object, second: object, share: object) -> tuple[Any, Any]:
     """Arithmetic crossover: two points of the straight line between the parents, as far from either end.
 
     >>> print(*crossed(0.0, 10.0, 0.2))
@@ -42,7 +42,7 @@ def crossed(first: Any, second: Any, share: Any) -> tuple[Any, Any]:
     return share * first + (1 - share) * second, (1 - share) * first + share * second
 
 
-def shrinking_step(room: Any, draw: Any, done: float, shape: float) -> Any:
+def shrinking_step(room: object, draw: object, done: float, shape: float) -> Any:
     """Step of a non-uniform mutation: the way to a bound, ``room``, times ``(draw (1 - done))^shape``.
 
     ``done`` is the share of the generations that are over; at the end nothing moves any more.
@@ -109,7 +109,7 @@ class ToolboxGenetic(OneObjective):
         one_number(shape, "the shape of the mutation", "be a finite number above 0", lambda v: 0 < v < np.inf)
         self.best, self.shape = best, shape
 
-    def _setup(self, problem: Any, **kwargs: Any) -> None:
+    def _setup(self, problem: object, **kwargs: Any) -> None:
         super()._setup(problem, **kwargs)
         self._number = 1
 
@@ -136,7 +136,7 @@ class ToolboxGenetic(OneObjective):
         self._kept = self.pop[chosen[~new]]
         return Population.new(X=np.clip(x[new], *bounds))
 
-    def _places(self, count: int, size: Any) -> np.ndarray:
+    def _places(self, count: int, size: object) -> np.ndarray:
         """Places 0 .. count - 1 by rounding, so that both ends come half as often as the others."""
         return np.floor(self.random_state.random(size) * (count - 1) + 0.5).astype(int).reshape(size)
 

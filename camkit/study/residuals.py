@@ -25,15 +25,15 @@ class SumOfResiduals(Measure):
 
     above_only: bool = False
 
-    def sides(self, analysis: Any) -> np.ndarray:
+    def sides(self, analysis: object) -> np.ndarray:
         """Both numbers of which the larger one counts for each residual, ``(..., m, 2)``."""
         r = self.given(analysis)
         return np.stack([r, 0 * r if self.above_only else -r], axis=-1)
 
-    def __call__(self, analysis: Any) -> Any:
+    def __call__(self, analysis: object) -> Any:
         return self.sign * self.sides(analysis).max(-1).sum(-1)
 
-    def spelled_out(self, analysis: Any) -> WeightedSum:
+    def spelled_out(self, analysis: object) -> WeightedSum:
         """The same sum as one peak for each residual of ``analysis``, which `Epigraph` bounds one by one."""
         sides = _remembered(self.sides)
         m = sides(analysis).shape[-2]

@@ -29,7 +29,7 @@ class WeightedSum(Measure):
     weights: tuple[float, ...] = ()
     reference: tuple[float, ...] = ()
 
-    def with_weights(self, weights: Any) -> WeightedSum:
+    def with_weights(self, weights: object) -> WeightedSum:
         """The same sum with other weights."""
         weights = listed(weights, "the tuple of weights", "measure")
         if len(weights) != len(self.parts):
@@ -59,7 +59,7 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
         if not one_number(weight, f"the weight of the {measure.name}", "be 0 or more") >= 0:
             raise ValueError(f"the weight of the {measure.name} is {weight:g}; it must be 0 or more")
 
-    def total(analysis: Any) -> Any:
+    def total(analysis: object) -> Any:
         return sum(w * part(analysis) / r for (part, w), r in zip(weights.items(), reference, strict=True))
 
     return WeightedSum(
@@ -80,7 +80,7 @@ def keeps(value: Any, limit: float, sense: int) -> Any:
     return sense * (value - limit) <= KEPT * (abs(limit) or 1.0)
 
 
-def _number(value: Any) -> bool:
+def _number(value: object) -> bool:
     known = number(value)
     return known is not None and np.ndim(known) == 0
 
@@ -131,7 +131,7 @@ def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
     return study
 
 
-def _numbers(measure: Measure, analysis: Any, p: int) -> Any:
+def _numbers(measure: Measure, analysis: object, p: int) -> Any:
     """A measure of ``p`` designs, ``(p,)``."""
     value = measure(analysis)
     try:
@@ -278,7 +278,7 @@ class Study(Generic[D]):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
         return self.judge(x, self.analysis(x))
 
-    def judge(self, x: np.ndarray, analysis: Any) -> Evaluation:
+    def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
         f = self._columns([_numbers(measure, analysis, len(x)) for measure in self.minimise], len(x))
         limits = [(_numbers(m, analysis, len(x)), v, sense) for m, v, sense in self.limits]

@@ -69,7 +69,7 @@ class AnalysisCurve:
         for limit in self.limits:
             one_number(limit, f"a limit of the {self.label}")
 
-    def values(self, analysis: Any) -> np.ndarray:
+    def values(self, analysis: object) -> np.ndarray:
         """The curve, ``(m,)`` or for a population ``(p, m)``, SI."""
         try:
             return np.asarray(attrgetter(self.name)(analysis), dtype=float)
@@ -181,7 +181,7 @@ class Tolerances:
         every = (*self.study.minimise, *(measure for measure, _, _ in self.study.limits))
         return tuple(dict.fromkeys(_named(measure) for measure in every))
 
-    def _measured(self, analysis: Any, p: int) -> np.ndarray:
+    def _measured(self, analysis: object, p: int) -> np.ndarray:
         """Every measure of ``p`` parts, ``(s, p)``; ``nan`` where a part cannot be built."""
         values = np.stack([np.broadcast_to(measure(analysis), p) for measure in self.measures])
         return np.where(np.isfinite(values), values, np.nan)
@@ -257,7 +257,7 @@ class Tolerances:
         return indices
 
 
-def _levels(levels: Any) -> np.ndarray:
+def _levels(levels: object) -> np.ndarray:
     """Percentages."""
     found = numbers(levels, "the levels")
     if not found.size or not ((found >= 0) & (found <= 100)).all():
