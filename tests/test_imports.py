@@ -62,7 +62,8 @@ WINGS = {*("motion", "cam", "linkage", "machines", "study", "search", "decision"
 
 
 def test_nothing_else_stands_at_the_root() -> None:
-    found = {path.stem for path in (REPOSITORY / "camkit").iterdir() if path.name not in ("__init__.py", "__pycache__")}
+    beside = ("__init__.py", "__pycache__", "py.typed")
+    found = {path.stem for path in (REPOSITORY / "camkit").iterdir() if path.name not in beside}
     assert found == GROUND | WINGS
 
 
