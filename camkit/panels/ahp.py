@@ -15,9 +15,12 @@ from ..decision import SAATY_SCALE, Judgements, ahp, typed_judgement
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, escaped, html, table
 from ..views.front import weight_bars
-from .kit.controls import banner, show_message, small_html, tables_html
+from .kit.banner import Banner
+from .kit.controls import small_html, tables_html
+from .kit.layout import button, column, menu, wrapped
 from .kit.panel import Panel
 from .kit.picture import LivePicture
+from .kit.quiet import Quiet
 
 Pair = tuple[int, int]
 
@@ -40,28 +43,28 @@ class AhpPanel(Panel):
         self.start = self.judgements = judgements
         self.names = tuple(judgements.names)
         self._followers: list[Callable[[], None]] = []
-        self._silent = False
-        self.method = w.Dropdown(
-            options=[("eigenvector", "eigenvector"), ("geometric mean", "geometric")], description="weights by",
-            layout=w.Layout(width="230px"), style={"description_width": "initial"},
-        )  # fmt: skip
-        self.method.observe(lambda _: None if self._silent else self._judge(self.judgements), "value")
+        self._quiet = Quiet()
+        methods = [("eigenvector", "eigenvector"), ("geometric mean", "geometric")]
+        self.method = menu(methods, "weights by", "230px")
+        self._quiet.hear(self.method, lambda _: self._judge(self.judgements))
         self.sliders = {pair: self._slider(pair) for pair in judgements.pairs}
         self.boxes = {pair: self._box(pair) for pair in judgements.pairs}
         self.picture = LivePicture(
             (weight_bars,), f"Weights of {', '.join(self.names)}", width=7.2, height=0.9 + 0.5 * len(self.names)
         )
-        self._matrix, self._banner = w.HTML(), banner()
-        reset = w.Button(description="Reset", icon="undo", tooltip="back to the judgements that the panel began with")
-        reset.on_click(lambda _: self.load(self.start))
-        rows = [self._row(pair) for pair in judgements.pairs]
-        hint = w.HTML(small_html(HINT))
-        buttons = w.HBox([reset, self.method])
-        left = w.VBox([*rows, hint, buttons, self._banner, self._matrix], layout=w.Layout(flex="1 1 430px"))
-        right = w.Box([self.picture.widget], layout=w.Layout(flex="1 1 420px", max_width="720px"))
-        body = w.HBox([left, right], layout=w.Layout(flex_flow="row wrap", align_items="flex-start"))
-        super().__init__([w.HTML(html("<b>{}</b>", title)), body])
+        self.numbers, self.banner = w.HTML(), Banner()
+        super().__init__([w.HTML(html("<b>{}</b>", title)), self._body()])
         self.load(judgements)
+
+    def _body(self) -> w.Widget:
+        back = "back to the judgements that the panel began with"
+        reset = button("Reset", lambda: self.load(self.start), "undo", tooltip=back)
+        rows = [self._row(pair) for pair in self.sliders]
+        hint = w.HTML(small_html(HINT))
+        left = [*rows, hint, w.HBox([reset, self.method]), self.banner, self.numbers]
+        body = wrapped(column(left, 430), column([self.picture.widget], 420, 720))
+        body.layout.align_items = "flex-start"
+        return body
 
     def _slider(self, pair: Pair) -> w.SelectionSlider:
         slider = w.SelectionSlider(
@@ -70,7 +73,7 @@ class AhpPanel(Panel):
             readout=False,
             layout=w.Layout(width="170px"),
         )
-        slider.observe(lambda change: self._say(pair, change.new), "value")
+        self._quiet.hear(slider, lambda value: self._say(pair, value))
         return slider
 
     def _box(self, pair: Pair) -> w.Text:
@@ -79,7 +82,7 @@ class AhpPanel(Panel):
             continuous_update=False, placeholder="not judged", layout=w.Layout(width="88px"),
             tooltip=f"how many times {first} matters more than {second}",
         )  # fmt: skip
-        box.observe(lambda change: self._typed(pair, change.new), "value")
+        self._quiet.hear(box, lambda text: self._typed(pair, text))
         return box
 
     def _row(self, pair: Pair) -> w.Widget:
@@ -101,19 +104,17 @@ class AhpPanel(Panel):
                 f"there are judgements for {len(given.names)} criteria; this panel has {len(self.names)} criteria"
             )
         if isinstance(judgements, Judgements):
-            self._silent, self.method.value = True, given.method
-            self._silent = False
+            with self._quiet:
+                self.method.value = given.method
         self._judge(replace(given, names=self.names))
         if given.note:
-            show_message(self._banner, f"{given.note[0].upper()}{given.note[1:]}. {self.advice}".strip())
+            self.banner.show_message(f"{given.note[0].upper()}{given.note[1:]}. {self.advice}".strip())
 
     def on_change(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after every change of a judgement."""
         self._followers.append(act)
 
     def _typed(self, pair: Pair, words: str) -> None:
-        if self._silent:
-            return
         try:
             value = typed_judgement(words)
         except ValueError as refusal:
@@ -123,8 +124,6 @@ class AhpPanel(Panel):
 
     def _say(self, pair: Pair, value: float) -> None:
         """Judge one pair anew; ``nan``: leave it open."""
-        if self._silent:
-            return
         try:
             self._judge(self.judgements.judging(pair, value))
         except ValueError as refusal:
@@ -134,7 +133,7 @@ class AhpPanel(Panel):
         """Say why a judgement cannot be, and go back to the last one that could."""
         self._place(pair)
         first, second = (self.names[k] for k in pair)
-        show_message(self._banner, f"The judgement of {first} against {second} stays as it was: {sentence}.")
+        self.banner.show_message(f"The judgement of {first} against {second} stays as it was: {sentence}.")
 
     def _judge(self, judgements: Judgements) -> None:
         self.judgements = replace(judgements, method=self.method.value)
@@ -151,19 +150,16 @@ class AhpPanel(Panel):
         at = _nearest(options, float(self.judgements.complete().array[pair]))
         shown = tuple((_fraction(v), v) for v in options)
         (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
-        self._silent = True
-        try:
+        with self._quiet:
             if slider.options != shown:
                 slider.options = shown
             slider.value = at
             self.boxes[pair].value = "" if math.isnan(value) else _fraction(value)
-        finally:
-            self._silent = False
 
     def _show(self) -> None:
         self.picture.show(self.judgements)
-        self._matrix.value = self._matrix_html()
-        show_message(self._banner, self.advice)
+        self.numbers.value = self._matrix_html()
+        self.banner.show_message(self.advice)
 
     @property
     def advice(self) -> str:

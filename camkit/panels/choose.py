@@ -26,16 +26,20 @@ from ..views.decision import (
     winners_by_weight,
 )
 from ..views.parallel import Designs
-from .kit.controls import banner, bar_html, show_message, small_html, tables_html
+from .kit.banner import Banner
+from .kit.controls import bar_html, small_html, tables_html
+from .kit.front_picker import objective_texts, place_on
+from .kit.layout import button, menu, wrapped
 from .kit.panel import Panel
 from .kit.picture import LivePicture
+from .kit.quiet import Quiet
 
 NO_FRONT = "There is no front to choose from yet: run a search."
 HINT = "Drag along an axis to keep a band of it; click into the band to drop it; click a line to load its design."
 
 
 @runtime_checkable
-class FrontPanel(Protocol):
+class FrontSource(Protocol):
     """A panel with a front, such as `pareto_panel` gives."""
 
     front: Any
@@ -59,7 +63,7 @@ class ChoosePanel(Panel):
     ``measures`` are shown beside objectives and free quantities; by default those that have a limit.
     """
 
-    def __init__(self, source: FrontPanel, measures: Sequence[Measure] | None = None) -> None:
+    def __init__(self, source: FrontSource, measures: Sequence[Measure] | None = None) -> None:
         refuse_arguments(ChoosePanel.__init__, locals())
         self.source, self.measures = source, measures
         self.shown: ShownDecision | None = None
@@ -67,15 +71,15 @@ class ChoosePanel(Panel):
         self._columns: Any = None
         self._said: Any = None
         self._held: tuple[int, float] | None = None
-        self._silent = False
+        self._quiet = Quiet()
         self._drawing = threading.RLock()  # a search reports from a thread of its own
-        self._banner, self._table, self._verdict, self._count = banner(), w.HTML(), w.HTML(), w.HTML()
+        self.banner, self.numbers, self._verdict, self.count = Banner(), w.HTML(), w.HTML(), w.HTML()
         self._brushed, self._judged = w.Box(), w.Box()
         self._make_pictures()
         self._make_controls()
-        children = [self._table, self._loads, self._brushed, self._brush, self._judged, self._verdict]
+        children = [self.numbers, self._loads, self._brushed, self._brush, self._judged, self._verdict]
         self._body = w.VBox(children)
-        super().__init__([self._banner, self._body])
+        super().__init__([self.banner, self._body])
         self.take_up()
         source.on_front(self.take_up)
         source.explorer.on_change(lambda _: self._select())
@@ -84,31 +88,26 @@ class ChoosePanel(Panel):
 
     def _make_controls(self) -> None:
         buttons = [self._load_button(rule) for rule in MARKS]
-        self._loads = w.HBox([w.HTML("load the winner by"), *buttons], layout=w.Layout(flex_flow="row wrap"))
-        style = {"description_width": "initial"}
-        self.axis = w.Dropdown(description="keep of the", layout=w.Layout(width="330px"), style=style)
+        self._loads = wrapped(w.HTML("load the winner by"), *buttons)
+        self.axis = menu([], "keep of the", "330px")
         self.band = w.FloatRangeSlider(
             readout_format=".4g", continuous_update=True, layout=w.Layout(flex="1 1 260px", max_width="420px")
         )
-        self.axis.observe(lambda _: None if self._silent else self._show_band(), "value")
-        self.band.observe(lambda change: None if self._silent else self._keep(self.axis.value, change.new), "value")
-        clear = w.Button(description="Keep all", icon="undo", tooltip="drop every band", layout=w.Layout(width="auto"))
-        clear.on_click(lambda _: self._brush_with({}))
-        hint = w.HTML(small_html(HINT))
-        row = w.HBox([self.axis, self.band, clear, self._count], layout=w.Layout(flex_flow="row wrap"))
-        self._brush = w.VBox([hint, row])
+        self._quiet.hear(self.axis, lambda _: self._show_band())
+        self._quiet.hear(self.band, lambda band: self.keep(self.axis.value, band))
+        clear = button("Keep all", lambda: self._brush_with({}), "undo", tooltip="drop every band")
+        row = wrapped(self.axis, self.band, clear, self.count)
+        self._brush = w.VBox([w.HTML(small_html(HINT)), row])
 
     def _load_button(self, rule: str) -> w.Button:
-        button = w.Button(description=rule, icon="star", layout=w.Layout(width="auto"))
-        button.on_click(lambda _: self.source.select(self.shown.winners[rule]) if self.shown else None)
-        return button
+        return button(rule, lambda: self.source.select(self.shown.winners[rule]) if self.shown else None, "star")
 
     def take_up(self) -> None:
         """Show the source's front and the judgements as they are now."""
         with self._drawing:
             front = self.source.front
             self._body.layout.display = "" if len(front) else "none"
-            show_message(self._banner, "" if len(front) else f"{NO_FRONT} {front.message}".strip())
+            self.banner.show_message("" if len(front) else f"{NO_FRONT} {front.message}".strip())
             if not len(front):
                 self.shown = None
                 return
@@ -137,42 +136,39 @@ class ChoosePanel(Panel):
             self._make_pictures()
         self._columns = fresh.designs.columns
         if [label for label, _ in self.axis.options] != (labels := [c.name for c in fresh.designs.columns]):
-            self._silent = True
-            self.axis.options = [(label, j) for j, label in enumerate(labels)]
-            self.axis.index = 0
-            self._silent = False
+            with self._quiet:
+                self.axis.options = [(label, j) for j, label in enumerate(labels)]
+                self.axis.index = 0
 
     def _make_pictures(self) -> None:
         """Figures whose axes are to be named after the columns and objectives of the next decision."""
         old = (*self._brushed.children, *self._judged.children)
         brushed = LivePicture((brushed_designs, front_winners), "Designs of the front", width=12.6, height=4.5)
         judged = LivePicture((winners_by_weight, judgement_bars), "Winners by weight", width=12.6, height=4.4)
-        brushed.widget.on_pointer(self._pointer)
-        judged.widget.on_click(self._clicked_map)
+        brushed.widget.on_pointer(self.pointed)
+        judged.widget.on_click(self.map_clicked)
         brushed.said = self.summary
-        self._pictures, self.picture = [brushed, judged], brushed
+        self.pictures, self.picture = [brushed, judged], brushed
         self._brushed.children, self._judged.children = (brushed.widget,), (judged.widget,)
         for widget in old:
             widget.close()
 
     def _selected(self, shown: ShownDecision) -> int | None:
         """The front's design that is in the sliders, if one is."""
-        now = shown.front.study.x_of(self.source.explorer.design)
-        same = np.isclose(shown.front.x, now, rtol=1e-9, atol=0).all(-1)
-        return int(np.argmax(same)) if same.any() else None
+        return place_on(shown.front, self.source.explorer.design)
 
     def _select(self) -> None:
         """Mark the design in the sliders, if that changes anything."""
         with self._drawing:
             if self.shown and (selected := self._selected(self.shown)) != self.shown.designs.selected:
                 self.shown = replace(self.shown, designs=replace(self.shown.designs, selected=selected))
-                self._pictures[0].show(self.shown)
+                self.pictures[0].show(self.shown)
 
     def _show(self) -> None:
         assert self.shown
-        for picture in self._pictures:
+        for picture in self.pictures:
             picture.show(self.shown)
-        self._table.value = self._table_html()
+        self.numbers.value = self._table_html()
         self._verdict.value = joined(self.sureness, "<br>")
         self._show_band()
 
@@ -188,10 +184,10 @@ class ChoosePanel(Panel):
         with self._drawing:
             if self.shown:
                 self.shown = replace(self.shown, designs=replace(self.designs, bands=bands))
-                self._pictures[0].show(self.shown)
+                self.pictures[0].show(self.shown)
                 self._show_band()
 
-    def _keep(self, column: int, band: tuple[float, float]) -> None:
+    def keep(self, column: int, band: tuple[float, float]) -> None:
         """Keep what is inside ``band`` (in the column's unit); the whole column: no band."""
         low, high = self.designs.ends[:, column]
         whole = band[0] <= low and band[1] >= high
@@ -202,29 +198,25 @@ class ChoosePanel(Panel):
         """Slider and count say what the bands keep."""
         designs, j = self.designs, self.axis.value
         low, high = map(float, designs.ends[:, j])
-        self._silent = True
-        try:
-            with self.band.hold_trait_notifications():
-                self.band.min, self.band.max, self.band.step = low, high, (high - low) / 100 or 1.0
-                self.band.value = designs.bands.get(j, (low, high))
-        finally:
-            self._silent = False
+        with self._quiet, self.band.hold_trait_notifications():
+            self.band.min, self.band.max, self.band.step = low, high, (high - low) / 100 or 1.0
+            self.band.value = designs.bands.get(j, (low, high))
         self.band.disabled = high <= low
         column = designs.columns[j]
         name = f"{column.name}, {column.unit}" if column.unit else column.name
         count = f"{designs.kept.sum()} of {len(designs.kept)} designs kept"
-        self._count.value = html("<span {}>&ensp;{}</span>", attribute("data-name", name), count)
+        self.count.value = html("<span {}>&ensp;{}</span>", attribute("data-name", name), count)
 
-    def _pointer(self, kind: str, x: float, y: float) -> None:
+    def pointed(self, kind: str, x: float, y: float) -> None:
         """Drag a band, drop it or load a design."""
-        at, height = self._in_data(self._pictures[0], x, y)
+        at, height = self.pictures[0].in_data(x, y)
         column = int(np.clip(round(at), 0, len(self.designs.columns) - 1))
         inside = -0.45 < at < len(self.designs.columns) - 0.55 and -0.15 < height < 1.2
         if kind == "press":
             self._held = (column, self.designs.value(column, height)) if inside and abs(at - column) < 0.3 else None
         elif kind == "drag" and self._held:
             held, start = self._held
-            self._keep(held, tuple(sorted((start, self.designs.value(held, height)))))  # type: ignore[arg-type]
+            self.keep(held, tuple(sorted((start, self.designs.value(held, height)))))  # type: ignore[arg-type]
         elif kind == "click" and inside:
             self._click(column, at, height)
 
@@ -235,18 +227,12 @@ class ChoosePanel(Panel):
         elif (design := self.designs.nearest(at, height)) is not None:
             self.source.select(design)
 
-    def _clicked_map(self, x: float, y: float) -> None:
+    def map_clicked(self, x: float, y: float) -> None:
         """Load the winner at the weights under the pointer."""
         assert self.shown
-        design = self.shown.winner_at(*self._in_data(self._pictures[1], x, y))
+        design = self.shown.winner_at(*self.pictures[1].in_data(x, y))
         if design is not None:
             self.source.select(design)
-
-    @staticmethod
-    def _in_data(picture: LivePicture, x: float, y: float) -> tuple[float, float]:
-        width, height = picture.figure.canvas.get_width_height()
-        across, up = picture.axes[0].transData.inverted().transform((x * width, (1 - y) * height))
-        return float(across), float(up)
 
     # ------------------------------------------------------------ words
 
@@ -292,12 +278,12 @@ class ChoosePanel(Panel):
     def _told(self, design: int) -> str:
         """A design's objectives."""
         assert self.shown
-        goals = zip(self.shown.front.study.minimise, self.shown.front.f[design], strict=True)
-        return f"design {design}, {', '.join(f'{m.name} {m.text(m.sign * v)}' for m, v in goals)}"
+        front = self.shown.front
+        return f"design {design}, {', '.join(objective_texts(front.study, front.f[design]))}"
 
     def still(self) -> bytes:
         """Both pictures, one below the other; without a front there is nothing to see."""
-        return below(*(picture.png() for picture in self._pictures if self.shown))
+        return below(*(picture.png() for picture in self.pictures if self.shown))
 
 
 def _numbers_of(front: Any) -> Any:
@@ -305,7 +291,7 @@ def _numbers_of(front: Any) -> Any:
     return front.study.minimise, tuple(front.study.free), front.x.tobytes(), front.f.tobytes()
 
 
-def choose_panel(source: FrontPanel, measures: Sequence[Measure] | None = None) -> ChoosePanel:
+def choose_panel(source: FrontSource, measures: Sequence[Measure] | None = None) -> ChoosePanel:
     """The winners of ``source``'s front side by side, how sure they are, and bands to narrow it down.
 
     ``source`` is a `Search` or another panel with a front.

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import ipywidgets as w
@@ -17,12 +16,13 @@ from ..study.study import Study, WeightedSum, made_study
 from ..units import factor
 from ..views.design_map import ShownPlane, objective_plane
 from .explore import Explorer
-from .kit.controls import NumberRow, banner, show_message
+from .kit.banner import Banner
+from .kit.controls import NumberRow
 from .kit.latest_only import Debounced
+from .kit.layout import button, column, menu, wrapped
 from .kit.panel import IMPOSSIBLE, Panel
 from .kit.picture import SETTLE, LivePicture
-
-MakeStudy = Callable[..., Study]
+from .kit.runner import MakeStudy
 
 
 def optimum(plane: DesignMap) -> np.ndarray | None:
@@ -60,44 +60,32 @@ class ContourPanel(Panel):
         refuse_arguments(ContourPanel.__init__, locals())
         refuse_empty(studies, "studies")
         self.explorer, self.studies, self.steps = explorer, studies, steps
-        self.menu = w.Dropdown(
-            options=list(studies),
-            description="problem",
-            layout=w.Layout(width="auto"),
-            style={"description_width": "66px"},
-        )
+        self.menu = menu(list(studies), "problem", "auto", "66px")
         self.menu.observe(lambda _: self._changed(), "value")
+        self.verdict, self.banner = w.HTML(), Banner()
         self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
         self.plane = DesignMap(self.study, n=steps)
         self.optimum: np.ndarray | None = None
         self._key: Any = None
         self._searched = False
-        self._later, self._settling = Debounced(self.settle, SETTLE), threading.RLock()
-        self.verdict, self._banner = w.HTML(), banner()
-        self.take = w.Button(description="Load the optimum", icon="star", disabled=True, layout=w.Layout(width="auto"))
-        self.take.on_click(lambda _: self.load(self.optimum))
+        self.later = Debounced(self._catch_up, SETTLE)
+        self.take = button("Load the optimum", lambda: self.load(self.optimum), "star", disabled=True)
         self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=5.6)
-        self.picture.widget.on_click(self._clicked)
+        self.picture.widget.on_click(self.clicked)
         super().__init__([self._body()])
         self._changed()
         self.settle()
-        explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
+        explorer.on_change(lambda _: self.later.ask())  # the sliders' own pictures come first
 
     def _knob(self, i: int, name: str, value: float) -> NumberRow:
         a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)
         declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
-        return NumberRow(name, declared, value, self._changed, lambda sentence: show_message(self._banner, sentence))
+        return NumberRow(name, declared, value, self._changed, self.banner.show_message)
 
     def _body(self) -> w.Widget:
         take = w.HBox([self.take])
-        left = [self.menu, *(knob.row for knob in self.knobs), take, self._banner, self.verdict]
-        return w.HBox(
-            [
-                w.VBox(left, layout=w.Layout(flex="1 1 340px", max_width="560px")),
-                w.VBox([self.picture.widget], layout=w.Layout(flex="1 1 480px", max_width="740px")),
-            ],
-            layout=w.Layout(flex_flow="row wrap"),
-        )
+        left = [self.menu, *(knob.row for knob in self.knobs), take, self.banner, self.verdict]
+        return wrapped(column(left, 340, 560), column([self.picture.widget], 480, 740))
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -118,7 +106,7 @@ class ContourPanel(Panel):
     def _changed(self) -> None:
         """Another problem or other weights: shown at once, the optimum a moment later."""
         self._take_up()
-        self._later.ask()
+        self.later.ask()
 
     def _take_up(self) -> None:
         """Another plane, unless only the free quantities of the design moved."""
@@ -128,7 +116,7 @@ class ContourPanel(Panel):
             plane = self.plane if key == self._key else DesignMap(study, n=self.steps)
             _ = plane.evaluation  # now, and not while it is drawn
         except IMPOSSIBLE as refusal:
-            show_message(self._banner, f"This cannot be surveyed: {refusal}.")
+            self.banner.show_message(f"This cannot be surveyed: {refusal}.")
             return
         last = self._key, self.plane, self.optimum, self._searched
         if key != self._key:
@@ -137,17 +125,17 @@ class ContourPanel(Panel):
             self._show()
         except IMPOSSIBLE as refusal:
             self._key, self.plane, self.optimum, self._searched = last
-            show_message(self._banner, f"This cannot be surveyed: {refusal}.")
+            self.banner.show_message(f"This cannot be surveyed: {refusal}.")
         else:
-            show_message(self._banner, "")
+            self.banner.show_message("")
 
     def settle(self) -> None:
         """Catch up with the design in the sliders, and look for the optimum if that is still to be done."""
-        with self._settling:
-            if self._later.waiting:
-                self._later.cancel()
-                self._take_up()
-                self._search()
+        self.later.settle()
+
+    def _catch_up(self) -> None:
+        self._take_up()
+        self._search()
 
     def _search(self) -> None:
         plane = self.plane
@@ -155,7 +143,7 @@ class ContourPanel(Panel):
             try:
                 best = optimum(plane)
             except IMPOSSIBLE as refusal:
-                show_message(self._banner, f"The optimum cannot be found: {refusal}.")
+                self.banner.show_message(f"The optimum cannot be found: {refusal}.")
                 return
             if plane is self.plane:  # nobody has moved anything since
                 self.optimum, self._searched = best, True
@@ -188,11 +176,10 @@ class ContourPanel(Panel):
         free = dict(zip(self.plane.study.free, map(float, x), strict=True))
         self.explorer.load(with_quantities(self.explorer.design, free))
 
-    def _clicked(self, x: float, y: float) -> None:
-        width, height = self.picture.figure.canvas.get_width_height()
-        point = self.picture.axes[0].transData.inverted().transform((x * width, (1 - y) * height))
+    def clicked(self, x: float, y: float) -> None:
+        """Load the design at a share of the picture's width and height."""
         low, high = self.plane.study.bounds
-        shown = point * [factor(q.unit) for q in self.plane.declared]
+        shown = self.picture.in_data(x, y) * np.array([factor(q.unit) for q in self.plane.declared])
         if (low <= shown).all() and (shown <= high).all():
             self.load(shown)
 
@@ -201,10 +188,6 @@ class ContourPanel(Panel):
         problem, taken, _ = self._key
         weights = ", ".join(f"W_{i} {weight:.4g}" for i, weight in enumerate(taken, start=1))
         return "\n".join([f"{problem}: {weights}", *self._lines()])
-
-    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
-        self.settle()
-        return super()._repr_mimebundle_(**kwargs)
 
 
 def _text(measure: Measure, analysis: Any) -> str:

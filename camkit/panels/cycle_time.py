@@ -15,7 +15,8 @@ from ..study.study import Study, made_study
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
 from .explore import Explorer
-from .kit.controls import NumberRow, show_message
+from .kit.controls import NumberRow
+from .kit.layout import button
 from .kit.picture import LivePicture
 from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
 
@@ -52,8 +53,7 @@ class CycleTimePanel(JobPanel):
         self.steps: list[IntervalStep] = []
         self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, explorer.start, make)
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
-        self.take = w.Button(description="Load the design", icon="star", disabled=True, layout=w.Layout(width="auto"))
-        self.take.on_click(lambda _: self.load())
+        self.take = button("Load the design", self.load, "star", disabled=True)
         self.verdict = w.HTML()
         self.picture = LivePicture((intervals_tried,), "Intervals tried", width=6.6, height=3.9)
         self.picture.show(ShownIntervals(self.measure, limit, ()))
@@ -70,7 +70,7 @@ class CycleTimePanel(JobPanel):
         return NumberRow(f"{name}_interval", declared, value, lambda: None, self._refused)
 
     def _refused(self, sentence: str) -> None:
-        show_message(self.runner.banner, sentence)
+        self.runner.banner.show_message(sentence)
 
     def _asked(self) -> list[w.Widget]:
         runner = self.runner

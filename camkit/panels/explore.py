@@ -31,7 +31,9 @@ from ..study.tolerances import ANGLES
 from ..units import deg
 from ..views.defaults import default_views
 from ..views.picture import View
-from .kit.controls import Download, Menu, NumberRow, Upload, banner, control, show_message, tables_html
+from .kit.banner import Banner
+from .kit.controls import Download, Menu, NumberRow, Upload, control, tables_html
+from .kit.layout import button
 from .kit.orbit import Orbit
 from .kit.panel import IMPOSSIBLE, Panel, reason
 from .kit.picture import DRAWING, LivePicture
@@ -82,28 +84,31 @@ class Explorer(Panel):
         self.design: Any = design
         self.analysis = design.analyse()
         self.measures = tuple(measures)
-        self._limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {
-            m: (v, -1) for m, v in (at_least or {}).items()
-        }
+        upper, lower = dict(at_most or {}), dict(at_least or {})
+        self._limits = {m: (v, 1) for m, v in upper.items()} | {m: (v, -1) for m, v in lower.items()}
         self._first = [float(m(self.analysis)) for m in self.measures]
         self._followers: list[Callable[[Any], None]] = []
         views = tuple(views) or default_views(self.analysis)
         self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
-        self._banner, self._undercut = banner(), banner()
+        self.banner, self._undercut = Banner(), Banner()
         self._impossible = ""
         self._free = Paths(design, free).declared if free is not None and len(free) else None
         self.controls: dict[str, NumberRow | Menu] = {}
         self._grid = w.Box()
         self._grid.add_class("camkit-grid")
-        wanted = dict.fromkeys(name for view in views for name in positions_of(view))
-        position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
-        self.positions = {name: self._position(name, position[name]) for name in wanted}
-        if {"azimuth", "elevation"} <= self.positions.keys():
-            self._orbit = Orbit(self.picture, self.positions, self._show)
+        self.positions = self._make_positions({"turn": turn, "azimuth": azimuth, "elevation": elevation})
         self._fit_controls(design)
-        self._table = w.HTML()
-        super().__init__([self._grid, self._buttons(), self._banner, self._undercut, self.picture.widget, self._table])
+        self.numbers = w.HTML()
+        super().__init__([self._grid, self._buttons(), self.banner, self._undercut, self.picture.widget, self.numbers])
         self._show()
+
+    def _make_positions(self, first: Mapping[str, float | None]) -> dict[str, NumberRow]:
+        """The controls of the positions that the views can show, at their ``first`` values."""
+        wanted = dict.fromkeys(name for view in self.picture.views for name in positions_of(view))
+        positions = {name: self._position(name, first[name]) for name in wanted}
+        if {"azimuth", "elevation"} <= positions.keys():
+            self._orbit = Orbit(self.picture, positions, self._show)
+        return positions
 
     def _fit_controls(self, design: Any) -> None:
         """Controls for the paths that ``design`` has: another law has other coefficients."""
@@ -149,9 +154,8 @@ class Explorer(Panel):
         return angle, float(np.min(values)), float(np.max(values))
 
     def _buttons(self) -> w.Widget:
-        reset = w.Button(description="Reset", icon="undo", tooltip="back to the design that the panel began with")
-        reset.layout.width = "auto"
-        reset.on_click(lambda _: self.load(self.start))
+        back = "back to the design that the panel began with"
+        reset = button("Reset", lambda: self.load(self.start), "undo", tooltip=back)
         name = type(self.design).__name__
         save = self._file("Save design", f"{name}.json", "application/json", lambda: designs.to_json(self.design))
         table = self._file("Profile as CSV", f"{name}.csv", "text/csv", lambda: profiles.profile_csv(self.analysis))
@@ -170,10 +174,7 @@ class Explorer(Panel):
                 raise ValueError(self._impossible[0].lower() + self._impossible[1:-1])
             return content()
 
-        return Download(description, filename, mime, shown, self._say)
-
-    def _say(self, sentence: str) -> None:
-        show_message(self._banner, sentence)
+        return Download(description, filename, mime, shown, self.banner.show_message)
 
     def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
@@ -181,11 +182,11 @@ class Explorer(Panel):
             found = designs.read_json(file, type(self.design))
             found.thing.analyse()
         except IMPOSSIBLE as refusal:
-            show_message(self._banner, f"This file cannot be used: {reason(refusal)}.")
+            self.banner.show_message(f"This file cannot be used: {reason(refusal)}.")
         else:
             self.load(found.thing)
             if self.design is found.thing:  # else it cannot be built, which the banner says
-                show_message(self._banner, remarked(found))
+                self.banner.show_message(remarked(found))
 
     def load(self, design: Any) -> None:
         """Show ``design``: every slider moves to its value; ``ValueError`` for what is no design of this kind."""
@@ -233,18 +234,17 @@ class Explorer(Panel):
             try:
                 act(self.design)
             except IMPOSSIBLE as error:
-                show_message(self._banner, f"What belongs to this design cannot be shown everywhere: {reason(error)}.")
+                self.banner.show_message(f"What belongs to this design cannot be shown everywhere: {reason(error)}.")
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture and the numbers, which would belong to another design."""
         self._impossible = f"This cannot be built: {sentence}."
-        show_message(self._banner, self._impossible)
-        show_message(self._undercut, "")
-        self.picture.widget.layout.display = self._table.layout.display = "none"
+        self.refuse_picture(self._impossible)
+        self._undercut.show_message("")
 
     def _refuse_number(self, sentence: str) -> None:
         """Say why a number was not taken; what is shown stays."""
-        show_message(self._banner, f"{sentence} {self._impossible}".strip())
+        self.banner.show_message(f"{sentence} {self._impossible}".strip())
 
     def _go_back(self, design: Any, analysis: Any, error: Exception) -> None:
         """Controls, picture and numbers of the last design, and a sentence that says why."""
@@ -252,7 +252,7 @@ class Explorer(Panel):
         self._set_controls(design)
         self._fit_turn()
         self._reveal()
-        show_message(self._banner, f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
+        self.banner.show_message(f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
 
     def _turned(self) -> None:
         if not self._impossible:
@@ -270,15 +270,14 @@ class Explorer(Panel):
         limits = {measure: value for measure, (value, _) in self._limits.items()}
         self.picture.show(self.analysis, limits=limits, **position)
         self._fit_controls(self.design)
-        self._table.value = numbers
+        self.numbers.value = numbers
         self._reveal()
 
     def _reveal(self) -> None:
         """Picture and numbers belong to the design."""
         self._impossible = ""
-        show_message(self._banner, "")
-        show_message(self._undercut, undercut_in_words(self.analysis), "status")
-        self.picture.widget.layout.display = self._table.layout.display = ""
+        self.refuse_picture("")
+        self._undercut.show_message(undercut_in_words(self.analysis), "status")
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
@@ -310,9 +309,10 @@ class Explorer(Panel):
             return super().still()
         low, high = self._turn_range()[1:]
         turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
+        picture = super().still()
         with DRAWING:
             below_it = strip(self.analysis, turning[0], turns, width=self.picture.figure.get_figwidth())
-            return below(super().still(), small_png(below_it))
+            return below(picture, small_png(below_it))
 
     def summary(self) -> str:
         """Every measure as it is now."""

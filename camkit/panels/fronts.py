@@ -18,7 +18,10 @@ from ..study.study import Study, made_study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .explore import Explorer
 from .kit.controls import tables_html
+from .kit.front_picker import objective_texts
+from .kit.layout import menu, wrapped
 from .kit.picture import LivePicture
+from .kit.quiet import Quiet
 from .kit.runner import JobPanel, Runner
 
 Search = Callable[[Study], Iterator[Step]]
@@ -46,10 +49,10 @@ class FrontsPanel(JobPanel):
         self._refuse_other_objectives()
         self.start = self._objectives(explorer.start.analyse())
         self.seconds: dict[str, float] = {}
-        self._silent = False
+        self._quiet = Quiet()
         self._make_widgets()
         self.picture = LivePicture((fronts_overlaid,), "Fronts laid over each other", width=8.6, height=5.4)
-        self.picture.widget.on_click(self._clicked)
+        self.picture.widget.on_click(self.clicked)
         super().__init__([self._beside_picture(self._asked(), (360, 560), (520, 860))])
         self._show()
         explorer.on_change(lambda _: self._show_here())
@@ -72,22 +75,20 @@ class FrontsPanel(JobPanel):
             raise ValueError(f"the fronts are of {named}; they must be of the same two objectives")
 
     def _make_widgets(self) -> None:
-        style = {"description_width": "62px"}
         page = self.explorer.start, list(self.ways)
         self.runner = Runner("Compute the fronts", lambda: self._steps(self.explorer.design), self._show_step, *page)
         self.runner.run_button.disabled = not self.ways
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
-        self.menu = w.Dropdown(
-            options=list(self.fronts), description="front", layout=w.Layout(width="330px"), style=style
-        )
+        self.menu = menu(list(self.fronts), "front", "330px", "62px")
+        style = {"description_width": "62px"}
         self.pick = w.IntSlider(0, 0, 0, description="design", layout=w.Layout(width="330px"), style=style)
         self.table = w.HTML()
         self.menu.observe(lambda _: self._fit_slider(), "value")
-        self.pick.observe(lambda change: None if self._silent else self.select(self.menu.value, change.new), "value")
+        self._quiet.hear(self.pick, lambda index: self.select(self.menu.value, index))
 
     def _asked(self) -> list[w.Widget]:
         runner = self.runner
-        buttons = w.HBox([runner.run_button, runner.stop_button, self.progress], layout=w.Layout(flex_flow="row wrap"))
+        buttons = wrapped(runner.run_button, runner.stop_button, self.progress)
         return [*([buttons, runner.status, runner.banner] if self.ways else []), self.menu, self.pick, self.table]
 
     # ------------------------------------------------------------ the searches
@@ -131,9 +132,8 @@ class FrontsPanel(JobPanel):
     def _fit_slider(self) -> None:
         """As many designs as the front in the menu has."""
         count = len(self.fronts[self.menu.value])
-        self._silent = True
-        self.pick.max, self.pick.disabled = max(count - 1, 0), not count
-        self._silent = False
+        with self._quiet:
+            self.pick.max, self.pick.disabled = max(count - 1, 0), not count
 
     def shares(self) -> dict[str, float]:
         """What each front dominates (see `dominated_shares`), up to the design that the explorer began with."""
@@ -150,35 +150,28 @@ class FrontsPanel(JobPanel):
         """Load a design of one of the fronts into the sliders."""
         if index >= len(self.fronts[name]):
             return
-        self._silent = True
-        self.menu.value = name
-        self._fit_slider()
-        self._silent = True
-        self.pick.value = index
-        self._silent = False
+        with self._quiet:
+            self.menu.value = name
+            self._fit_slider()
+            self.pick.value = index
         self.explorer.load(self.fronts[name][index])
 
-    def _clicked(self, x: float, y: float) -> None:
+    def clicked(self, x: float, y: float) -> None:
         """Load the nearest point."""
-        width, height = self.picture.figure.canvas.get_width_height()
-        at = np.array([x * width, (1 - y) * height])
-        found = []
-        for name, front in self.fronts.items():
-            points = self.picture.axes[0].transData.transform(shown_objectives(front).T)
-            found += [(float(np.hypot(*(point - at))), name, i) for i, point in enumerate(points)]
-        if found:
-            _, name, index = min(found)
-            self.select(name, index)
+        places = [(name, i) for name, front in self.fronts.items() for i in range(len(front))]
+        points = np.concatenate([shown_objectives(front).T for front in self.fronts.values()])
+        nearest = self.picture.nearest(points, x, y)
+        if nearest is not None:
+            self.select(*places[nearest])
 
     def summary(self) -> str:
         """Each front with what it dominates, and the design in the sliders."""
         lines = [
             f"{name}: {len(self.fronts[name])} designs, dominates {100 * s:.0f} %" for name, s in self.shares().items()
         ]
-        measures = next(iter(self.fronts.values())).study.minimise
+        study = next(iter(self.fronts.values())).study
         here = self._objectives(self.explorer.analysis)
-        goals = ", ".join(f"{m.name} {m.text(m.sign * f)}" for m, f in zip(measures, here, strict=True))
-        return "\n".join([*lines, f"in the sliders: {goals}"])
+        return "\n".join([*lines, f"in the sliders: {', '.join(objective_texts(study, here))}"])
 
 
 def compare_fronts(

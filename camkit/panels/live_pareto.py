@@ -4,32 +4,32 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
-from ..decision import CHOOSERS
-from ..quantities import Paths, Quantity, value_of, with_quantities, words
+from ..quantities import Paths, Quantity, value_of, with_quantities
 from ..quantities.kinds import refuse_arguments, refuse_empty
-from ..quantities.markup import html, joined
+from ..quantities.markup import Html, html, joined
 from ..search.fast_front import quick_front
 from ..search.front import Front
 from ..search.protocol import search
 from ..study.study import Study, made_study, refuse_bounds
-from ..views.front import LiveFront, live_pareto, shown_objectives
+from ..views.front import LiveFront, live_pareto
 from .ahp import AhpPanel
 from .explore import Explorer
-from .kit.controls import banner, show_message
+from .kit.banner import Banner
+from .kit.front_picker import FrontPanel, FrontPicker, objective_texts
 from .kit.latest_only import LatestOnly
-from .kit.panel import IMPOSSIBLE, Panel
+from .kit.layout import column, menu, wrapped
+from .kit.panel import IMPOSSIBLE
 from .kit.picture import LivePicture
+from .kit.runner import MakeStudy
 
-MakeStudy = Callable[..., Study]
 
-
-class LiveParetoPanel(Panel):
+class LiveParetoPanel(FrontPanel):
     """The Pareto front around the design of an `Explorer`, which follows its sliders and the judgements.
 
     ``studies`` maps a name in the menu to a function ``make(start, reference=, space=)`` that gives a `Study`; it
@@ -53,22 +53,20 @@ class LiveParetoPanel(Panel):
         refuse_bounds(Paths(explorer.start, space, Quantity).declared, space)
         self.explorer, self.studies, self.space = explorer, dict(studies), dict(space)
         self.criteria, self.importance = criteria, importance
-        self.winner: int | None = None
-        self._followers: list[Callable[[], None]] = []
         self._lock = threading.RLock()
-        self._silent = False
         self._worker = LatestOnly(self._compute)
         self._make_widgets()
         self._wanted = self.menu.value, self._asked()
         began = time.monotonic()
-        self._mode, self.front = self.menu.value, quick_front(self._wanted[1])
-        self._first = {self._mode: self.front}
+        self._mode, first = self.menu.value, quick_front(self._wanted[1])
+        self._first = {self._mode: first}
+        self.picker = self._make_picker(first)
         self.picture = LivePicture((live_pareto,), "Pareto front that follows the sliders", width=7.6, height=4.8)
         self.picture.figure.set_layout_engine("constrained", w_pad=0.15)  # numbers on the axes may get longer
-        self.picture.widget.on_click(self._clicked)
+        self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
         super().__init__([self._body()])
         self._tell_time(time.monotonic() - began)
-        self._show()
+        self._show(first)
         explorer.on_change(lambda _: self._changed())
         if criteria:
             criteria.on_change(self._changed)
@@ -76,31 +74,30 @@ class LiveParetoPanel(Panel):
             importance.on_change(self._judged)
 
     def _make_widgets(self) -> None:
-        wide, style = w.Layout(width="100%", max_width="430px"), {"description_width": "78px"}
-        self.menu = w.Dropdown(options=list(self.studies), description="problem", layout=wide, style=style)
-        self.rule = w.Dropdown(options=list(CHOOSERS), description="choose by", layout=wide, style=style)
-        self.pick = w.IntSlider(
-            0, 0, 0, description="design", layout=wide, style=style, tooltip="loads a design of the front"
-        )
-        fits = w.Layout(width="auto")
-        self.take = w.Button(description="Load the winner", icon="star", layout=fits)
-        self.status, self.verdict, self._banner = w.HTML(), w.HTML(), banner()
+        self.menu = menu(list(self.studies), "problem", "100%", "78px")
+        self.menu.layout.max_width = "430px"
+        self.status, self.numbers, self.banner = w.HTML(), w.HTML(), Banner()
         self.status.add_class("camkit-status")
         self.menu.observe(lambda _: self._changed(), "value")
-        self.rule.observe(lambda _: self._judged(), "value")
-        self.pick.observe(lambda change: None if self._silent else self.select(change.new), "value")
-        self.take.on_click(lambda _: self.select(self.winner))
+
+    def _make_picker(self, front: Front) -> FrontPicker:
+        picker = FrontPicker(self.explorer, front, self.importance, self._judged, self._with_free)
+        for part in (picker.rule, picker.pick):
+            part.layout.width, part.layout.max_width = "100%", "430px"
+            part.style.description_width = "78px"
+        return picker
+
+    def _with_free(self, index: int) -> Any:
+        """A design of the front; what is not free stays as it is in the sliders."""
+        front = self.front
+        free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))
+        return with_quantities(self.explorer.design, free)
 
     def _body(self) -> w.Widget:
         menus = [self.menu] if len(self.studies) > 1 else []
-        left = [*menus, self.rule, self.pick, w.HBox([self.take]), self.status, self.verdict]
-        return w.HBox(
-            [
-                w.VBox(left, layout=w.Layout(flex="1 1 340px", max_width="560px")),
-                w.VBox([self._banner, self.picture.widget], layout=w.Layout(flex="1 1 480px", max_width="760px")),
-            ],
-            layout=w.Layout(flex_flow="row wrap"),
-        )
+        picker = self.picker
+        left = [*menus, picker.rule, picker.pick, w.HBox([picker.take]), self.status, self.numbers]
+        return wrapped(column(left, 340, 560), column([self.banner, self.picture.widget], 480, 760))
 
     # ------------------------------------------------------------ the front
 
@@ -120,7 +117,7 @@ class LiveParetoPanel(Panel):
 
     def _follow(self, mode: str, study: Study) -> None:
         if (mode, study) == self._wanted:
-            self._show()
+            self._show(self.front)
             return
         if mode == self._mode and study.start == self.front.study.start:
             self._take(mode, self.front.judged_by(study))  # the same designs weighed anew are there at once
@@ -154,15 +151,15 @@ class LiveParetoPanel(Panel):
 
     def _take(self, mode: str, front: Front, seconds: float | None = None) -> None:
         with self._lock:
-            self._mode, self.front = mode, front
+            self._mode = mode
+            self._show(front)
             if seconds is not None:
                 self._tell_time(seconds)
-            self._show()
         self._tell_followers()
 
     def _tell_time(self, seconds: float) -> None:
         self.status.value = (
-            f"{self._count()} on the front, found in {1000 * seconds:.0f} ms, "
+            f"{self.picker.choice.count} on the front, found in {1000 * seconds:.0f} ms, "
             f"each judged on {self.front.study.angles} angles"
         )
 
@@ -170,41 +167,27 @@ class LiveParetoPanel(Panel):
         """Wait until the front belongs to the design in the sliders."""
         self._worker.wait()
 
-    def on_front(self, act: Callable[[], None]) -> None:
-        """Call ``act()`` after each new front is shown, from whichever thread shows it."""
-        self._followers.append(act)
-
-    def _tell_followers(self) -> None:
-        for act in self._followers:
-            act()
-
     # ------------------------------------------------------------ what is shown
 
     def _judged(self) -> None:
         """Another winner of the same front."""
-        self._show()
+        self._show(self.front)
         self._tell_followers()
 
-    def _show(self) -> None:
+    def _show(self, front: Front) -> None:
         with self._lock:
-            front, weights = self.front, self.importance.weights if self.importance else None
-            self.winner = CHOOSERS[self.rule.value](front, weights) if len(front) else None
-            self.take.disabled = self.pick.disabled = self.winner is None
+            self.picker.show(front)
             if not len(front):
                 self._refuse(front.message)
                 return
-            show_message(self._banner, "")
-            self.picture.widget.layout.display = ""
-            self._fit_slider()
+            self.refuse_picture("")
             here = self._here()
-            self.verdict.value = joined(self._lines(here), "<br>")
+            self.numbers.value = joined([*self.picker.choice.verdict(), self._in_sliders(here)], "<br>")
             self.picture.show(LiveFront(front, self._before(), here, self.winner))
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture."""
-        show_message(self._banner, f"There is no front: {sentence}.")
-        self.picture.widget.layout.display = "none"
-        self.verdict.value = ""
+        self.refuse_picture(f"There is no front: {sentence}.")
 
     def _here(self) -> np.ndarray:
         """Objectives of the design in the sliders, ``(k,)``."""
@@ -217,64 +200,19 @@ class LiveParetoPanel(Panel):
         first = self._first.get(self._mode, self.front)
         return first.judged_by(first.study.weighing(self.criteria.weights)) if self.criteria else first
 
-    def _fit_slider(self) -> None:
-        """The slider at the design that is in the explorer's, if it is one of the front."""
-        now = self.front.study.x_of(self.explorer.design)
-        same = np.flatnonzero(np.isclose(self.front.x, now, rtol=1e-9, atol=0).all(-1))
-        self._silent = True
-        try:
-            self.pick.max = len(self.front) - 1
-            if len(same):
-                self.pick.value = int(same[0])
-        finally:
-            self._silent = False
-
-    def _lines(self, here: np.ndarray) -> list[str]:
-        """The winner and the design in the sliders, in words."""
-        front, winner = self.front, self.winner
-        free = zip(front.study.free, front.x[winner], strict=True)
-        better = int(((front.f <= here).all(-1) & (front.f < here).any(-1)).sum())
-        return [
-            html("<b>winner: design {}</b> of 0..{}: {}", winner, len(front) - 1, self._goals(front.f[winner])),
-            ", ".join(f"{words(name)} {front.study.declared[name].text(value)}" for name, value in free),
-            html(
-                "<b>in the sliders</b>: {}; {} better in every wish",
-                self._goals(here),
-                f"{better or 'none'} of the front {'are' if better > 1 else 'is'}",
-            ),
-        ]
-
-    def _goals(self, f: np.ndarray) -> str:
-        return ", ".join(f"{m.name} {m.text(m.sign * v)}" for m, v in zip(self.front.study.minimise, f, strict=True))
-
-    def select(self, index: int | None) -> None:
-        """Load one design of the front into the sliders; what is not free stays as it is there."""
-        front = self.front
-        if index is None or index >= len(front):
-            return
-        free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))
-        self.explorer.load(with_quantities(self.explorer.design, free))
-
-    def _clicked(self, x: float, y: float) -> None:
-        width, height = self.picture.figure.canvas.get_width_height()
-        points = self.picture.axes[0].transData.transform(shown_objectives(self.front).T)
-        if len(points):
-            self.select(int(np.argmin(np.hypot(*(points - (x * width, (1 - y) * height)).T))))
+    def _in_sliders(self, here: np.ndarray) -> Html:
+        """The design in the sliders, in words."""
+        f = self.front.f
+        better = int(((f <= here).all(-1) & (f < here).any(-1)).sum())
+        return html(
+            "<b>in the sliders</b>: {}; {} better in every wish",
+            ", ".join(objective_texts(self.front.study, here)),
+            f"{better or 'none'} of the front {'are' if better > 1 else 'is'}",
+        )
 
     def summary(self) -> str:
         """The front's size and its winner."""
-        if self.winner is None:
-            return f"no front: {self.front.message}"
-        f, study = self.front.f[self.winner], self.front.study
-        goals = (f"{m.name}: {m.text(m.sign * v)}" for m, v in zip(study.minimise, f, strict=True))
-        return "\n".join([f"{self._count()} on the front; winner by {self.rule.value}:", *goals])
-
-    def _count(self) -> str:
-        return "1 design" if len(self.front) == 1 else f"{len(self.front)} designs"
-
-    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
-        self.settle()
-        return super()._repr_mimebundle_(**kwargs)
+        return self.picker.choice.summary()
 
 
 def live_pareto_panel(

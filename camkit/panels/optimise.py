@@ -17,7 +17,7 @@ from ..search.protocol import Evaluated, Step, search
 from ..study.study import Study, made_study
 from ..views.progress import ShownLooks, best_so_far
 from .explore import Explorer
-from .kit.controls import show_message
+from .kit.layout import button
 from .kit.number import WholeBox, staying
 from .kit.picture import LivePicture
 from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
@@ -51,8 +51,7 @@ class OptimisePanel(JobPanel):
         self.minimum: Minimum | None = None
         self.before: Any = None
         self.runner = Runner("Optimise from here", self._prepare, self._show, explorer.start, make)
-        self.back = w.Button(description="Put back", icon="undo", disabled=True, layout=w.Layout(width="auto"))
-        self.back.on_click(lambda _: self.explorer.load(self.before))
+        self.back = button("Put back", lambda: self.explorer.load(self.before), "undo", disabled=True)
         self.verdict = w.HTML()
         self._lines: tuple[str, ...] = ()
         self._seen: list[Evaluated] = []
@@ -67,7 +66,7 @@ class OptimisePanel(JobPanel):
         return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
 
     def _refused(self, sentence: str) -> None:
-        show_message(self.runner.banner, sentence)
+        self.runner.banner.show_message(sentence)
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import ipywidgets as w
 
 from ..quantities.kinds import refuse_arguments
 from .explore import Explorer
-from .kit.controls import banner, show_message
+from .kit.banner import Banner
+from .kit.layout import button, menu, wrapped
 from .kit.panel import IMPOSSIBLE, Panel
+from .kit.quiet import Quiet
 
 Change = Callable[[Any], Any]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
@@ -29,47 +32,31 @@ class Presets(Panel):
     ) -> None:
         refuse_arguments(Presets.__init__, locals())
         self.explorer, self.picture = explorer, explorer.picture
-        self._silent = False
-        self._banner = banner()
+        self._quiet = Quiet()
+        self.banner = Banner()
         self.menus = {name: self._menu(name, options) for name, options in menus.items()}
-        self.buttons = {words: self._button(words, change) for words, change in buttons.items()}
-        row = w.HBox([*self.menus.values(), *self.buttons.values()], layout=w.Layout(flex_flow="row wrap"))
-        super().__init__([row, self._banner, explorer])
+        self.buttons = {words: button(words, partial(self._make, change)) for words, change in buttons.items()}
+        super().__init__([wrapped(*self.menus.values(), *self.buttons.values()), self.banner, explorer])
         explorer.on_change(self._follow)
         self._follow(explorer.design)
 
     def _menu(self, name: str, options: Mapping[str, Change]) -> w.Dropdown:
-        menu = w.Dropdown(
-            options=list(options.items()), value=None, description=name, layout=w.Layout(width="230px"),
-            style={"description_width": "initial"},
-        )  # fmt: skip
-        menu.observe(lambda change: self._chosen(change.new), "value")
-        return menu
-
-    def _chosen(self, change: Change | None) -> None:
-        if change and not self._silent:
-            self._make(change)
-
-    def _button(self, words: str, change: Change) -> w.Button:
-        button = w.Button(description=words, layout=w.Layout(width="auto"))
-        button.on_click(lambda _: self._make(change))
-        return button
+        offers = menu(list(options.items()), name, "230px", value=None)
+        self._quiet.hear(offers, lambda change: self._make(change) if change else None)
+        return offers
 
     def _make(self, change: Change) -> None:
         try:
             self.explorer.load(change(self.explorer.design))
         except IMPOSSIBLE as refusal:
-            show_message(self._banner, f"This cannot be offered: {refusal}.")
+            self.banner.show_message(f"This cannot be offered: {refusal}.")
 
     def _follow(self, design: Any) -> None:
         """Every menu shows which of its options the design is."""
-        show_message(self._banner, "")
-        self._silent = True
-        try:
-            for menu in self.menus.values():
-                menu.value = next((change for _, change in menu.options if _leads_to(change, design)), None)
-        finally:
-            self._silent = False
+        self.banner.show_message("")
+        with self._quiet:
+            for offers in self.menus.values():
+                offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 
     def summary(self) -> str:
         """The explorer's numbers."""

@@ -13,10 +13,13 @@ from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, html, joined, table
 from ..units import deg, factor, in_unit
 from ..views.laws import PROGRAM_VIEWS, ShownProgram
-from .kit.controls import banner, show_message, tables_html
+from .kit.banner import Banner
+from .kit.controls import tables_html
+from .kit.layout import button, wrapped
 from .kit.number import NumberBox, staying
 from .kit.panel import IMPOSSIBLE, Panel
 from .kit.picture import LivePicture
+from .kit.quiet import Quiet
 
 KINDS = ("rise", "dwell", "return")
 LEAST = 1 * deg
@@ -56,8 +59,7 @@ class SegmentRow:
         self.angle = self._box("angle", "deg", in_unit(float(segment.angle), "deg"))
         self.lift = self._box("lift", unit, in_unit(float(getattr(segment, "lift", 0.0)), unit))
         self.law = w.Dropdown(options=laws, value=law, layout=w.Layout(width="210px"))
-        drop = w.Button(icon="times", tooltip="remove this segment", layout=w.Layout(width="34px"))
-        drop.on_click(lambda _: remove(self))
+        drop = button("", lambda: remove(self), "times", "34px", tooltip="remove this segment")
         cells = [self.kind, self.angle, w.Label("deg"), self.lift, w.Label(unit), self.law, drop]
         self.row = w.HBox(cells, layout=w.Layout(align_items="center"))
         for box in (self.kind, self.angle, self.lift, self.law):
@@ -89,37 +91,36 @@ class ProgramEditor(Panel):
         self.start = self.program = program
         self.unit = unit
         self._followers: list[Callable[[MotionProgram], None]] = []
-        self._silent = False
+        self._quiet = Quiet()
         self._held: int | None = None
         self.rows: list[SegmentRow] = []
-        self._table, self._list, self._banner = w.HTML(), w.VBox(), banner()
+        self.numbers, self._list, self.banner = w.HTML(), w.VBox(), Banner()
         self.picture = LivePicture(PROGRAM_VIEWS, "Displacement, velocity, acceleration and jerk", height=5.6)
         self.picture.widget.on_pointer(self._pointer)
-        add = w.Button(description="Add a segment", icon="plus")
-        add.on_click(lambda _: self._add())
-        reset = w.Button(description="Reset", icon="undo")
-        reset.on_click(lambda _: self.load(self.start))
+        add = button("Add a segment", self._add, "plus")
+        reset = button("Reset", lambda: self.load(self.start), "undo")
         left = w.VBox([self._list, w.HBox([add, reset])], layout=w.Layout(flex="0 1 600px"))
-        top = w.HBox([left, self._table], layout=w.Layout(flex_flow="row wrap"))
-        super().__init__([top, self._banner, self.picture.widget])
+        super().__init__([wrapped(left, self.numbers), self.banner, self.picture.widget])
         self.load(program)
 
     def load(self, program: MotionProgram) -> None:
         """Show another program."""
-        self.rows = [SegmentRow(s, self.unit, self._changed, self._remove, self._refused) for s in program.segments]
-        self._list.children = [row.row for row in self.rows]
+        self._list_rows([self._row(segment) for segment in program.segments])
         self._try(lambda: program)
+
+    def _row(self, segment: Any) -> SegmentRow:
+        changed = self._quiet.unless(self._changed)
+        return SegmentRow(segment, self.unit, changed, self._remove, self.banner.show_message)
+
+    def _list_rows(self, rows: list[SegmentRow]) -> None:
+        self.rows, self._list.children = rows, [row.row for row in rows]
 
     def on_change(self, act: Callable[[MotionProgram], None]) -> None:
         """Call ``act(program)`` after every change to a program that is possible."""
         self._followers.append(act)
 
-    def _refused(self, sentence: str) -> None:
-        show_message(self._banner, sentence)
-
     def _changed(self) -> None:
-        if not self._silent:
-            self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
+        self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
 
     def _try(self, make: Callable[[], MotionProgram]) -> None:
         last = self.program
@@ -129,39 +130,31 @@ class ProgramEditor(Panel):
             self.picture.show(ShownProgram(self.program, self.unit))
         except IMPOSSIBLE as refusal:
             self.program = last
-            show_message(self._banner, f"This is no motion program: {refusal}.")
-            self.picture.widget.layout.display = self._table.layout.display = "none"
+            self.refuse_picture(f"This is no motion program: {refusal}.")
             return
-        show_message(self._banner, "")
-        self.picture.widget.layout.display = self._table.layout.display = ""
-        self._table.value = table
+        self.refuse_picture("")
+        self.numbers.value = table
         for act in self._followers:
             act(self.program)
 
     def _add(self) -> None:
         rest = max(2 * np.pi - float(self.program.span), 0.0)
         segment = Dwell(rest if rest > LEAST else 30 * deg)
-        self.rows.append(SegmentRow(segment, self.unit, self._changed, self._remove, self._refused))
-        self._list.children = [row.row for row in self.rows]
+        self._list_rows([*self.rows, self._row(segment)])
         self._changed()
 
     def _remove(self, row: SegmentRow) -> None:
-        self.rows.remove(row)
-        self._list.children = [r.row for r in self.rows]
+        self._list_rows([r for r in self.rows if r is not row])
         self._changed()
 
     def _pointer(self, kind: str, x: float, y: float) -> None:
         """Take hold of the nearest handle, and move it."""
-        ax = self.picture.axes[0]
-        width, height = self.picture.figure.canvas.get_width_height()
-        at = np.array([x * width, (1 - y) * height])
         if kind == "press":
             levels = np.asarray(self.program.levels, dtype=float) / factor(self.unit)
-            handles = ax.transData.transform(np.column_stack([np.asarray(self.program.edges) / deg, levels]))
-            away = np.hypot(*(handles - at).T)
-            self._held = int(np.argmin(away)) if away.min() < 30 else None
+            handles = np.column_stack([np.asarray(self.program.edges) / deg, levels])
+            self._held = self.picture.nearest(handles, x, y, within=30)
         elif kind == "drag" and self._held is not None:
-            self._move(self._held, *ax.transData.inverted().transform(at))
+            self._move(self._held, *self.picture.in_data(x, y))
         elif kind == "release":
             self._held = None
 
@@ -176,16 +169,13 @@ class ProgramEditor(Panel):
             level = round(level / GRID) * GRID
             run = self._level_run(joint)
             levels[run] = level if {before, after} != {"dwell"} else levels[run]
-        self._silent = True
-        try:
+        with self._quiet:
             for i, row in enumerate(self.rows):
                 row.angle.value = round(float(edges[i + 1] - edges[i]), 6)
                 if row.kind.value != "dwell":
                     change = round(float(levels[i + 1] - levels[i]), 6)
                     row.kind.value = "rise" if change >= 0 else "return"
                     row.lift.value = abs(change)
-        finally:
-            self._silent = False
         self._changed()
 
     def _level_run(self, joint: int) -> list[int]:

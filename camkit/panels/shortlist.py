@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import ipywidgets as w
@@ -13,7 +13,9 @@ from ..render.draw import colour
 from ..study.study import Study
 from ..views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
 from .explore import Explorer
-from .kit.controls import Download, banner, bar_html, show_message, tables_html
+from .kit.banner import Banner
+from .kit.controls import Download, bar_html, tables_html
+from .kit.layout import button, wrapped
 from .kit.panel import Panel
 from .kit.picture import LivePicture
 
@@ -35,18 +37,16 @@ class Shortlist(Panel):
         self.explorer, self.study = explorer, study
         self.designs: dict[str, Any] = {}
         self._analyses: dict[str, Any] = {}
-        self._banner, self._table, self._places = banner(), w.HTML(), w.VBox()
+        self.banner, self.numbers, self._places = Banner(), w.HTML(), w.VBox()
         views = (profiles_overlaid, measures_overlaid) if self._has_profile(explorer.analysis) else (measures_overlaid,)
         self._measures = _measures(explorer, study)[:MOST_MEASURES]
         self.picture = LivePicture(views, "Kept designs", width=12.6, height=4.8)
-        keep = w.Button(description="Keep this design", icon="plus", button_style="primary")
-        keep.on_click(lambda _: self.keep())
+        keep = button("Keep this design", self.keep, "plus", button_style="primary")
         files = [
             Download("Save as Markdown", "designs.md", "text/markdown", self.markdown),
             Download("Save as HTML", "designs.html", "text/html", self.html),
         ]
-        row = w.HBox([keep, *files], layout=w.Layout(flex_flow="row wrap"))
-        super().__init__([row, self._banner, self._places, self.picture.widget, self._table])
+        super().__init__([wrapped(keep, *files), self.banner, self._places, self.picture.widget, self.numbers])
         self._show()
 
     @staticmethod
@@ -60,7 +60,7 @@ class Shortlist(Panel):
         free = [place for place in PLACES if place not in self.designs]
         if same or not free:
             full = f"{len(PLACES)} designs are kept already, as many as the tray holds; remove one to make room"
-            show_message(self._banner, f"This design is not kept: {f'it is design {same} already' if same else full}.")
+            self.banner.show_message(f"This design is not kept: {f'it is design {same} already' if same else full}.")
             return
         self._put({**self.designs, free[0]: design}, {**self._analyses, free[0]: self.explorer.analysis})
 
@@ -75,7 +75,7 @@ class Shortlist(Panel):
 
     def _put(self, designs: dict[str, Any], analyses: dict[str, Any]) -> None:
         self.designs, self._analyses = ({p: d[p] for p in PLACES if p in d} for d in (designs, analyses))
-        show_message(self._banner, "")
+        self.banner.show_message("")
         self._show()
 
     @property
@@ -98,20 +98,14 @@ class Shortlist(Panel):
         self._places.children = [self._row(place) for place in self.designs]
         self.picture.widget.layout.display = "" if self.designs else "none"
         self.picture.show(Kept(self._analyses, self._measures))
-        self._table.value = tables_html(self.table.html()) if self.designs else ""
+        self.numbers.value = tables_html(self.table.html()) if self.designs else ""
 
     def _row(self, place: str) -> w.HBox:
         """The letter of a kept design in its colour, and what can be done with it."""
-        load = self._button("Load", "upload", f"put design {place} into the sliders", lambda: self.load(place))
-        drop = self._button("Remove", "times", f"keep design {place} no longer", lambda: self.drop(place))
+        load = button("Load", partial(self.load, place), "upload", tooltip=f"put design {place} into the sliders")
+        drop = button("Remove", partial(self.drop, place), "times", tooltip=f"keep design {place} no longer")
         letter = bar_html(colour("series", PLACES.index(place)), 18, f"design {place}")
         return w.HBox([w.HTML(letter, layout=w.Layout(width="110px")), load, drop])
-
-    @staticmethod
-    def _button(description: str, icon: str, tooltip: str, act: Callable[[], None]) -> w.Button:
-        button = w.Button(description=description, icon=icon, tooltip=tooltip, layout=w.Layout(width="auto"))
-        button.on_click(lambda _: act())
-        return button
 
     def summary(self) -> str:
         """The table as Markdown."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
@@ -18,8 +17,10 @@ from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_toler
 from ..views.picture import Picture, View
 from ..views.tolerances import cloud, deviation, sobol_bars
 from .explore import Explorer
-from .kit.controls import NumberRow, banner, show_message, tables_html
+from .kit.banner import Banner
+from .kit.controls import NumberRow, tables_html
 from .kit.latest_only import Debounced
+from .kit.layout import button, menu
 from .kit.panel import IMPOSSIBLE, Panel
 from .kit.picture import SETTLE, LivePicture
 
@@ -58,14 +59,12 @@ class TolerancePanel(Panel):
         self._front: Any = front
         first = general_tolerances(study) if half_widths is None else dict(half_widths)
         self.tolerances = Tolerances(study.replace(start=explorer.design), first, parts=SETTLED)
+        self.banner, self.numbers = Banner(), w.HTML()
         self.knobs = {name: self._knob(name, half) for name, half in first.items()}
         self._first = first
-        self.spread = w.Dropdown(
-            options=SPREADS, description="spread", layout=w.Layout(width="210px"), style={"description_width": "52px"}
-        )
+        self.spread = menu(SPREADS, "spread", "210px", "52px")
         self.spread.observe(lambda _: self._moved(), "value")
-        self._later, self._settling = Debounced(self.settle, SETTLE), threading.RLock()
-        self._banner, self._table = banner(), w.HTML()
+        self._later = Debounced(self._make_many, SETTLE)
         views: tuple[View, ...] = (self._cloud, sobol_bars, *map(deviation, curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
         super().__init__([self._body()])
@@ -79,16 +78,14 @@ class TolerancePanel(Panel):
         widest = WIDEST * (half or general_tolerance(nominal, value_of(self.explorer.design, name))) / nominal.factor
         meaning = f"half width of the tolerance of the {words(name)}"
         declared = Quantity(nominal.symbol, half / nominal.factor, 0, widest, nominal.unit, meaning, at_least=0)
-        return NumberRow(name, declared, half, self._moved, lambda sentence: show_message(self._banner, sentence))
+        return NumberRow(name, declared, half, self._moved, self.banner.show_message)
 
     def _body(self) -> w.Widget:
         grid = w.Box([knob.row for knob in self.knobs.values()])
         grid.add_class("camkit-grid")
-        back = w.Button(description="Reset", icon="undo", tooltip="back to the first tolerances")
-        back.layout.width = "auto"
-        back.on_click(lambda _: self.reset())
+        back = button("Reset", self.reset, "undo", tooltip="back to the first tolerances")
         heading = w.HTML("<b>Tolerances</b>&ensp;plus and minus; a normal spread has them at three standard deviations")
-        return w.VBox([heading, grid, w.HBox([self.spread, back]), self._banner, self.picture.widget, self._table])
+        return w.VBox([heading, grid, w.HBox([self.spread, back]), self.banner, self.picture.widget, self.numbers])
 
     def _cloud(self, tolerances: Tolerances) -> Picture:
         return cloud(getattr(self._front, "front", self._front))(tolerances)
@@ -116,23 +113,18 @@ class TolerancePanel(Panel):
             made = Tolerances(study, self.half_widths, self.spread.value, parts)
             _ = made.values, made.indices  # now, and not while it is drawn, when nothing else can be
         except IMPOSSIBLE as refusal:
-            self._refuse(refusal)
+            self.refuse_picture(f"This cannot be made: {refusal}.")
             return None
         return made
 
-    def _refuse(self, refusal: Exception) -> None:
-        """The sentence in place of the picture and the numbers, which would belong to other tolerances."""
-        show_message(self._banner, f"This cannot be made: {refusal}.")
-        self.picture.widget.layout.display = self._table.layout.display = "none"
-
     def settle(self) -> None:
         """Make many parts of what is in the sliders, if that is still to be done."""
-        with self._settling:
-            if self._later.waiting:
-                self._later.cancel()
-                made = self._made(SETTLED)
-                if not self._later.waiting:  # nobody has moved anything since
-                    self._show(made)
+        self._later.settle()
+
+    def _make_many(self) -> None:
+        made = self._made(SETTLED)
+        if not self._later.waiting:  # nobody has moved anything since
+            self._show(made)
 
     def _show(self, made: Tolerances | None) -> None:
         if made is None:
@@ -140,12 +132,11 @@ class TolerancePanel(Panel):
         try:
             self.picture.show(made)
         except IMPOSSIBLE as refusal:
-            self._refuse(refusal)
+            self.refuse_picture(f"This cannot be made: {refusal}.")
             return
         self.tolerances = made
-        show_message(self._banner, "")
-        self._table.value = self._table_html()
-        self.picture.widget.layout.display = self._table.layout.display = ""
+        self.numbers.value = self._table_html()
+        self.refuse_picture("")
 
     def _rows(self) -> list[tuple[str, str, str, str, str]]:
         """Every measure in words: its name, as drawn, where 2.5 % are below and above, which share misses a limit."""
@@ -168,10 +159,6 @@ class TolerancePanel(Panel):
         half = (f"{words(n)} ± {made.declared[n].text(v)}" for n, v in made.half_widths.items())
         rows = (f"{name}: {drawn}, parts {low} to {high}" for name, drawn, low, high, _ in self._rows())
         return "\n".join([f"{', '.join(half)}: {100 * made.share:.1f} % of parts keep all limits", *rows])
-
-    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
-        self.settle()
-        return super()._repr_mimebundle_(**kwargs)
 
 
 def general_tolerances(study: Study) -> dict[str, float]:

@@ -835,7 +835,7 @@ def page():
 
 
 def said(panel):
-    return html.unescape(panel._banner.value.replace("<div role='alert'>", "").replace("</div>", ""))
+    return html.unescape(panel.banner.value.replace("<div role='alert'>", "").replace("</div>", ""))
 
 
 BAD = {
@@ -854,7 +854,7 @@ def test_a_bad_file_leaves_the_last_good_picture_and_one_sentence(page, name, mo
     app.picture.settle()
 
     def state():
-        shown = app.design, app.analysis, app.picture.widget.data, app._table.value, app.picture.widget.layout.display
+        shown = app.design, app.analysis, app.picture.widget.data, app.numbers.value, app.picture.widget.layout.display
         return *shown, page.study, page.front, page.population.value, page.criteria.judgements, page.status.value
 
     before = state()
@@ -901,9 +901,15 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
     text = to_json(Session(study, DoorHandleCam(lift_arm=45 * mm), front=front, **other))
 
     def state():
-        shown = page.study, page._x, page.front, page.explorer.design, page.picture._last[0].front
-        boxes = page.rule.value, page.pick.value, page.pick.max, page.population.value, page.criteria.judgements
-        told = page.winner, page.status.value, page.verdict.value, page.found.value, page.picture.widget.data
+        shown = page.study, page.found, page.front, page.explorer.design
+        boxes = (
+            page.picker.rule.value,
+            page.picker.pick.value,
+            page.picker.pick.max,
+            page.population.value,
+            page.criteria.judgements,
+        )
+        told = page.winner, page.status.value, page.verdict.value, page.record.value, page.picture.widget.data
         return shown, boxes, told, {name: bounds.value for name, bounds in page.bounds.items()}
 
     before = state()
@@ -915,7 +921,7 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
     assert after[1:] == before[1:]
     page.importance.sliders[0, 1].value = 3.0
     page.criteria.load(PAPER_JUDGEMENTS)
-    page._clicked(0.5, 0.5)
+    page.picker.select_nearest(page.picture, 0.5, 0.5)
     page.select(page.winner)
     assert page.explorer.design == page.front[page.winner]
     page.importance.load([1])

@@ -230,7 +230,7 @@ def source():
 
 
 def rows(panel):
-    found = [re.findall("<td>(.*?)</td>", row) for row in panel._table.value.split("<tr>")[2:]]
+    found = [re.findall("<td>(.*?)</td>", row) for row in panel.numbers.value.split("<tr>")[2:]]
     return {re.sub("<.*?>", "", cells[0]): cells[1:] for cells in found}
 
 
@@ -245,8 +245,8 @@ def press(panel, words):
 
 def at(panel, x, y, picture=0):
     """A point of the picture as the page tells it."""
-    width, height = panel._pictures[picture].figure.canvas.get_width_height()
-    across, up = panel._pictures[picture].axes[0].transData.transform((x, y))
+    width, height = panel.pictures[picture].figure.canvas.get_width_height()
+    across, up = panel.pictures[picture].axes[0].transData.transform((x, y))
     return across / width, 1 - up / height
 
 
@@ -264,13 +264,13 @@ def test_the_table_has_every_rules_winner(source):
 
 def test_a_judgement_moves_winners_and_ranges(source):
     panel = choose_panel(source)
-    before = panel._pictures[1].widget.data
+    before = panel.pictures[1].widget.data
     source.importance.boxes[(0, 1)].value = "1/7"
     weights = ahp([1 / 7, 3, None]).weights
     assert_allclose(panel.shown.weights, weights)
     assert rows(panel)["weighted sum"][0] == str(weighted_sum(source.front, weights))
     assert panel.shown.ranges["TOPSIS"] == judgement_ranges(source.front, [1 / 7, 3, None], topsis)
-    assert panel._pictures[1].widget.data != before
+    assert panel.pictures[1].widget.data != before
     source.importance.method.value = "geometric"
     assert_allclose(panel.shown.weights, ahp([1 / 7, 3, None], "geometric").weights)
 
@@ -289,18 +289,18 @@ def test_a_dragged_band_keeps_what_is_inside_and_a_click_drops_it(source):
     panel = choose_panel(source)
     values = panel.designs.values[:, 0]
     low, high = values.min(), values.max()
-    panel._pointer("press", *at(panel, 0.02, 0.3))
-    panel._pointer("drag", *at(panel, 0.02, 0.6))
-    panel._pointer("drag", *at(panel, 0.30, 0.8))
-    panel._pointer("release", *at(panel, 0.30, 0.8))
+    panel.pointed("press", *at(panel, 0.02, 0.3))
+    panel.pointed("drag", *at(panel, 0.02, 0.6))
+    panel.pointed("drag", *at(panel, 0.30, 0.8))
+    panel.pointed("release", *at(panel, 0.30, 0.8))
     band = panel.designs.bands[0]
     assert_allclose(band, (low + 0.3 * (high - low), low + 0.8 * (high - low)), rtol=1e-6)
     inside_band = (band[0] <= values) & (values <= band[1])
     assert (panel.designs.kept == inside_band).all()
-    assert f"{inside_band.sum()} of {len(values)} designs kept" in panel._count.value
+    assert f"{inside_band.sum()} of {len(values)} designs kept" in panel.count.value
     assert_allclose(panel.band.value, band)
-    panel._pointer("press", *at(panel, 0, 0.5))
-    panel._pointer("click", *at(panel, 0, 0.5))
+    panel.pointed("press", *at(panel, 0, 0.5))
+    panel.pointed("click", *at(panel, 0, 0.5))
     assert panel.designs.bands == {}
     assert panel.designs.kept.all()
 
@@ -323,24 +323,24 @@ def test_a_click_on_a_line_loads_its_design(source):
     for i in (0, 5):
         y = heights[i, 0] + 0.5 * (heights[i, 1] - heights[i, 0])
         expected = panel.designs.nearest(0.5, y)
-        panel._pointer("press", *at(panel, 0.5, y))
-        panel._pointer("click", *at(panel, 0.5, y))
+        panel.pointed("press", *at(panel, 0.5, y))
+        panel.pointed("click", *at(panel, 0.5, y))
         assert source.explorer.design == source.front[expected]
 
 
 def test_a_click_on_the_map_loads_the_winner_there(source):
     panel = choose_panel(source)
     weights = np.array([0.1, 0.1, 0.8])
-    panel._clicked_map(*at(panel, *triangle(weights), picture=1))
+    panel.map_clicked(*at(panel, *triangle(weights), picture=1))
     assert source.explorer.design == source.front[weighted_sum(source.front, weights)]
     shown = source.explorer.design
-    panel._clicked_map(*at(panel, 1.3, 0.5, picture=1))  # beside the triangles
+    panel.map_clicked(*at(panel, 1.3, 0.5, picture=1))  # beside the triangles
     assert source.explorer.design == shown
 
 
 def test_bands_stay_with_a_new_front_of_the_same_study_and_go_with_another(source):
     panel = choose_panel(source)
-    panel._keep(0, (20.0, 40.0))
+    panel.keep(0, (20.0, 40.0))
     source.show(a_front(3, n=7))
     assert panel.designs.bands == {0: (20.0, 40.0)}
     source.show(a_front(2))
@@ -352,7 +352,7 @@ def test_without_a_front_there_is_a_sentence(source):
     full, study = source.front, source.front.study
     source.front = Front(study, np.zeros((0, 2)), np.zeros((0, 3)), "no design can be built")
     panel = choose_panel(source)
-    assert "There is no front to choose from yet: run a search. no design can be built" in panel._banner.value
+    assert "There is no front to choose from yet: run a search. no design can be built" in panel.banner.value
     assert panel._body.layout.display == "none"
     assert panel._repr_mimebundle_()["text/plain"].startswith("There is no front")
     source.show(full)
@@ -373,42 +373,42 @@ def test_one_to_four_objectives(k):
     assert panel.designs.bands == {}
 
 
-def test_pictures_are_built_once_and_closed_when_others_take_their_place(source):
+def testpictures_are_built_once_and_closed_when_others_take_their_place(source):
     def alive():
         return [x for x in _instances.values() if isinstance(x, ImageWidget)]
 
     before = alive()
     panel = choose_panel(source)
-    first = [picture.widget for picture in panel._pictures]
+    first = [picture.widget for picture in panel.pictures]
     assert [x for x in alive() if x not in before] == first
     source.show(a_front(3, n=7))
-    assert [picture.widget for picture in panel._pictures] == first
+    assert [picture.widget for picture in panel.pictures] == first
     for k in (2, 3, 2):
         source.show(a_front(k))
-        assert [x for x in alive() if x not in before] == [picture.widget for picture in panel._pictures]
+        assert [x for x in alive() if x not in before] == [picture.widget for picture in panel.pictures]
     assert not set(first) & set(alive())
 
 
 def test_an_empty_front_between_two_studies_leaves_no_axes_of_the_first(source):
     panel = choose_panel(source)
-    drawn_for_three = panel._pictures[0]
+    drawn_for_three = panel.pictures[0]
     study = a_front(2).study
     source.show(Front(study, np.zeros((0, 2)), np.zeros((0, 2)), "stopped"))
     source.show(a_front(2))
-    assert panel._pictures[0] is not drawn_for_three
+    assert panel.pictures[0] is not drawn_for_three
 
 
 def test_the_band_is_called_after_its_axis(source):
     panel = choose_panel(source)
     for name, unit in (("width", "mm"), ("slope", "")):
         panel.axis.value = [c.name for c in panel.designs.columns].index(name)
-        assert f"data-name='{name}{', ' * bool(unit)}{unit}'" in panel._count.value
+        assert f"data-name='{name}{', ' * bool(unit)}{unit}'" in panel.count.value
 
 
 # --- judgements typed and left open -----------------------------------------------------------------------------------
 
 
-def test_a_typed_judgement_counts_exactly_and_moves_the_slider():
+def test_a_typed_judgementcounts_exactly_and_moves_the_slider():
     panel = ahp_panel(Judgements(["a", "b", "c"], [1, 1, 1]))
     for words, value in (("3.7", 3.7), ("1/3", 1 / 3), (" 2 / 5 ", 0.4), ("0,25", 0.25)):
         panel.boxes[(0, 1)].value = words
@@ -427,11 +427,11 @@ def test_an_empty_box_leaves_a_pair_open():
     assert_allclose(panel.weights, ahp([2, None, 4]).weights)
     assert panel.sliders[(0, 2)].value == 8
     assert "camkit-unjudged" in panel.sliders[(0, 2)]._dom_classes
-    assert "<td>(8)</td>" in panel._matrix.value
+    assert "<td>(8)</td>" in panel.numbers.value
     assert "not judged: 1" in panel.summary()
     panel.boxes[(0, 1)].value = "?"
     assert panel.judgements.above == (2, None, 4)
-    assert "The judgement of a against b stays as it was: no judgement connects criterion 1" in panel._banner.value
+    assert "The judgement of a against b stays as it was: no judgement connects criterion 1" in panel.banner.value
     assert panel.boxes[(0, 1)].value == "2"
     panel.sliders[(0, 2)].value = 7.0
     assert panel.judgements.above == (2, 7, 4)
@@ -446,7 +446,7 @@ def test_what_is_no_judgement_is_refused_in_a_sentence(words):
     panel.boxes[(0, 1)].value = words
     assert (
         f"The judgement of a against b stays as it was: {words!r} is no number above 0"
-        in panel._banner.value.replace("&#x27;", "'")
+        in panel.banner.value.replace("&#x27;", "'")
     )
     assert panel.judgements.above == (3,)
     assert panel.boxes[(0, 1)].value == "3"

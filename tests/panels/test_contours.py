@@ -171,7 +171,7 @@ def panel(workshop):
 
 
 def settled(panel):
-    panel._later.ask()
+    panel.later.ask()
     panel.settle()
     return panel
 
@@ -257,14 +257,14 @@ def test_a_design_outside_the_bounds_is_surveyed_too(panel):
     assert_allclose(panel.optimum, (20, 20))
 
 
-def test_the_optimum_and_a_clicked_point_are_loaded(panel):
+def test_the_optimum_and_aclicked_point_are_loaded(panel):
     press(panel, "Load the optimum")
     assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (20, 20), rtol=1e-12)
     width, height = panel.picture.figure.canvas.get_width_height()
     x, y = panel.picture.axes[0].transData.transform((8.0, 12.0))
-    panel._clicked(x / width, 1 - y / height)
+    panel.clicked(x / width, 1 - y / height)
     assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (8, 12), rtol=1e-9)
-    panel._clicked(0.01, 0.99)  # beside the axes
+    panel.clicked(0.01, 0.99)  # beside the axes
     assert_allclose(panel.explorer.design.n, 8, rtol=1e-9)
 
 

@@ -262,7 +262,7 @@ def test_a_click_loads_the_nearest_design_of_any_front(panel, app, fronts):
     width, height = panel.picture.figure.canvas.get_width_height()
     for name, i in (("limits", 4), ("NSGA-II", 11)):
         x, y = panel.picture.axes[0].transData.transform(fronts[name].f[i] / mm**2)
-        panel._clicked(x / width, 1 - y / height)
+        panel.clicked(x / width, 1 - y / height)
         assert (panel.menu.value, panel.pick.value) == (name, i)
         assert app.design == fronts[name][i]
 

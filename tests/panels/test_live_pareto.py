@@ -394,7 +394,7 @@ def workshop():
 def panel(workshop):
     """The panel as it is when it has just been opened."""
     workshop.menu.value = "lift curve alone"
-    workshop.rule.value = "crowding distance"
+    workshop.picker.rule.value = "crowding distance"
     workshop.criteria.load(PAPER_JUDGEMENTS)
     workshop.importance.load([1])
     workshop.explorer.load(DoorHandleCam())
@@ -460,7 +460,7 @@ def test_a_judgement_weighs_anew_at_once(panel, lift):
 
 
 def test_the_importance_chooses_another_winner_of_the_same_front(panel, lift):
-    panel.rule.value = "weighted sum"
+    panel.picker.rule.value = "weighted sum"
     panel.importance.load([9])
     little = panel.winner
     panel.importance.load([1 / 9])
@@ -472,19 +472,19 @@ def test_the_importance_chooses_another_winner_of_the_same_front(panel, lift):
 def test_slider_click_and_button_load_a_design_and_keep_what_is_not_free(panel):
     panel.explorer.controls["lift_centre_distance"].box.value = 78
     panel.settle()
-    panel.pick.value = 7
+    panel.picker.pick.value = 7
     assert_allclose([getattr(panel.explorer.design, n) for n in LIFT_SPACE], panel.front.x[7])
     assert panel.explorer.design.lift_centre_distance == pytest.approx(78 * mm)
     assert_allclose(marks(panel, "in the sliders").ravel(), shown_objectives(panel.front)[:, 7], rtol=1e-9)
     ax, figure = panel.picture.axes[0], panel.picture.figure
     x, y = ax.transData.transform(shown_objectives(panel.front)[:, 60])
     width, height = figure.canvas.get_width_height()
-    panel._clicked(x / width, 1 - y / height)
-    assert panel.pick.value == 60
-    panel.take.click()
-    assert panel.pick.value == panel.winner
+    panel.picker.select_nearest(panel.picture, x / width, 1 - y / height)
+    assert panel.picker.pick.value == 60
+    panel.picker.take.click()
+    assert panel.picker.pick.value == panel.winner
     panel.select(1000)
-    assert panel.pick.value == panel.winner
+    assert panel.picker.pick.value == panel.winner
 
 
 def test_another_problem(panel, lift):
@@ -501,12 +501,12 @@ def test_a_problem_without_a_design_is_told_in_place_of_the_picture(panel):
     panel.settle()
     assert not len(panel.front)
     assert panel.winner is None
-    assert "There is no front: no design that was looked at" in panel._banner.value
+    assert "There is no front: no design that was looked at" in panel.banner.value
     assert panel.picture.widget.layout.display == "none"
     assert panel.summary().startswith("no front: no design")
     panel.explorer.load(DoorHandleCam())
     panel.settle()
-    assert panel._banner.value == ""
+    assert panel.banner.value == ""
     assert panel.picture.widget.layout.display == ""
 
 
@@ -521,10 +521,10 @@ def test_a_study_that_cannot_be_made_is_told_and_forgotten():
     panel = live_pareto_panel(app, {"only": make}, LIFT_SPACE)
     app.controls["handle_angle"].box.value = 190
     panel.settle()
-    assert "There is no front: the handle turns too far." in panel._banner.value
+    assert "There is no front: the handle turns too far." in panel.banner.value
     app.controls["handle_angle"].box.value = 180
     panel.settle()
-    assert panel._banner.value == ""
+    assert panel.banner.value == ""
     app.picture.settle()
     panel.picture.settle()
 

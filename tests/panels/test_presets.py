@@ -34,7 +34,7 @@ def panel() -> Presets:
 
 
 def said(panel: Presets) -> str:
-    return panel._banner.value
+    return panel.banner.value
 
 
 def test_a_menu_changes_the_design_and_the_sliders(panel) -> None:

@@ -116,7 +116,7 @@ def test_another_panel_leaves_a_job_alone():
 
 def test_which_jobs_a_panel_replaces():
     def job(kind, cell, run):
-        return Job(kind, Place(cell, run), lambda: iter(()))
+        return Job(kind, Place(cell, run), ())
 
     jobs = [
         job("a", "1", "x"),
@@ -138,7 +138,7 @@ def test_which_jobs_a_panel_replaces():
 
 def test_a_job_that_breaks_is_not_running(monkeypatch):
     monkeypatch.setattr(threading, "excepthook", lambda _: None)
-    job = Job("a", here(), lambda: 1 / 0)
+    job = Job("a", here(), (1 / 0 for _ in range(1)))
     job.start()
     job.thread.join(10)
     assert not RUNNING
@@ -172,8 +172,7 @@ def test_a_function_is_the_same_when_its_cell_runs_again():
 ENDS = """
 import time
 from camkit.panels.kit.running import Job
-from camkit.views.picture import Axes, Picture
-Job("a", ("", ""), lambda: iter([time.sleep(0.1)])).start()
+Job("a", ("", ""), (time.sleep(0.1) for _ in range(1))).start()
 """
 
 

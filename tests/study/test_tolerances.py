@@ -392,12 +392,12 @@ def test_the_table_holds_the_parts_measures(panel):
 )
 def test_what_cannot_be_made_is_said_in_place_of_the_picture(panel, typed, sentence):
     panel.knobs["lift_arm"].box.value = typed
-    assert f"This cannot be made: {sentence}." in panel._banner.value
+    assert f"This cannot be made: {sentence}." in panel.banner.value
     assert panel.picture.widget.layout.display == "none"
     panel.settle()
-    assert sentence in panel._banner.value
+    assert sentence in panel.banner.value
     panel.reset()
-    assert panel._banner.value == ""
+    assert panel.banner.value == ""
     assert panel.picture.widget.layout.display == ""
 
 

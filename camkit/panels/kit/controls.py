@@ -17,24 +17,10 @@ from ...quantities import Choice, Quantity, words
 from ...quantities.markup import Html, attribute, escaped, html, joined
 from ...units import in_unit
 from .number import NumberBox, staying
+from .quiet import Quiet
 
-GREEK = {
-    "psi": "&psi;",
-    "phi": "&phi;",
-    "tau": "&tau;",
-    "rho": "&rho;",
-    "omega": "&omega;",
-    "sigma": "&sigma;",
-    "lambda": "&lambda;",
-    "alpha": "&alpha;",
-    "beta": "&beta;",
-    "gamma": "&gamma;",
-    "delta": "&delta;",
-    "epsilon": "&epsilon;",
-    "theta": "&theta;",
-}
-
-
+GREEK = ["alpha", "beta", "gamma", "delta", "epsilon", "theta", "lambda", "rho", "sigma", "tau", "phi", "psi", "omega"]
+"""Letters that HTML names as symbols do."""
 LABEL = "0 0 13.2em"
 """Room for a quantity's symbol and name, in the page's own letters."""
 
@@ -42,7 +28,7 @@ LABEL = "0 0 13.2em"
 def symbol_html(symbol: str) -> Html:
     """``psi_0`` as a reader expects it."""
     letter, _, index = symbol.partition("_")
-    letter = Html(GREEK[letter]) if letter in GREEK else letter
+    letter = Html(f"&{letter};") if letter in GREEK else letter
     return html("<i>{}</i><sub>{}</sub>", letter, index) if index else html("<i>{}</i>", letter)
 
 
@@ -89,7 +75,7 @@ class NumberRow:
         changed: Callable[[], None],
         refused: Callable[[str], None],
     ) -> None:
-        self.declared, self.value, self._changed, self._silent = declared, float(value), changed, False
+        self.declared, self.value, self._changed, self._quiet = declared, float(value), changed, Quiet()
         self._refused = staying(words(name), refused)
         shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
         self.slider = w.FloatSlider(
@@ -114,8 +100,8 @@ class NumberRow:
         unit = w.HTML(small_html(declared.unit), layout=w.Layout(flex="0 0 4.2em"))
         self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
-        self.slider.observe(lambda change: self._moved(change.new), "value")
-        self.box.observe(lambda change: self._typed(change.new), "value")
+        self._quiet.hear(self.slider, self._moved)
+        self._quiet.hear(self.box, self._typed)
 
     def set(self, value: float) -> None:
         """Show ``value`` (SI) without telling anyone."""
@@ -131,29 +117,23 @@ class NumberRow:
             round(to(end / factor / step) * step, 9) for to, end in ((math.floor, low + 1e-9), (math.ceil, high - 1e-9))
         )
         if ends != (self.slider.min, self.slider.max):
-            self._silent = True
-            with self.slider.hold_sync():
+            with self._quiet, self.slider.hold_sync():
                 with self.slider.hold_trait_notifications():
                     self.slider.min, self.slider.max = ends
                 self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
 
     def _put(self, widget: Any, shown: float) -> None:
-        self._silent = True
-        try:
+        with self._quiet:
             widget.value = on_grid(widget, shown) if widget is self.slider else shown
-        finally:
-            self._silent = False
 
     def _moved(self, shown: float) -> None:
         """The slider moved; that the page snaps a typed value to the slider's steps is no move."""
-        if not self._silent and abs(shown - self.value / self.declared.factor) > 0.501 * self.slider.step:
+        if abs(shown - self.value / self.declared.factor) > 0.501 * self.slider.step:
             self.value = float(f"{shown:.10g}") * self.declared.factor
             self._put(self.box, _six_digits(shown))
             self._changed()
 
     def _typed(self, shown: float) -> None:
-        if self._silent:
-            return
         value = float(shown * self.declared.factor)
         if math.isfinite(shown) and math.isinf(value):  # beyond all numbers in SI: the largest there is
             value = math.copysign(sys.float_info.max, shown)
@@ -200,8 +180,7 @@ class Menu:
     """One choice among named options; ``value`` is the option itself."""
 
     def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
-        self._changed, self._silent = changed, False
-        self.declared = declared
+        self.declared, self._quiet = declared, Quiet()
         self.menu = w.Dropdown(
             options=self._options(value), value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
@@ -209,7 +188,7 @@ class Menu:
         label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
         self.row = w.HBox([label, self.menu], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
-        self.menu.observe(self._chosen, "value")
+        self._quiet.hear(self.menu, lambda _: changed())
 
     @property
     def value(self) -> Any:
@@ -218,22 +197,15 @@ class Menu:
 
     def set(self, value: Any) -> None:
         """Show ``value`` without telling anyone."""
-        self._silent = True
-        try:
+        with self._quiet:
             if (options := self._options(value)) != list(self.menu.options):
                 self.menu.options = options
             self.menu.value = value
-        finally:
-            self._silent = False
 
     def _options(self, value: Any) -> list[tuple[str, Any]]:
         """What the declaration offers, and ``value`` if it is something of one's own."""
         own = {} if value in self.declared.options else {self.declared.text(value): value}
         return list((self.declared.named | own).items())
-
-    def _chosen(self, _: Any) -> None:
-        if not self._silent:
-            self._changed()
 
 
 def control(
@@ -292,16 +264,3 @@ class Upload(anywidget.AnyWidget):
     def __init__(self, description: str, use: Callable[[bytes], None]) -> None:
         super().__init__(description=description)
         self.on_msg(lambda _, __, buffers: use(bytes(buffers[0])))
-
-
-def banner() -> w.HTML:
-    """Where a sentence appears when something is impossible; empty otherwise."""
-    box = w.HTML("", layout=w.Layout(display="none"))
-    box.add_class("camkit-banner")
-    return box
-
-
-def show_message(box: w.HTML, sentence: str, role: str = "alert") -> None:
-    """Show ``sentence`` in a banner, or nothing; a "status" is read aloud when there is time, an "alert" at once."""
-    box.value = html("<div {}>{}</div>", attribute("role", role), sentence) if sentence else ""
-    box.layout.display = "" if sentence else "none"

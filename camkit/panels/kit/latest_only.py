@@ -64,10 +64,10 @@ class LatestOnly:
 
 
 class Debounced:
-    """Calls ``act()`` so many ``seconds`` after the last `ask`, if the kernel is there by then."""
+    """Calls ``act()`` so many ``seconds`` after the last `ask`, if the kernel is there by then, or in `settle`."""
 
     def __init__(self, act: Callable[[], None], seconds: float) -> None:
-        self._act, self._seconds = act, seconds
+        self._act, self._seconds, self._acting = act, seconds, threading.RLock()
         self._timer: threading.Timer | None = None
 
     @property
@@ -75,10 +75,10 @@ class Debounced:
         """Whether it was asked for and is still to be done."""
         return self._timer is not None
 
-    def ask(self) -> None:
+    def ask(self, seconds: float | None = None) -> None:
         """Put it off until nobody has asked for a while."""
         self.cancel()
-        self._timer = threading.Timer(self._seconds, self._do)
+        self._timer = threading.Timer(self._seconds if seconds is None else seconds, self._do)
         self._timer.start()
 
     def cancel(self) -> None:
@@ -87,6 +87,13 @@ class Debounced:
             self._timer.cancel()
             self._timer = None
 
+    def settle(self) -> None:
+        """Do it now, if it is still to be done, or wait while it is being done."""
+        with self._acting:
+            if self.waiting:
+                self.cancel()
+                self._act()
+
     def _do(self) -> None:
         if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
-            self._act()
+            self.settle()

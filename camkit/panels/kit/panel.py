@@ -10,6 +10,7 @@ from typing import Any
 import anywidget
 import ipywidgets as w
 
+from .banner import Banner
 from .picture import LivePicture
 
 IMPOSSIBLE = (ValueError, ArithmeticError)
@@ -34,15 +35,29 @@ class PanelStyle(anywidget.AnyWidget):
 
 
 class Panel(w.VBox):
-    """A column of widgets around one live ``picture``; a subclass says in ``summary`` what it shows."""
+    """A column of widgets around one live ``picture``; a subclass says in ``summary`` what it shows.
+
+    Its ``banner`` says what is impossible, its ``numbers`` say what the picture shows, where there are any.
+    """
 
     picture: LivePicture
+    banner: Banner
+    numbers: w.HTML
 
     def __init__(self, children: Sequence[w.Widget]) -> None:
         super().__init__([PanelStyle(layout=w.Layout(display="none")), *children])
         self.add_class("camkit-panel")
         if self.picture.said is str:  # else the picture is another panel's
             self.picture.said = self.summary
+
+    def refuse_picture(self, sentence: str) -> None:
+        """Show a sentence in place of the picture and the numbers, which would belong to something else.
+
+        An empty sentence brings them back.
+        """
+        self.banner.show_message(sentence)
+        for part in (self.picture.widget, self.numbers):
+            part.layout.display = "none" if sentence else ""
 
     def summary(self) -> str:
         """The panel's numbers, a line each."""
@@ -52,8 +67,12 @@ class Panel(w.VBox):
         """The picture, as a PNG file, that stands for the panel where there is no kernel."""
         return self.picture.png()
 
+    def settle(self) -> None:
+        """Wait until everything that is shown belongs to what was asked for last."""
+
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         """The live panel for a kernel, the picture and the numbers where there is none."""
+        self.settle()
         bundle = super()._repr_mimebundle_(**kwargs)
         data = dict(bundle[0] if isinstance(bundle, tuple) else bundle or {})
         data["image/png"] = base64.b64encode(self.still()).decode("ascii")

@@ -24,6 +24,7 @@ from matplotlib import rc_context
 from ...render.draw import moving, theme_style
 from ...render.picture import draw, encoded, layout, pixels, small_png
 from ...views.picture import View
+from .latest_only import Debounced
 
 SETTLE, PAUSE = 0.25, 1.0
 """Seconds after the last move until everything is drawn again, and seconds after which a move is no longer a drag."""
@@ -70,7 +71,7 @@ class LivePicture:
         self.widget = ImageWidget(description=description)
         self._background: Any = None
         self._last: tuple[Any, dict[str, Any]] | None = None
-        self._later: threading.Timer | None = None
+        self._later = Debounced(self._settle_and_describe, SETTLE)
         self._moved = 0.0
 
     def show(self, analysis: Any, **position: Any) -> None:
@@ -92,7 +93,7 @@ class LivePicture:
             else:
                 self._blit()
                 self.widget.put(self._jpeg(), "image/jpeg")
-                self._settle_later()
+                self._later.ask(self._patience())
 
     def _refuse_far_points(self) -> None:
         """Matplotlib finds no ticks and fills no area for numbers of any size."""
@@ -106,9 +107,7 @@ class LivePicture:
     def settle(self) -> None:
         """Draw everything anew, axes fitted to the curves."""
         with DRAWING:
-            if self._later:
-                self._later.cancel()
-                self._later = None
+            self._later.cancel()
             for ax in self.axes:
                 ax.relim()
                 ax.autoscale_view()
@@ -123,16 +122,9 @@ class LivePicture:
 
     def png(self) -> bytes:
         """The picture as a PNG file, settled."""
+        self._later.settle()
         with DRAWING:
-            if self._later:
-                self.settle()
             return small_png(self.figure)
-
-    def _settle_later(self) -> None:
-        if self._later:
-            self._later.cancel()
-        self._later = threading.Timer(self._patience(), self._settle_if_alive)
-        self._later.start()
 
     def _patience(self) -> float:
         """Seconds to wait for the next move; a full drawing would delay it, and on a busy machine it comes late."""
@@ -140,10 +132,23 @@ class LivePicture:
         since, self._moved = now - self._moved, now
         return SETTLE + (2 * since if since < PAUSE else 0.0)
 
-    def _settle_if_alive(self) -> None:
-        if threading.main_thread().is_alive():  # else the kernel is going, and nobody looks
-            self.settle()
-            self.describe()
+    def _settle_and_describe(self) -> None:
+        self.settle()
+        self.describe()
+
+    def in_data(self, x: float, y: float, axes: int = 0) -> tuple[float, float]:
+        """What stands at shares ``x, y`` of the picture's width and height, in the data of one of its axes."""
+        across, up = self.axes[axes].transData.inverted().transform(self._in_pixels(x, y))
+        return float(across), float(up)
+
+    def nearest(self, points: Any, x: float, y: float, within: float = np.inf) -> int | None:
+        """Which of ``points`` ``(p, 2)`` of the first axes is nearest to a share of the picture, ``within`` pixels."""
+        away = np.hypot(*(self.axes[0].transData.transform(points) - self._in_pixels(x, y)).T)
+        return int(np.argmin(away)) if away.min(initial=np.inf) < within else None
+
+    def _in_pixels(self, x: float, y: float) -> tuple[float, float]:
+        width, height = self.figure.canvas.get_width_height()
+        return x * width, (1 - y) * height
 
     def describe(self) -> None:
         """Tell those who do not see the picture: the views' titles, and what ``said()`` has to say of the numbers."""

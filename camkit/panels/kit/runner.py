@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import ipywidgets as w
@@ -14,7 +14,8 @@ from ...quantities import words
 from ...quantities.markup import Html, html
 from ...search.protocol import Step
 from ...study.study import Study
-from .controls import banner, show_message
+from .banner import Banner
+from .layout import button, column, wrapped
 from .panel import IMPOSSIBLE, Panel
 from .running import Job, here, left_behind
 
@@ -57,54 +58,83 @@ class Choices:
 class Runner:
     """Run and Stop, a line that says how far the search is, and a banner for what is impossible.
 
-    ``prepare()`` gives the steps of a search, ``ValueError`` if it cannot be; they are taken in a `Job`, and
-    ``show(step, last)`` is called now and then.  ``page`` is what the panel was made of: a search that was begun by
-    the same panel, before its cell was run again, is stopped.
+    ``prepare()`` gives the steps of a search, ``ValueError`` if it cannot be; they are taken in a `Job`,
+    ``show(step, last)`` is called now and then, and ``ended()`` when it is over.  ``page`` is what the panel was made
+    of: what its jobs are known by.
     """
 
     def __init__(
         self,
         description: str,
-        prepare: Callable[[], Iterator[Step]],
+        prepare: Callable[[], Iterable[Step]],
         show: Callable[[Step, bool], None],
         *page: Any,
+        ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self._kind, self._place = f"{description} {[named(thing) for thing in page]}", here()
-        for left in left_behind(self._kind, self._place):
-            left.stop()
-        self._prepare, self._show = prepare, show
+        self.kind, self.place = f"{description} {[named(thing) for thing in page]}", here()
+        self._prepare, self.show, self._ended = prepare, show, ended
         self.job: Job | None = None
-        fits = w.Layout(width="auto")
-        self.run_button = w.Button(description=description, icon="play", button_style="primary", layout=fits)
-        self.stop_button = w.Button(description="Stop", icon="stop", disabled=True, layout=fits)
-        self.status, self.banner = w.HTML("not run yet"), banner()
+        self.run_button = button(description, self.run, "play", button_style="primary")
+        self.stop_button = button("Stop", self.stop, "stop", disabled=True)
+        self.status, self.banner = w.HTML("not run yet"), Banner()
         self.status.add_class("camkit-status")
-        self.run_button.on_click(lambda _: self.run())
-        self.stop_button.on_click(lambda _: self.stop())
+
+    @property
+    def running(self) -> bool:
+        """Whether a job of this runner goes on."""
+        return self.job is not None and self.job.thread.is_alive()
+
+    def replace_old(self, take_over: Callable[[Job], bool] = lambda job: False) -> None:
+        """Stop what the same panel began before its cell was run again, unless the new one takes it over."""
+        for job in left_behind(self.kind, self.place):
+            if not (job.kind == self.kind and take_over(job)):
+                job.stop()
 
     def run(self) -> None:
         """Start the search; returns at once."""
-        if self.job and self.job.thread.is_alive():
+        self.begin(self._prepare, "This cannot be searched")
+
+    def begin(self, prepare: Callable[[], Iterable[Step]], refused: str) -> None:
+        """Start what ``prepare()`` gives; where it cannot be, say so after the words of ``refused``."""
+        if self.running:
             return
         try:
-            steps = self._prepare()
+            steps = prepare()
         except IMPOSSIBLE as refusal:
-            self._end(refusal)
+            self.banner.show_message(f"{refused}: {refusal}.")
             return
-        show_message(self.banner, "")
-        self.run_button.disabled, self.stop_button.disabled = True, False
-        self.job = Job(self._kind, self._place, lambda: steps, self._show, self._end)
+        self.banner.show_message("")
+        self.adopt(Job(self.kind, self.place, steps, self))
+        assert self.job
         self.job.start()
 
-    def _end(self, error: Exception | None) -> None:
+    def adopt(self, job: Job) -> None:
+        """A job of one's own from now on."""
+        self.job, job.owner = job, self
+        self._show_buttons(running=True)
+
+    def leave(self, why: str) -> None:
+        """Somebody else has taken the job over."""
+        self.job, self.status.value = None, why
+        self._show_buttons(running=False)
+
+    def end(self, error: Exception | None) -> None:
+        """The job is over."""
         if error:
-            early = "This cannot be searched" if isinstance(error, IMPOSSIBLE) else "The search ended early"
-            show_message(self.banner, f"{early}: {error}.")
-        self.run_button.disabled, self.stop_button.disabled = False, True
+            began = (self.job and self.job.step) or not isinstance(error, IMPOSSIBLE)
+            early = "The search ended early" if began else "This cannot be searched"
+            self.banner.show_message(f"{early}: {error}.")
+        self._show_buttons(running=False)
+
+    def _show_buttons(self, running: bool) -> None:
+        self.run_button.disabled, self.stop_button.disabled = running, not running
+        if not running:
+            self._ended()
 
     def stop(self) -> None:
         """Stop before the next design; the best so far stays."""
-        if self.job:
+        if self.job and self.running:
+            self.status.value = "stopping"
             self.job.stop()
 
     def wait(self, seconds: float | None = None) -> None:
@@ -118,16 +148,19 @@ class JobPanel(Panel):
 
     runner: Runner
 
+    def __init__(self, children: Sequence[w.Widget]) -> None:
+        super().__init__(children)
+        self.runner.replace_old(self._take_over)
+
+    def _take_over(self, job: Job) -> bool:
+        """Go on with a job that the panel of the cell's run before has begun, if that can be."""
+        return False
+
     def _beside_picture(
         self, asked: Sequence[w.Widget], left: tuple[int, int] = (400, 620), right: tuple[int, int] = (420, 660)
     ) -> w.Widget:
         """What is asked, and the picture beside it or below; ``left`` and ``right``: usual and largest widths, px."""
-        sides = ((asked, left), ([self.picture.widget], right))
-        columns = [
-            w.VBox(children, layout=w.Layout(flex=f"1 1 {usual}px", max_width=f"{most}px"))
-            for children, (usual, most) in sides
-        ]
-        return w.HBox(columns, layout=w.Layout(flex_flow="row wrap"))
+        return wrapped(column(asked, *left), column([self.picture.widget], *right))
 
     def run(self) -> None:
         """Start the job; returns at once."""

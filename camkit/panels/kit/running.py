@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Generator, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Generator, Iterable
+from typing import Any, NamedTuple, Protocol
 
 from IPython.core.getipython import get_ipython
 
@@ -32,25 +32,30 @@ def here() -> Place:
     return Place(str(cell), str(message.get("header", {}).get("msg_id", "")))
 
 
+class Owner(Protocol):
+    """Who began a job, or took it over."""
+
+    def show(self, step: Step, last: bool) -> None:
+        """Called with the first step, now and then, and with the last."""
+
+    def end(self, error: Exception | None) -> None:
+        """Called when it is over, with the error that it ended with, if it did."""
+
+
 class Job:
     """The steps of a search in a thread of its own, begun by a panel of this ``kind`` that was made at ``place``.
 
-    ``steps()`` gives them.  ``show(step, last)`` is called for the first, now and then, and for the last; then ``end``
-    with the error that the search ended with, if it did.  After Stop the step that comes next is the last.
+    Its ``owner`` is told of them, and may be another one while ``lock`` is held.  After Stop the step that comes next
+    is the last.
     """
 
-    def __init__(
-        self,
-        kind: str,
-        place: Place,
-        steps: Callable[[], Iterator[Step]],
-        show: Callable[[Step, bool], None] = lambda step, last: None,
-        end: Callable[[Exception | None], None] = lambda error: None,
-    ) -> None:
-        self.kind, self.place = kind, place
-        self._steps, self._show, self._end = steps, show, end
+    def __init__(self, kind: str, place: Place, steps: Iterable[Step], owner: Owner | None = None) -> None:
+        self.kind, self.place, self.steps, self.owner = kind, place, steps, owner
         self._stop = threading.Event()
+        self.lock = threading.RLock()
         self.step: Step | None = None
+        self.over = False
+        """Whether its owner has been told that it is over."""
         self.ended = False
         """Whether the search came to its end."""
         self.thread = threading.Thread(target=self._run)
@@ -82,20 +87,32 @@ class Job:
                 RUNNING.remove(self)
 
     def _follow(self) -> None:
-        shown, steps = -REPORT, self._steps()
-        for step in steps:
-            self.step = step
-            if self.stopping:
-                break
-            if time.monotonic() - shown > REPORT:
-                self._show(step, False)
-                shown = time.monotonic()
-        else:
-            self.ended = True
-        if isinstance(steps, Generator):
-            steps.close()
+        steps, shown = iter(self.steps), -REPORT
+        try:
+            for self.step in steps:
+                if self.stopping:
+                    break
+                if time.monotonic() - shown > REPORT:
+                    self._show(self.step, last=False)
+                    shown = time.monotonic()
+            else:
+                self.ended = True
+        finally:
+            if isinstance(steps, Generator):
+                steps.close()
         if self.step:
-            self._show(self.step, True)
+            self._show(self.step, last=True)
+
+    def _show(self, step: Step, last: bool) -> None:
+        with self.lock:
+            if self.owner:
+                self.owner.show(step, last)
+
+    def _end(self, error: Exception | None) -> None:
+        with self.lock:
+            self.over = True
+            if self.owner:
+                self.owner.end(error)
 
 
 def left_behind(kind: str, place: Place) -> list[Job]:

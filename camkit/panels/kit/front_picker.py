@@ -1,0 +1,160 @@
+"""The choice of one design from a front: by a rule, by hand, or as it stands in an explorer's sliders.
+
+`FrontChoice` is the choice, without widgets; `FrontPicker` has the parts to choose with, without a layout;
+`FrontPanel` is a panel around them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import ipywidgets as w
+import numpy as np
+
+from ...decision import CHOOSERS
+from ...quantities import words
+from ...quantities.markup import html
+from ...search.front import Front
+from ...study.study import Study
+from ...views.front import shown_objectives
+from .layout import button
+from .panel import Panel
+from .picture import LivePicture
+from .quiet import Quiet
+
+
+def objective_texts(study: Study, f: Any, between: str = " ") -> list[str]:
+    """A design's objectives ``f`` by name, with their units."""
+    return [f"{m.name}{between}{m.text(m.sign * v)}" for m, v in zip(study.minimise, f, strict=True)]
+
+
+def places_on(front: Front, design: Any) -> np.ndarray:
+    """Where a design stands on a front; nowhere if it is not of it."""
+    now = front.study.x_of(design)
+    return np.flatnonzero(np.isclose(front.x, now, rtol=1e-9, atol=0).all(-1))
+
+
+def place_on(front: Front, design: Any) -> int | None:
+    """The first of the places where a design stands on a front."""
+    return next(map(int, places_on(front, design)), None)
+
+
+@dataclass(frozen=True)
+class FrontChoice:
+    """The winner of a front by one of `CHOOSERS`, under weights of the objectives (``None``: all count alike)."""
+
+    front: Front
+    rule: str = next(iter(CHOOSERS))
+    weights: np.ndarray | None = None
+
+    @cached_property
+    def winner(self) -> int | None:
+        """Which design; ``None`` if there is none."""
+        return CHOOSERS[self.rule](self.front, self.weights) if len(self.front) else None
+
+    def verdict(self) -> list[str]:
+        """The winner in words: its objectives, its free quantities; or why there is none."""
+        if self.winner is None:
+            return [self.front.message]
+        study, x, f = self.front.study, self.front.x[self.winner], self.front.f[self.winner]
+        goals = ", ".join(objective_texts(study, f))
+        free = [f"{words(n)} {q.text(v)}" for (n, q), v in zip(study.declared.items(), x, strict=True)]
+        return [
+            html("<b>winner: design {}</b> of 0..{}: {}", self.winner, len(self.front) - 1, goals),
+            ", ".join(free),
+        ]
+
+    @property
+    def count(self) -> str:
+        """How many designs there are."""
+        return "1 design" if len(self.front) == 1 else f"{len(self.front)} designs"
+
+    def summary(self) -> str:
+        """The front's size and its winner, a line each."""
+        if self.winner is None:
+            return f"no front: {self.front.message}"
+        goals = objective_texts(self.front.study, self.front.f[self.winner], ": ")
+        return "\n".join([f"{self.count} on the front; winner by {self.rule}:", *goals])
+
+
+class FrontPicker:
+    """A menu of rules, a slider over the designs of a front, and a button for the winner.
+
+    ``choice`` is what they show.  What is picked goes into the sliders of an `Explorer`: ``design(i)``, by default the
+    front's own.  ``importance`` judges the objectives; ``judged()`` is called when another rule is asked for.
+    """
+
+    def __init__(
+        self,
+        explorer: Any,
+        front: Front,
+        importance: Any,
+        judged: Callable[[], None],
+        design: Callable[[int], Any] | None = None,
+    ) -> None:
+        self.explorer, self.importance = explorer, importance
+        self._design = design or (lambda index: self.choice.front[index])
+        self.quiet = Quiet()
+        self.rule = w.Dropdown(options=list(CHOOSERS), description="choose by")
+        self.pick = w.IntSlider(0, 0, 0, description="design", tooltip="loads a design of the front")
+        self.take = button("Load the winner", lambda: self.select(self.choice.winner), "star")
+        self.quiet.hear(self.rule, lambda _: judged())
+        self.quiet.hear(self.pick, self.select)
+        self.followers: list[Callable[[], None]] = []
+        self.show(front)
+
+    def show(self, front: Front) -> None:
+        """Choose from another front, or anew from the same one; the slider is at the design in the explorer's."""
+        self.choice = FrontChoice(front, self.rule.value, self.importance.weights if self.importance else None)
+        self.take.disabled = self.choice.winner is None
+        places = places_on(front, self.explorer.design)
+        self.selected = next(map(int, places), None)
+        with self.quiet:
+            self.pick.max, self.pick.disabled = max(len(front) - 1, 0), not len(front)
+            if self.selected is not None and self.pick.value not in places:
+                self.pick.value = self.selected
+
+    @property
+    def moved(self) -> bool:
+        """Whether another design of the front is in the explorer than is shown, or none."""
+        return place_on(self.choice.front, self.explorer.design) != self.selected
+
+    def select(self, index: int | None) -> None:
+        """Load one design of the front into the explorer; nothing if there is no such."""
+        if index is not None and index < len(self.choice.front):
+            self.explorer.load(self._design(index))
+
+    def select_nearest(self, picture: LivePicture, x: float, y: float) -> None:
+        """Load the design whose point is nearest to a click."""
+        self.select(picture.nearest(shown_objectives(self.choice.front).T, x, y))
+
+
+class FrontPanel(Panel):
+    """A panel around its ``picker``."""
+
+    picker: FrontPicker
+
+    @property
+    def front(self) -> Front:
+        """The front that is shown."""
+        return self.picker.choice.front
+
+    @property
+    def winner(self) -> int | None:
+        """Which design of it wins."""
+        return self.picker.choice.winner
+
+    def select(self, index: int | None) -> None:
+        """Load one design of the front into the sliders."""
+        self.picker.select(index)
+
+    def on_front(self, act: Callable[[], None]) -> None:
+        """Call ``act()`` after each new front is shown, from whichever thread shows it."""
+        self.picker.followers.append(act)
+
+    def _tell_followers(self) -> None:
+        for act in self.picker.followers:
+            act()

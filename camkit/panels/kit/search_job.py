@@ -1,0 +1,65 @@
+"""The search that a session asks for, step by step, with the files that it can be resumed from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ...files import Session
+from ...search.front import reference_point
+from ...search.protocol import Step, search
+from .search_files import Kept
+
+SIZE = ("population", "generations", "seed")
+"""The settings of a session that are options of the search."""
+
+
+class SessionSearch:
+    """The steps of the search of a ``session``; its files go when it ends, and stay when it is stopped before.
+
+    ``unkept`` says why it has no files, or has lost them; empty where it is kept.
+    """
+
+    def __init__(self, session: Session, kept: Kept | None = None, unkept: str = "") -> None:
+        self.session, self.unkept, self._kept = session, unkept, kept
+        self.reference: Any = None
+        """The point up to which its hypervolumes count, known when it runs."""
+
+    def __iter__(self) -> Iterator[Step]:
+        ended = False
+        try:
+            self.reference = reference_point(self.session.study)
+            for step in self._steps():
+                self.unkept = step.message or self.unkept
+                ended = step.number == step.of
+                yield step
+        finally:
+            if self._kept:
+                self._kept.remove() if ended else self._kept.release()
+
+    def _steps(self) -> Iterator[Step]:
+        size = {name: self.session.search[name] for name in SIZE}
+        checkpoint = self._kept.checkpoint if self._kept else None
+        return search(self.session.study, "nsga2", checkpoint=checkpoint, **size)
+
+
+def progress_text(step: Step, on_front: int, hypervolume: float, last: bool) -> str:
+    """How far a search by NSGA-II has come, in words."""
+    stopped = " (stopped)" if last and step.number < step.of else ""
+    return (
+        f"generation {step.number} of {step.of}{stopped}: {step.feasible} of {len(step.evaluation.x)} feasible, "
+        f"{on_front} on the front, hypervolume {hypervolume:.6g}{'' if last else time_left(step)}"
+    )
+
+
+def time_left(step: Step) -> str:
+    """How long a search still takes, in words."""
+    left = step.seconds_left
+    return f", {left:.0f} s left" if left < 90 else f", {left / 60:.0f} min left"
+
+
+def record_text(record: Mapping[str, Any]) -> str:
+    """How a front was found, in one line; all that is known of it is in the saved study."""
+    words_of = {"generations": "{} generations", "designs": "{} designs looked at", "seed": "seed {}"}
+    known = (text.format(record[name]) for name, text in words_of.items() if name in record)
+    return f"found in {record['seconds']:.3g} s: {', '.join(known)}" if record else ""
