@@ -244,7 +244,7 @@ def test_free_quantities_move_the_mark_and_nothing_else(panel):
     settled(panel)
     assert panel.plane is plane
     assert_allclose(mark(panel, "in the sliders"), (9, 16))
-    panel.explorer.controls["speed"].box.value = 1500
+    panel.explorer.controls["load.speed"].box.value = 1500
     settled(panel)
     assert panel.plane is not plane
     assert_allclose(panel.plane.study.start.speed, 1500 * rpm)
@@ -273,12 +273,12 @@ def test_weights_that_are_all_0_are_refused_in_a_sentence(panel):
     settled(panel)
     assert panel.weights == (0, 1)
     panel.knobs[1].box.value = 0
-    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel._banner.value
+    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel.banner.value
     settled(panel)
     assert_allclose(panel.optimum, (20, 20))
     assert "W_1 0, W_2 1" in panel.summary()
     panel.knobs[1].box.value = 0.5
-    assert panel._banner.value == ""
+    assert panel.banner.value == ""
 
 
 def test_every_control_comes_back(panel):
@@ -287,6 +287,8 @@ def test_every_control_comes_back(panel):
 
 def test_a_study_of_three_quantities_is_refused():
     app = explore(ValveCam(), lift, free=["n"], width=4, height=3)
-    three = {"three": lambda start, weights: Study(start, ("n", "m", "speed"), valve_study(start, weights).minimise)}
+    three = {
+        "three": lambda start, weights: Study(start, ("n", "m", "load.speed"), valve_study(start, weights).minimise)
+    }
     with pytest.raises(ValueError, match="a plane shows two free quantities; this study has 3"):
         contour_panel(app, three, weights={"fullness": 0.5, "wear": 0.5})

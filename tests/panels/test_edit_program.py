@@ -78,10 +78,10 @@ def test_a_drag_beside_the_handles_moves_nothing(editor):
 
 def test_an_impossible_program_is_told_and_the_last_one_kept(editor):
     editor.rows[1].angle.value = 200
-    assert "the program spans 470 deg; it can span at most 360 deg" in editor._banner.value
+    assert "the program spans 470 deg; it can span at most 360 deg" in editor.banner.value
     assert editor.program == PROGRAM
     editor.rows[1].angle.value = 90
-    assert editor._banner.value == ""
+    assert editor.banner.value == ""
 
 
 def test_followers_hear_of_every_possible_program(editor):

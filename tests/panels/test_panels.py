@@ -167,8 +167,8 @@ def sentence(box):
 def assert_shows_its_design(panel):
     """Controls and picture say the same, or a sentence stands in place of the picture."""
     if panel.picture.widget.layout.display == "none":
-        assert sentence(panel._banner).startswith("<div role='alert'>This cannot be built")
-        assert panel._table.layout.display == "none"
+        assert sentence(panel.banner).startswith("<div role='alert'>This cannot be built")
+        assert panel.numbers.layout.display == "none"
         return
     for name, knob in panel.controls.items():
         assert knob.value == value_of(panel.design, name), name
@@ -186,9 +186,9 @@ def test_no_number_makes_a_panel_show_another_design(name):
             knob.box.text = typed
             assert_shows_its_design(panel)
             taken = knob.value == pytest.approx(float(typed) * knob.declared.factor)
-            assert taken or (knob.value == first and panel.design == before and sentence(panel._banner))
+            assert taken or (knob.value == first and panel.design == before and sentence(panel.banner))
         press(panel, "Reset")
-        assert sentence(panel._banner) == ""
+        assert sentence(panel.banner) == ""
         assert panel.design == design
         assert panel.picture.widget.layout.display == ""
 
@@ -197,7 +197,7 @@ def test_a_number_far_too_large_is_refused_in_one_sentence_and_the_picture_stays
     panel = explore(TranslatingRollerCam(groove=False), mechanism, free=["base_radius"])
     shown = panel.picture.widget.data
     panel.controls["base_radius"].box.text = "1e300"
-    said = sentence(panel._banner)
+    said = sentence(panel.banner)
     assert said.startswith(
         "<div role='alert'>The base radius stays as before: 1e+300 mm was typed; it must be a finite"
     )
@@ -214,7 +214,7 @@ def test_a_number_that_only_its_unit_makes_infinite_is_refused_too():
     assert 1e308 * knob.declared.factor == math.inf
     for typed in ("1e308", "-1e308"):
         knob.box.text = typed
-        said = sentence(panel._banner)
+        said = sentence(panel.banner)
         assert f"{float(typed):g} {knob.declared.unit} was typed; it must be a finite number" in said
         assert (knob.value, knob.box.text) == (first, shown)
     knob.box.text = "2"
@@ -235,7 +235,7 @@ def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():
             panel.controls["lift_arm"].slider.value = 47.0
         assert panel.design is good
         assert panel.controls["lift_arm"].box.text == "48.5"
-        assert f"so the last one stays: {error}" in sentence(panel._banner)
+        assert f"so the last one stays: {error}" in sentence(panel.banner)
         assert panel.picture.widget.layout.display == ""
 
 
@@ -251,7 +251,7 @@ def test_a_curve_beyond_all_bounds_is_not_drawn():
     panel.controls["base_radius"].slider.value += 1
     far[0] = 1.0
     panel.load(before)
-    assert sentence(panel._banner) == ""
+    assert sentence(panel.banner) == ""
     assert panel.design is before
 
 
@@ -265,7 +265,7 @@ def test_a_follower_that_fails_stops_no_other():
     panel.on_change(seen.append)
     panel.controls["base_radius"].slider.value += 1
     assert seen == [panel.design]
-    assert "too large" in sentence(panel._banner)
+    assert "too large" in sentence(panel.banner)
 
 
 def plane_study(start, weights=None, reference=None, space=None):
@@ -305,7 +305,7 @@ def test_no_number_breaks_a_panel_beside_the_explorer(name, tmp_path, monkeypatc
     app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "lift_load.torque"])
     panel = other_panels(app)[name]()
     box_of = getattr(panel, "runner", None)
-    banner = box_of.banner if box_of else panel._banner
+    banner = box_of.banner if box_of else panel.banner
     for box in inside(panel, NumberBox):
         first = box.value
         for typed in (*TYPED, "48,09x"):
@@ -338,7 +338,7 @@ def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch)
             press(app, "Reset")
             for panel in panels:
                 panel.settle()
-                assert sentence(panel._banner) == ""
+                assert sentence(panel.banner) == ""
     assert app.design == app.start
 
 

@@ -8,16 +8,24 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import DoorHandleCam, Judgements, OscillatingRollerCam, door_handle_study, lift_curve_study, nsga2
-from camkit.decision import CHOOSERS
+from camkit.cam import OscillatingRollerCam
+from camkit.decision import CHOOSERS, Judgements
 from camkit.files import Session
-from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE, PAPER_JUDGEMENTS
+from camkit.machines.door_handle import (
+    DOOR_HANDLE_SPACE,
+    EXPANDED_SPACE,
+    PAPER_JUDGEMENTS,
+    DoorHandleCam,
+    door_handle_study,
+    lift_curve_study,
+)
 from camkit.panels.kit.front_picker import FrontChoice, place_on
 from camkit.panels.kit.latest_only import Debounced
 from camkit.panels.kit.quiet import Quiet
 from camkit.panels.kit.search_job import SessionSearch
 from camkit.panels.kit.search_page import SearchPage
 from camkit.search.front import Front, front_of, reference_point
+from camkit.search.nsga2 import nsga2
 from camkit.units import mm
 
 STUDIES = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
@@ -56,7 +64,7 @@ def test_a_search_has_the_steps_of_its_session_and_its_files_go_with_the_last():
     for step in search:
         numbers.append(step.number)
         feasible.append(step.feasible)
-        assert len(files()) == 3
+        assert [name.rpartition(".")[2] for name in files()] == ["gitignore", "json", "lock", "npz"]
     assert numbers == list(range(1, 13))
     assert files() == [".gitignore"]
     assert_array_equal(step.front.x, nsga2(search.session.study, 20, 12, 4).x)
@@ -106,7 +114,9 @@ def test_a_search_that_breaks_leaves_its_files_to_be_resumed():
 
 def test_the_page_knows_its_own_search_from_another_of_the_same_name():
     page = a_page()
-    session = a_session(page)
+    search = page.search(a_session(page))
+    *_, _ = search
+    session = search.session  # as its file says it
     assert page.searches_as(session)
     assert not a_page(STUDIES | {"lift curve alone": door_handle_study}).searches_as(session)
     assert not a_page({"whole cam": door_handle_study}).searches_as(session)
@@ -119,7 +129,6 @@ REFUSED = {
     "a population that is not offered": ({"search": {"population": 1000}}, "1000 for 'population'"),
     "a rule that is not there": ({"search": {"rule": "dice"}}, "'dice' for 'rule'"),
     "judgements of two": ({"judgements": {"criteria": Judgements(["a", "b"], [1])}}, "not for 3 criteria"),
-    "another mechanism": ({"design": OscillatingRollerCam()}, "a door handle cam is wanted here"),
 }
 
 
@@ -130,6 +139,12 @@ def test_a_session_of_another_page_is_refused(name):
     changes, sentence = REFUSED[name]
     with pytest.raises(ValueError, match=sentence):
         page.check(replace(a_session(page), **changes))
+
+
+def test_a_session_of_another_mechanism_is_refused():
+    rollers = SearchPage(OscillatingRollerCam(), STUDIES, (), {}, OFFERED)
+    with pytest.raises(ValueError, match="the file holds a door handle cam; an oscillating roller cam is wanted here"):
+        rollers.check(a_session(a_page()))
 
 
 def test_the_kind_of_a_page_is_what_it_is_made_of():

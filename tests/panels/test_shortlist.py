@@ -199,7 +199,7 @@ def press(panel, words, which=0):
 
 
 def alert(panel):
-    return re.sub("<.*?>", "", panel._banner.value)
+    return re.sub("<.*?>", "", panel.banner.value)
 
 
 def keep(panel, arm):
@@ -262,7 +262,7 @@ def test_the_files_are_the_table_and_the_picture(panel):
     assert table.html() in file["text"]
     image = Image.open(io.BytesIO(base64.b64decode(page.images[0]["src"].partition(",")[2])))
     assert image.size == (1260, 480)
-    assert table.html() in panel._table.value
+    assert table.html() in panel.numbers.value
 
 
 def test_an_empty_tray_shows_and_saves_nothing_but_words(panel):

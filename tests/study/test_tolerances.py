@@ -378,9 +378,9 @@ def test_the_table_holds_the_parts_measures(panel):
     for measure in made.measures:
         low, high = made.percentiles(measure, (2.5, 97.5))
         cells = (measure.name, measure.text(float(measure(made.nominal))), measure.text(low), measure.text(high))
-        assert "".join(f"<td>{cell}</td>" for cell in cells) in panel._table.value
+        assert "".join(f"<td>{cell}</td>" for cell in cells) in panel.numbers.value
     max_pressure_angle = next(iter(panel.study.at_most))
-    assert f"<td>{100 * made.missed[max_pressure_angle]:.1f} %</td>" in panel._table.value
+    assert f"<td>{100 * made.missed[max_pressure_angle]:.1f} %</td>" in panel.numbers.value
 
 
 @pytest.mark.parametrize(

@@ -149,6 +149,7 @@ class JobPanel(Panel):
     runner: Runner
 
     def __init__(self, children: Sequence[w.Widget]) -> None:
+        self.banner = self.runner.banner
         super().__init__(children)
         self.runner.replace_old(self._take_over)
 
