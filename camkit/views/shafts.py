@@ -20,7 +20,7 @@ REACH, GAP = 0.5, 0.85
 
 def _direction(slope: Any) -> np.ndarray:
     """Of a shaft that falls by ``slope`` (rad) to the right."""
-    return np.array([np.cos(slope), 0.0, -np.sin(slope)])
+    return np.stack([np.cos(slope), 0 * slope, -np.sin(slope)])
 
 
 def _pin(axis: np.ndarray, angle: Any) -> np.ndarray:

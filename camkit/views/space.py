@@ -189,7 +189,9 @@ def output_angle(analysis: Any, turn: float | None = None) -> Picture:
     return Picture.of(
         _swept("Output angle", "rocker angle  [deg]", ylim=(0, 360)),
         Polygon("sweep", [start, end, end, start], [0, 0, 360, 360], role="body"),
-        Polygon("never", np.array([x[0], *x, x[-1]]), np.array([0, *wall, 0]), role="trouble", opacity=0.15),
+        Polygon(
+            "never", np.concatenate([x[:1], x, x[-1:]]), np.concatenate([[0], wall, [0]]), role="trouble", opacity=0.15
+        ),
         Line("other", x, _unbroken(other.rocker_angle[:, 0]), role="guide", label="other branch"),
         Line("own", x, _unbroken(own.rocker_angle[:, 0]), stroke="line", **ROCKER),
         Line("swept", analysis.crank_angle / deg, swept, stroke="bold", **ROCKER),

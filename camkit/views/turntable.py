@@ -11,6 +11,8 @@ import numpy as np
 
 from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, gaps
 
+SQUARES = 40
+"""No floor has more squares each way from its middle."""
 NEAR = 10.0
 """Height in the drawing of what lies at the middle of a scene; nearer things come later, flat things before."""
 
@@ -109,10 +111,11 @@ class Turntable:
 
     def floor(self, key: str, step: float) -> None:
         """A square grid below the scene, with lines ``step`` apart."""
-        ticks = np.arange(-np.floor(self.radius / step), np.floor(self.radius / step) + 1) * step
-        ends = ticks[[0, -1]]
-        lines = [[(t, ends[0]), (t, ends[1]), (np.nan, np.nan)] for t in ticks]
-        flat = np.concatenate([*lines, *(np.array(one)[:, ::-1] for one in lines)]).T
+        end = np.floor(self.radius / step) * step
+        ticks = np.arange(-SQUARES, SQUARES + 1) * step
+        across = np.repeat(gaps(ticks, abs(ticks) <= end), 3)
+        along = np.tile(np.stack([-end, end, np.nan]), len(ticks))
+        flat = np.concatenate([np.stack([across, along]), np.stack([along, across])], axis=1)
         grid = self.frame.T @ np.vstack([flat, np.full(flat.shape[1], -self.depth)]) + self.centre[:, None]
         self.path(key, grid, at=1.0, role="body")
 
