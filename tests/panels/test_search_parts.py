@@ -64,7 +64,7 @@ def test_a_search_has_the_steps_of_its_session_and_its_files_go_with_the_last():
     for step in search:
         numbers.append(step.number)
         feasible.append(step.feasible)
-        assert [name.rpartition(".")[2] for name in files()] == ["gitignore", "json", "lock", "npz"]
+        assert [name.rpartition(".")[2] for name in files()] == ["gitignore", "json", "lock", "search"]
     assert numbers == list(range(1, 13))
     assert files() == [".gitignore"]
     assert_array_equal(step.front.x, nsga2(search.session.study, 20, 12, 4).x)
