@@ -56,6 +56,11 @@ class Law(Declared, ABC):
         """The ``u`` inside (0, 1), in order, at which a derivative up to the jerk may jump or have a corner."""
         return ()
 
+    @property
+    def kinks_move(self) -> bool:
+        """Whether the kinks stand elsewhere for other parameters of the law."""
+        return False
+
     def __call__(self, u: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``u`` (any shape), derivatives with respect to ``u``; ``nan`` outside [0, 1]."""
         return Kinematics(*(np.asarray(x)[()] for x in self.at(_inside(u))))

@@ -77,10 +77,10 @@ def resolve(
     shares, pieces, moves = [], [], []
     for i, segment in enumerate(program.segments):
         start, end = program.starts[i], program.starts[i + 1]
-        more = [(angle - start) / (end - start) for angle in at_angles]
-        if not segment.still and len(at_levels):
-            more += _passed(segment, np.asarray(at_levels) - program.levels[i])
-        for low, high, even in _pieces(segment, steps, [x for x in more if np.any((x > 0) & (x < 1))]):
+        passes = len(at_levels) and not segment.still
+        passed = _passed(segment, np.asarray(at_levels) - program.levels[i]) if passes else []
+        corners = [(angle - start) / (end - start) for angle in at_angles]
+        for low, high, even in _pieces(segment, steps, [x for x in (*corners, *passed) if np.any((x > 0) & (x < 1))]):
             shares.append((i, low, high, even))
             pieces.append((start + low * (end - start), start + high * (end - start), even))
             moves.append(not segment.still)
@@ -93,17 +93,23 @@ def resolve(
     return Resolution(joined, ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
 
 
-def _pieces(segment: Segment, steps: int, more: list[Any]) -> list[tuple[Any, Any, int]]:
-    """The smooth pieces of a segment, which end at ``more`` shares of it, too: from and to, as shares, their steps."""
-    if segment.still and not more:
+def _pieces(segment: Segment, steps: int, corners: list[Any]) -> list[tuple[Any, Any, int]]:
+    """The smooth pieces of a segment: from and to, as shares, and their steps.
+
+    They end at ``corners`` too.  Where ends move with the design all pieces have as many steps, of one design as of a
+    population: of one whose members have the same corners.
+    """
+    if segment.still and not corners:
         return [(0.0, 1.0, REST)]
     kinks = () if segment.still else segment.kinks
-    ends = list(pairwise((0.0, *(_in_order([*kinks, *more]) if more else kinks), 1.0)))
+    pieces = list(pairwise((0.0, *(_in_order([*kinks, *corners]) if corners else kinks), 1.0)))
     if segment.still:
-        return [(low, high, LEAST) for low, high in ends]
-    alike = any(np.ndim(end) for _, end in ends)  # a population's: as many steps for each of its members
-    shares = [1 / len(ends) if alike else high - low for low, high in ends]
-    return [(low, high, max(LEAST, int(np.ceil(steps * x)))) for (low, high), x in zip(ends, shares, strict=True)]
+        return [(low, high, LEAST) for low, high in pieces]
+    if corners or segment.kinks_move:
+        shares = [1 / (1 + len(kinks) + len(corners))] * len(pieces)
+    else:
+        shares = [high - low for low, high in pieces]
+    return [(*piece, max(LEAST, int(np.ceil(steps * x)))) for piece, x in zip(pieces, shares, strict=True)]
 
 
 def _in_order(shares: list[Any]) -> list[Any]:
@@ -116,9 +122,10 @@ def _in_order(shares: list[Any]) -> list[Any]:
 
 
 def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
-    """The shares of a segment at which it has changed the level by one of ``changes``: the first time and the last.
+    """The shares of a segment at which it has changed the level by one of ``changes``.
 
-    1 where it never has.  A list of numbers, or of ``(p, 1)`` for a population.
+    The first time and, if that is another one, the last; 1 where it never has.  A list of numbers, or of ``(p, 1)`` for
+    a population.
     """
     u = np.linspace(0.0, 1.0, STEPS + 1)
     beyond = np.expand_dims(segment.motion(u).s, -2) > changes[..., None]
@@ -132,7 +139,7 @@ def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
             same = (segment.motion(middle).s > changes) == side
             low, high = np.where(same, middle, low), np.where(same, high, middle)
         found.append(np.where(crosses.any(-1), high, 1.0))
-    both = np.concatenate(found, axis=-1)
+    both = found[0] if np.array_equal(found[0], found[1]) else np.concatenate(found, axis=-1)
     return [both[..., k] if both.ndim == 1 else both[..., k : k + 1] for k in range(both.shape[-1])]
 
 

@@ -55,6 +55,11 @@ class Segment(Declared, ABC):
         return ()
 
     @property
+    def kinks_move(self) -> bool:
+        """Whether they stand elsewhere in other designs."""
+        return False
+
+    @property
     def still(self) -> bool:
         """Whether the follower rests."""
         return False
@@ -121,6 +126,10 @@ class Move(Segment):
     @property
     def kinks(self) -> tuple[Any, ...]:
         return getattr(self.law, "kinks", ())
+
+    @property
+    def kinks_move(self) -> bool:
+        return getattr(self.law, "kinks_move", False) or any(map(np.ndim, self.kinks))
 
     def motion(self, u: Value) -> Kinematics:
         s, v, a, j = self.law(u)

@@ -56,6 +56,10 @@ class ConstantVelocity(Law):
         return 2 if self.shape == "cycloidal" else 1
 
     @property
+    def kinks_move(self) -> bool:
+        return True
+
+    @property
     def kinks(self) -> tuple[Any, ...]:
         return (self.blend, 1 - self.blend)
 

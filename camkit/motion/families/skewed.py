@@ -59,6 +59,10 @@ class Skewed(Law):
         return self.law.continuity
 
     @property
+    def kinks_move(self) -> bool:
+        return True
+
+    @property
     def kinks(self) -> tuple[Any, ...]:
         x = self.inflection
         early = [2 * x * k for k in self.law.kinks if k < 0.5]
