@@ -1,4 +1,4 @@
-"""What an entry of a saved file may be: names, lists, numbers, counts; anything else is refused in a sentence."""
+"""What an entry of a saved file may be: names, lists, numbers; anything else is refused in a sentence."""
 
 from __future__ import annotations
 
@@ -28,28 +28,12 @@ def listed(entry: object, name: str) -> list[Any]:
     return entry
 
 
-def one_number(entry: Any, name: str) -> float:
-    """``entry`` if it is a number."""
-    if not is_number(entry):
-        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where a number belongs")
-    return float(entry)
-
-
 def all_numbers(entry: object, name: str, count: int) -> list[float]:
     """``entry`` if it is a list of so many numbers."""
     if not isinstance(entry, list) or len(entry) != count or not all(map(is_number, entry)):
-        wanted = f"{count} numbers belong"
-        raise ValueError(f"the file is damaged: it says {shown(entry)} for {shown(name)}, where {wanted}")
+        said = f"{shown(entry)} for {shown(name)}, where {count} numbers belong"
+        raise ValueError(f"the file is damaged: it says {said}")
     return [float(number) for number in entry]
-
-
-def count(name: str, value: object, least: int, most: int) -> int:
-    """``value`` if it is a whole number from ``least`` to ``most``."""
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        raise ValueError(
-            f"the file says {shown(value)} for {name!r}; it must be a whole number of at least {least}, at most {most}"
-        )
-    return value
 
 
 def plain(name: object, longest: int = 100) -> str:

@@ -10,10 +10,10 @@ import numpy as np
 
 from ..decision import Judgements
 from ..quantities import Analysable, Measure
-from ..quantities.kinds import refuse_kinds, shown
+from ..quantities.kinds import refuse_kinds, shown, whole
 from ..search.front import Front, front_of
 from ..study.study import Study
-from .checks import count, listed, mapping, message, plain
+from .checks import listed, mapping, message, plain
 from .entries import MOST_ROWS, Reading, entry_of, is_number
 from .renamed import Renaming
 from .studies import rows, study_entry, study_of, x_of
@@ -145,7 +145,7 @@ def left_out(told: int, kept: int) -> list[str]:
 
 def _setting(name: str, value: object, renaming: Renaming) -> Any:
     if name in COUNTS and name in SETTINGS:
-        return count(name, value, *COUNTS[name])
+        return whole(value, f"the file's {name!r}", *COUNTS[name])
     if name not in SETTINGS or not isinstance(value, SETTINGS[name]):
         raise ValueError(f"the file says {shown(value)} for {shown(name)}, which is no setting of a search")
     return renaming.name(name, plain(value))
@@ -176,7 +176,7 @@ def _record(entry: object) -> dict[str, Any]:
     if not isinstance(entry, dict) or entry.keys() not in known or not is_number(entry["seconds"]):
         raise ValueError("the file is damaged: its record of the search is not as camkit writes it")
     for name in entry.keys() - common:
-        count(name, entry[name], *COUNTS[name])
+        whole(entry[name], f"the file's {name!r}", *COUNTS[name])
     for name, version in mapping(entry["versions"], "versions").items():
         plain(name), plain(version)
     return dict(entry)

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Design, Measure, measures_of, quantities_of
-from ..quantities.kinds import kind_words, shown
+from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..study.study import Study, WeightedSum, refuse_bounds, weighted
 from ..units import factor
-from .checks import all_numbers, count, listed, mapping, one_number, plain
+from .checks import all_numbers, listed, mapping, plain
 from .entries import Reading, entry_of, exact_in_unit, is_number, key
 from .renamed import Given, Renaming
 
@@ -75,7 +75,7 @@ def study_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Meas
     }
     minimise = tuple(_objective(each, find) for each in listed(entry["minimise"], "minimise"))
     free = {path: _bounds(start, path, *freed) for path, freed in _free(entry, start, reading).items()}
-    return Study(start, free, minimise, angles=count("angles", entry["angles"], 2, MOST_ANGLES), **limits)
+    return Study(start, free, minimise, angles=whole(entry["angles"], "the file's 'angles'", 2, MOST_ANGLES), **limits)
 
 
 def _free(entry: Mapping[str, Any], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:
@@ -206,7 +206,7 @@ def _by_measure(entry: object, name: str, find: Find) -> dict[Measure, float]:
     for k, value in mapping(entry, name).items():
         if find(k) in found:
             raise ValueError(f"the file has the {find(k).name} twice in {name!r}, the second time as {shown(k)}")
-        found[find(k)] = one_number(value, k)
+        found[find(k)] = one_number(value, f"the file's {shown(k)}")
     return found
 
 

@@ -513,7 +513,7 @@ HOSTILE = {
     "evil_study.json": r"^the file has the name 'effort<img src=x.*'; a name has up to 100 letters, digits, spaces",
     "motion_is_number.json": r"^the file says 0 for 'motion'; a motion program belongs there$",
     "empty_row_table.json": r"^the file says \[\[\]\] for 'door_torque_table'; a list of pairs of numbers belongs",
-    "angles_study.json": r"^the file says 1000000000 for 'angles'; it must be a whole number of at least 2",
+    "angles_study.json": r"^the file's 'angles' is 1000000000; it must be a whole number of at most 20001$",
 }
 
 
@@ -569,9 +569,9 @@ ABSURD = {
         design_with("motion_law", to={"kind": "SplineLaw", "u": [0.002 * i for i in range(1, 400)], "s": []}),
         "of 399 entries; there can be at most 300",
     ),
-    "a huge population": (work_with("search", "population", to=10**9), "1000000000 for 'population'"),
-    "a huge number of generations": (work_with("search", "generations", to=10**12), "'generations'"),
-    "a negative seed": (work_with("search", "seed", to=-1), "'seed'"),
+    "a huge population": (work_with("search", "population", to=10**9), "the file's 'population' is 1000000000; it"),
+    "a huge number of generations": (work_with("search", "generations", to=10**12), "the file's 'generations' is"),
+    "a negative seed": (work_with("search", "seed", to=-1), "the file's 'seed' is -1; it must"),
     "no judgement at all": (work_with("judgements", to={"criteria": [None, None, None]}), "no judgement connects"),
     "text among judgements": (work_with("judgements", to={"criteria": [5, "1/3", 1]}), "where numbers belong"),
     "an unknown method": (work_with("judgements", "criteria", "method", to="dice"), "the method is 'dice'"),

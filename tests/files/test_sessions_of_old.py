@@ -204,14 +204,14 @@ SPOILED = {
     "outside of its bounds": (free_speed(130.0), f"design 1 has 130.0 for '{SPEED}'; the bounds are 50.0 and 120.0"),
     "a table of text": (put("start", to={"door_torque_table": ["x"]}), "says ['x'] for 'door_torque_table'; a list"),
     "a limit of text": (
-        put("at_most", to={"steepest pressure angle, worse curve [deg]": "x"}), "is damaged: it says 'x' for 'steepest"
+        put("at_most", to={"steepest pressure angle, worse curve [deg]": "x"}), "worse curve [deg]' is 'x'; it must be"
     ),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize(("spoil", "sentence"), SPOILED.values(), ids=SPOILED)
 def test_a_spoiled_file_of_old_is_refused_with_what_stands_in_it(spoil, sentence):
-    with pytest.raises(ValueError, match=f"^the f.*{re.escape(sentence)}"):
+    with pytest.raises(ValueError, match=f"^the f.*?{re.escape(sentence)}"):
         read_json(door(spoil))
 
 
