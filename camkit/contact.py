@@ -21,11 +21,11 @@ class LineContact(NamedTuple):
 
     pressure: Any
     """``p_0``: largest pressure, in the middle, Pa."""
-    half_width: Any
+    half_width: Value
     """``a``: half the width of the contact, m."""
     shear: Any
     """Largest shear stress, below the middle of the contact, Pa."""
-    shear_depth: Any
+    shear_depth: Value
     """How deep that is, m."""
 
 
@@ -53,7 +53,7 @@ def contact_modulus(first: Value, second: Value, first_poisson: Value = 0.3, sec
         return np.where(possible, 1 / compliance, np.nan)[()]
 
 
-def line_contact(force_per_length: Any, curvature: Value, modulus: Value) -> LineContact:
+def line_contact(force_per_length: Value, curvature: Value, modulus: Value) -> LineContact:
     """Pressure and shear where two parallel cylinders are pressed together, element by element.
 
     ``force_per_length``: ``w``, N/m; ``curvature``: ``kappa``, the sum of both curvatures, 1/m (a flat face

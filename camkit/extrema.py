@@ -158,7 +158,7 @@ def _zoomed_top(sample: Callable[[Any, Any], Any], at: Array, low: Array, high: 
     return top
 
 
-def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Any, Any]:
+def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Array, Array]:
     """The tops of the quartics through the local maxima ``at`` and four neighbours; by how much they may be too low.
 
     0 where that is no matter.  A parabola's, where a piece ends next to the maximum.
@@ -191,7 +191,7 @@ def _quartic_top(*slopes: Any) -> Value:
     return x * (a + x * (b / 2 + x * (c / 6 + x * d / 24)))
 
 
-def _tops_by_ends(values: Array, inner: Any) -> tuple[Any, Any, Any]:
+def _tops_by_ends(values: Array, inner: Any) -> tuple[Array, Array, Array]:
     """Where a piece's end is higher than its neighbour and yet the top lies between them, and how much it may be."""
     ends = np.flatnonzero(~inner)
     way = np.where(inner[(ends + 1) % len(inner)], 1, -1)
@@ -212,7 +212,9 @@ def roughly_highest(angle: Value, values: Value, inner: Any) -> Extreme:
     return Extreme(value[..., 0], _at(angle, best)[..., 0])
 
 
-def _around(f: Callable[[Any], Any], begin: Value, end: Value, low: Value, high: Value) -> tuple[Any, Any, Any, Any]:
+def _around(
+    f: Callable[[Any], Any], begin: Value, end: Value, low: Value, high: Value
+) -> tuple[Array, Array, Array, Array]:
     """The highest of a few angles from ``begin`` to ``end``, where it is, how much it bends, and if it is at an end.
 
     It bends by ``inf`` if it seems to lie beyond them; ``low`` and ``high`` are ends, beyond which there is nothing.
@@ -233,7 +235,7 @@ def _around(f: Callable[[Any], Any], begin: Value, end: Value, low: Value, high:
     return value, place, bend, edge
 
 
-def _zoomed(f: Callable[[Any], Any], low: Value, high: Value) -> tuple[Any, Any]:
+def _zoomed(f: Callable[[Any], Any], low: Value, high: Value) -> tuple[Array, Array]:
     """The highest between two angles: each time it is evaluated again between the best angle's neighbours."""
     for _ in range(ZOOMS):
         angle = low + (high - low) * np.linspace(0, 1, ZOOM)

@@ -36,7 +36,7 @@ class Outline(Body):
     """
 
     points: Any
-    cut: Any = None
+    cut: Value | None = None
     """At which points it is cut away, ``(k,)``; ``None``: nowhere."""
 
     def at(self, i: Any) -> np.ndarray:
@@ -100,7 +100,7 @@ def circle(centre: Any, radius: float, n: int = 73) -> np.ndarray:
     return np.stack([centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn)])
 
 
-def offset_curvature(curvature: Array, distance: Any) -> Array:
+def offset_curvature(curvature: Array, distance: Value) -> Array:
     """Curvature of the curve parallel to one of ``curvature``, ``distance`` along the outward normal.
 
     Convex is positive; the radius of curvature grows by ``distance``.  ``inf`` where it shrinks to nothing.

@@ -121,7 +121,7 @@ class CamAnalysis(ABC):
         """Least convex radius of curvature of the profile, m; at or below 0 the follower cuts the cam away."""
 
     @abstractmethod
-    def contact_point(self, flank: Any = 1) -> np.ndarray:
+    def contact_point(self, flank: int = 1) -> np.ndarray:
         """Where the follower touches the inner flank (+1) or a groove's outer one (-1), machine's frame, m."""
 
     @property

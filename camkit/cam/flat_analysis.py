@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ class FlatAnalysis(CamAnalysis):
 
     @property
     @abstractmethod
-    def face_reach(self) -> tuple[Any, Any]:
+    def face_reach(self) -> tuple[Value, Value]:
         """Least and largest distance along the face at which it is touched, m."""
 
     @property

@@ -11,7 +11,7 @@ there speeds are such shares, and 1.2 is 20 % above the rated speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,12 @@ from ..quantities import Design, choice, quantity
 from ..quantities.kinds import a_number, applied, numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
 
+if TYPE_CHECKING:
+    from .analysis import CamAnalysis
+    from .translating_roller import TranslatingRollerAnalysis
 
-def jump_speed(analysis: Any) -> Value:
+
+def jump_speed(analysis: CamAnalysis) -> Value:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
     0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
@@ -34,7 +38,7 @@ def jump_speed(analysis: Any) -> Value:
     943.7 rpm
     """
 
-    def slackness(at: Any) -> Array:
+    def slackness(at: CamAnalysis) -> Array:
         static, throw = at.static_resistance, -at.inertia * at.acceleration
         thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
         return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
@@ -44,7 +48,7 @@ def jump_speed(analysis: Any) -> Value:
         return 1 / np.sqrt(np.where(analysis.form_closed, 0.0 * np.isfinite(slack), slack))[()]
 
 
-def preload_needed(analysis: Any, speed: Value) -> Value:
+def preload_needed(analysis: TranslatingRollerAnalysis, speed: Value) -> Value:
     """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
 
     The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
@@ -60,7 +64,7 @@ def preload_needed(analysis: Any, speed: Value) -> Value:
     """
     speed = a_number(speed, "the speed of the cam", "be a finite number of at least 0", lambda w: w >= 0)
 
-    def lacking(at: Any) -> Array:
+    def lacking(at: TranslatingRollerAnalysis) -> Array:
         without = at.static_resistance - at.preload
         return -(at.inertia * np.square(speed) * at.acceleration + without)
 
@@ -70,7 +74,7 @@ def preload_needed(analysis: Any, speed: Value) -> Value:
     return np.where(drops, np.inf, least)[()]
 
 
-def _thrown_off(analysis: Any) -> bool:
+def _thrown_off(analysis: CamAnalysis) -> bool:
     """Whether the follower has mass and its speed drops at once, which no force can make it follow."""
     return (analysis.corner(-1).value > 0) & (np.max(analysis.inertia, axis=-1) > 0)
 
@@ -78,9 +82,9 @@ def _thrown_off(analysis: Any) -> bool:
 class TorqueBalance(NamedTuple):
     """How a torque is spread over the cam angle: numbers, or ``(p,)``; ``surplus`` has the cam angle last."""
 
-    mean: Any
+    mean: Value
     """What the motor gives all the time, N m."""
-    surplus: Any
+    surplus: Value
     """Work that the torque took above the mean since the first cam angle, J."""
     swing: Any
     """Between the largest and the least ``surplus``, J: what a flywheel has to store."""
@@ -148,7 +152,7 @@ class ContactPair(Design):
             if getattr(self, f"{body}_material") != OWN
         }
 
-    def _elastic(self, body: str) -> tuple[Any, Any]:
+    def _elastic(self, body: str) -> tuple[Value, Value]:
         """Elastic modulus (Pa) and Poisson's ratio of ``cam`` or ``follower``."""
         material = MATERIALS.get(getattr(self, f"{body}_material"))
         if material:

@@ -52,7 +52,7 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
     return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
 
 
-def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Any, Any]:
+def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Array, Array]:
     """The nearest two places ``(2, ..., 1)``, in coarse steps, that are not neighbours along the curve; how near, m."""
     least, mate = np.full(along.shape, np.inf), np.zeros(along.shape, dtype=int)
     for k in range(1, along.shape[-1]):  # in parts that fit into the processor's own memory
@@ -67,7 +67,7 @@ def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Any, Any]:
 
 
 def _closer(
-    path: Callable[[Any], Any], span: Any, radius: Any, along: Any, pair: Any, least: Any, rounds: int
+    path: Callable[[Any], Any], span: object, radius: Value, along: Any, pair: Any, least: Any, rounds: int
 ) -> np.ndarray:
     """How near two places around each of ``pair`` are, at finer and finer steps."""
     last, around, reach = along.shape[-1] - 1, np.linspace(-1, 1, FINE), 1.0

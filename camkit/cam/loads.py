@@ -61,8 +61,8 @@ class ArmLoad(Design):
         return static + k * tabulated(self.torque_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
     def resisting_torque(
-        self, arm_length: Any, arm_angle: Any, travel: Any, acceleration: Any, cam_angle: Any = 0.0
-    ) -> Any:
+        self, arm_length: Value, arm_angle: Value, travel: Value, acceleration: Value, cam_angle: Value = 0.0
+    ) -> Array:
         """Torque about the arm's pivot, N m, at each arm angle (``travel`` from the motion's level 0, rad)."""
         static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
         return self.inertia(arm_length) * self.speed**2 * acceleration + static
@@ -120,7 +120,7 @@ class Contact:
     roller_radius: Any
     rotation: int
     velocity: Any
-    alpha: Any
+    alpha: Value
     offset: Any
     """``Q = R sin(alpha - beta)``: cam axis to the contact normal."""
     reach: Any

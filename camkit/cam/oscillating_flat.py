@@ -101,7 +101,7 @@ class OscillatingFlatCam(Design):
         size = min_radius - lowest(analysis, lambda at: at.offset_free_radius).value
         return if_possible(size, analysis.corner(-1))
 
-    def conjugate(self, spread: Any, face_offset: Any = None) -> OscillatingFlatCam:
+    def conjugate(self, spread: Value, face_offset: Value | None = None) -> OscillatingFlatCam:
         """The second cam of a pair: it carries a second face on the same arm, ``spread`` (rad) from the first.
 
         Given in the machine's frame mirrored in the line of centres, so its arm again stands above that line.
@@ -202,7 +202,7 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
         """The contact normal: square to the face, to the side of a growing arm angle."""
         return np.stack([np.sin(self.arm_angle), np.cos(self.arm_angle)])
 
-    def _on_face(self, along: Any) -> np.ndarray:
+    def _on_face(self, along: Array) -> np.ndarray:
         """Points of the face ``along`` the arm from the pivot, machine's frame, m."""
         sin, cos = self.normal
         b = self.cam.face_offset
@@ -213,7 +213,7 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
         return self._on_face(np.where(np.greater(flank, 0), self.contact_length, np.nan))
 
     @cached_property
-    def face_reach(self) -> tuple[Any, Any]:
+    def face_reach(self) -> tuple[Array, Array]:
         """Where along the arm the face must begin and end: least and largest distance from the pivot, m."""
         return self.lowest(lambda at: at.contact_length).value, self.highest(lambda at: at.contact_length).value
 

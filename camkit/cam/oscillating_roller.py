@@ -69,7 +69,7 @@ class OscillatingRollerCam(Design):
         return over_the_motion(OscillatingRollerAnalysis, self, n)
 
     def conjugate(
-        self, spread: Any, arm_length: Value | None = None, roller_radius: Any = None
+        self, spread: Any, arm_length: Value | None = None, roller_radius: Value | None = None
     ) -> OscillatingRollerCam:
         """The second cam of a pair: it carries a second roller on the same shaft, ``spread`` (rad) from the first.
 

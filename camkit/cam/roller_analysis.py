@@ -11,6 +11,7 @@ import numpy as np
 
 from ..extrema import Extreme
 from ..geometry import offset_curvature
+from ..quantities.types import Array, Value
 from . import groove
 from .analysis import CamAnalysis
 from .measures import number, radius_of
@@ -76,13 +77,13 @@ class RollerAnalysis(CamAnalysis):
         return Extreme(np.asarray(radius)[()], angle)
 
     @property
-    def max_curvature(self) -> Any:
+    def max_curvature(self) -> Array:
         """``1 / r_T``; ``inf`` for a knife edge."""
         with np.errstate(divide="ignore"):
             return np.divide(1.0, self.cam.roller_radius)
 
     @cached_property
-    def groove_gap(self) -> Any:
+    def groove_gap(self) -> Value:
         """Least width of the wall between two parts of an open groove, m; below 0 they merge (see `groove.gap`).
 
         ``inf`` for a closed cam, of which the local test of both flanks is enough, and for a plate.
@@ -110,17 +111,17 @@ class RollerAnalysis(CamAnalysis):
         return number(self.cam.load.spring_rate + self.cam.load.preload) == 0
 
     @property
-    def driving_flank(self) -> Any:
+    def driving_flank(self) -> Value:
         """The inner flank where the follower goes out; in a groove the outer one where it comes back."""
         return np.where((self.velocity < 0) & self.groove, -1.0, 1.0)
 
     @property
-    def loaded_flank(self) -> Any:
+    def loaded_flank(self) -> Array:
         """The inner flank; in a groove the outer one where the follower pulls."""
         return np.where((self.contact_force < 0) & self.groove, -1.0, 1.0)
 
     @property
-    def lean(self) -> Any:
+    def lean(self) -> Array:
         """The roller slides (``arctan f``) or, if that is easier, turns on its pin (``arcsin(rho_2 / r_T)``)."""
         friction, r = self.cam.friction, self.cam.roller_radius
         share = np.where(np.greater(r, 0), friction.roller_pin / np.where(np.greater(r, 0), r, 1.0), 1.0)
@@ -150,9 +151,9 @@ class RollerAnalysis(CamAnalysis):
         return flank if self.groove else np.full_like(flank, np.nan)
 
 
-def _convex(analysis: Any) -> Any:
+def _convex(analysis: Any) -> Array:
     return analysis.curvature
 
 
-def _concave(analysis: Any) -> Any:
+def _concave(analysis: Any) -> Array:
     return -analysis.curvature

@@ -19,14 +19,14 @@ LARGEST = 1000.0
 """A radius beyond this (m) is a slip."""
 
 
-def refuse_pressure_angle(limit: Any) -> None:
+def refuse_pressure_angle(limit: Value) -> None:
     """``ValueError`` for a limit of the pressure angle that no cam or every cam keeps."""
     angle = one_number(limit, "the pressure angle wanted", "lie between 0 and 90 deg")
     if not 0 < angle < np.pi / 2:
         raise ValueError(f"the pressure angle wanted is {angle / deg:.4g} deg; it must lie between 0 and 90 deg")
 
 
-def refuse_radius(limit: Any) -> None:
+def refuse_radius(limit: Value) -> None:
     """``ValueError`` for a least radius of curvature that is no length."""
     must = "be a finite number of at least 0 mm"
     radius = one_number(limit, "the least radius wanted", must)

@@ -28,10 +28,10 @@ class Bearing(Protocol):
     def share(self, point: Vector, force: Vector) -> Value:
         """What ``force`` in ``point`` does along the follower's motion after the bearing's friction."""
 
-    def least(self, load: Any) -> Value:
+    def least(self, load: object) -> Value:
         """What the follower resists with while nothing pushes it: ``load`` and the bearing's friction."""
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
+    def needed(self, point: Vector, force: Vector, load: object) -> Value:
         """How many times ``force`` in ``point`` moves the follower against ``load``; ``inf`` where friction jams it."""
 
 
@@ -41,7 +41,7 @@ class Pivot:
 
     distance: Any
     velocity: Any
-    friction_circle: Any
+    friction_circle: Value
 
     def velocity_at(self, point: Vector) -> Vector:
         """A clockwise turn about the pivot."""
@@ -56,7 +56,7 @@ class Pivot:
         """The ``load``: a pivot that bears nothing does not rub."""
         return load
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
+    def needed(self, point: Vector, force: Vector, load: object) -> Value:
         """``load`` over `share`, N per N."""
         return _pushing(load, self.share(point, force))
 

@@ -136,7 +136,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         """The contact normal: along the travel."""
         return np.stack([0.0 * self.height, 1.0 + 0.0 * self.height])
 
-    def contact_point(self, flank: Any = 1) -> np.ndarray:
+    def contact_point(self, flank: int = 1) -> np.ndarray:
         """Where face and cam touch, machine's frame, m: ``(sigma v, r_0 + s)``; ``nan`` for an outer flank."""
         return np.stack(np.broadcast_arrays(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank)))
 
@@ -149,7 +149,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         return self.contact_point()[0] - self.cam.offset
 
     @cached_property
-    def face_reach(self) -> tuple[Any, Any]:
+    def face_reach(self) -> tuple[Array, Array]:
         """How far the face has to reach to either side of the follower's axis: least and largest offset, m."""
         return self.lowest(lambda at: at.contact_offset).value, self.highest(lambda at: at.contact_offset).value
 

@@ -90,7 +90,7 @@ class TranslatingRollerCam(Design):
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
         return over_the_motion(TranslatingRollerAnalysis, self, n)
 
-    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Any = None) -> Value:
+    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Value | None = None) -> Value:
         """Least base radius from which on every larger one keeps the limits that are given, m.
 
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
@@ -123,7 +123,7 @@ class TranslatingRollerCam(Design):
             return size
         return if_possible(size, analysis.corner(-1), (r == 0) & (np.asarray(min_radius) == 0))
 
-    def conjugate(self, distance: Any, roller_radius: Any = None) -> TranslatingRollerCam:
+    def conjugate(self, distance: Any, roller_radius: Value | None = None) -> TranslatingRollerCam:
         """The second cam of a pair: it carries a roller below the cam axis, ``distance`` from the first one's centre.
 
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.

@@ -14,7 +14,7 @@ INNER, OUTER, ONLY = "inner flank", "outer flank", "profile"
 """What the flanks of a groove are called, and that of a plate."""
 
 
-def undercut_in_words(analysis: Any, cuts: Sequence[Cut] = ()) -> str:
+def undercut_in_words(analysis: object, cuts: Sequence[Cut] = ()) -> str:
     """What is undercut, at which cam angle, and which walls of a groove merge; empty if nothing is lost.
 
     The sentence of screen and files.  ``cuts`` are told where nothing else is: what `flank.flanks` found.
@@ -39,14 +39,14 @@ def undercut_in_words(analysis: Any, cuts: Sequence[Cut] = ()) -> str:
     return " ".join([*([f"Undercut: the follower cuts away {', and '.join(told)}."] if told else []), *merged])
 
 
-def _merged(analysis: Any) -> Iterator[str]:
+def _merged(analysis: object) -> Iterator[str]:
     """Parts of a groove between which no wall is left, in words."""
     gap = float(getattr(analysis, "groove_gap", np.inf))
     if gap < 0:
         yield f"Walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm."
 
 
-def _flanks(curve: Any, name: str) -> Iterator[str]:
+def _flanks(curve: object, name: str) -> Iterator[str]:
     """Each flank of a curve that is undercut, in words."""
     of = f" of the {name} curve" if name else ""
     for flank, (radius, cam_angle) in _margins(curve).items():

@@ -22,7 +22,7 @@ class Cross:
     """
 
     angle: Any
-    input_angle: Any
+    input_angle: Value
 
     @cached_property
     def bend(self) -> Value:

@@ -19,7 +19,7 @@ TARGET = 30 * deg
 """The pressure angle that the paper aims at."""
 
 
-def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], np.ndarray]:
+def departures(target: float = TARGET, weights: object = None) -> Callable[[Any], np.ndarray]:
     """Pressure angles less ``target``, times the weight of their position: a function of an analysis, ``(..., 2n)``.
 
     The crank's come first, then the rocker's.  The paper's weights ``1 / f_j*`` divide by nothing where a position
@@ -43,31 +43,31 @@ def departures(target: float = TARGET, weights: Any = None) -> Callable[[Any], n
     return of
 
 
-def departure(target: float = TARGET, weights: Any = None) -> Measure:
+def departure(target: float = TARGET, weights: object = None) -> Measure:
     """The paper's objective ``sum_j w_j (|alpha_1j - target| + |alpha_2j - target|)``."""
     of, name = departures(target, weights), _name("pressure angles off", target, weights)
     return SumOfResiduals(name, "deg", of, made=_made("departure", target, weights))
 
 
-def excess(target: float = TARGET, weights: Any = None) -> Measure:
+def excess(target: float = TARGET, weights: object = None) -> Measure:
     """The same sum over the pressure angles above ``target`` only: a smaller one is no fault."""
     of, name = departures(target, weights), _name("pressure angles above", target, weights)
     made = _made("excess", target, weights)
     return SumOfResiduals(name, "deg", of, above_only=True, made=made)
 
 
-def max_departure(target: float = TARGET, weights: Any = None) -> Measure:
+def max_departure(target: float = TARGET, weights: object = None) -> Measure:
     """The largest ``w_j |alpha - target|``: minimax."""
     of, name = departures(target, weights), _name("pressure angle farthest off", target, weights)
     made = _made("largest departure", target, weights)
     return PeakMeasure(name, "deg", lambda a: np.concatenate([of(a), -of(a)], axis=-1), made=made)
 
 
-def _made(name: str, target: float, weights: Any) -> tuple[Any, ...]:
+def _made(name: str, target: float, weights: object) -> tuple[Any, ...]:
     return (name, float(target)) if weights is None else ()
 
 
-def _name(what: str, target: float, weights: Any) -> str:
+def _name(what: str, target: float, weights: object) -> str:
     return f"{what} {target / deg:g} deg" + ("" if weights is None else ", weighted")
 
 

@@ -64,6 +64,7 @@ class Links(Design):
 class RSSR(Links):
     """Spatial linkage: crank, coupler between two ball joints, rocker (Liu, Geng 2019).
 
+    >>> from camkit import deg, mm
     >>> linkage = RSSR(100*mm, 180*mm, 110*mm, 120*mm, 80*mm, axis_distance=0.0, axis_angle=90*deg)
     >>> print(np.degrees(linkage.analyse([0, 60*deg]).rocker_angle).round(6))
     [237.596379 195.880281]
@@ -81,7 +82,7 @@ class RSSR(Links):
         declared = declarations(self).items()
         return reduce(np.logical_and, [q.allows(getattr(self, k)) for k, q in declared if isinstance(q, Quantity)])
 
-    def closure(self, crank_angle: Value) -> tuple[Any, Any, Any]:
+    def closure(self, crank_angle: Value) -> tuple[Array, Array, Array]:
         """``A, B, K`` of ``A sin(phi_3) + B cos(phi_3) + K = 0``: the ball joints are ``l_2`` apart.
 
         The print lacks ``1 / l_1`` in the last term, which only shows where the axes are not at 90 deg.

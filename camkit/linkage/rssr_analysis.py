@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class RSSRAnalysis:
     """Whether the crank passes all angles between the given ones."""
 
     @cached_property
-    def _closure(self) -> tuple[Any, Any, Any]:
+    def _closure(self) -> tuple[Array, Array, Array]:
         return self.linkage.closure(self.crank_angle)
 
     @cached_property
@@ -88,7 +88,7 @@ class RSSRAnalysis:
         )
 
     @cached_property
-    def _room_to_turn(self) -> tuple[Any, Any, Any]:
+    def _room_to_turn(self) -> tuple[Array, Array, Array]:
         """A crank angle clear of the limits, and how far each way the next limit lies, ``(..., 1)``; ``nan``: none."""
         clearest = np.argmax(np.broadcast_to(self.discriminant, self._shape), axis=-1)[..., None]
         clear = np.take_along_axis(self._turn, clearest, -1)

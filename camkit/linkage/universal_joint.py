@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -244,7 +244,7 @@ class DoubleUniversalJointAnalysis:
         return self.output_torque * self.second.output_couple
 
     @cached_property
-    def intermediate_couples(self) -> tuple[Any, Any]:
+    def intermediate_couples(self) -> tuple[Value, Value]:
         """Couples that bend the intermediate shaft, at its first and at its second joint, N m."""
         first = self.drive.torque / self.first.ratio * self.first.output_couple
         return first, self.intermediate_torque * self.second.input_couple

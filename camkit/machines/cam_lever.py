@@ -22,6 +22,7 @@ from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
 from ..quantities import Measure, fails, quantity
 from ..quantities.kinds import refuse_arguments
+from ..quantities.types import Array, Value
 from ..study.study import Study
 from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis
@@ -188,12 +189,12 @@ BLOCK = np.array([[-16, 16, 16, -16, -16], [-34, -34, 34, 34, -34]]) * mm
 """The line on which the slider goes, and the slider: their sizes are those of a drawing."""
 
 
-def _mirror(points: Any) -> np.ndarray:
+def _mirror(points: Value) -> np.ndarray:
     """What ``points`` ``(2, ...)`` are multiplied with to be mirrored in the x axis."""
     return np.reshape([1.0, -1.0], (2,) + (1,) * (np.ndim(points) - 1))
 
 
-def _slowing(part: Any) -> Any:
+def _slowing(part: Any) -> Array:
     return -part.acceleration
 
 

@@ -35,6 +35,7 @@ from ..geometry import angle_opposite, end_to_end
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, fails, quantity, words
 from ..quantities.kinds import listed, refuse_arguments
+from ..quantities.types import Array, Value
 from ..study.study import Space, Study, weighted
 from ..units import deg, mm
 from .door_handle_analysis import DoorHandleAnalysis
@@ -108,7 +109,7 @@ class DoorHandleCam(Design):
         return self.handle_angle - self.relief_cam_angle
 
     @property
-    def base_radius(self) -> Any:
+    def base_radius(self) -> Array:
         """``r_0``: pitch radius of the lift curve at its start, on which the relief crank dwells."""
         a, l = self.lift_centre_distance, self.lift_arm
         return np.sqrt(a**2 + l**2 - 2 * a * l * np.cos(self.lift_start_angle))
@@ -159,7 +160,7 @@ class DoorHandleCam(Design):
         )
 
     @cached_property
-    def relief_direction(self) -> Any:
+    def relief_direction(self) -> Array:
         """Direction from the cam axis to the relief pivot; the lift pivot is at 0, the cam turns with growing angle.
 
         It follows from the order of the stretches: the transition arc ends where the lift curve begins, when
@@ -170,7 +171,7 @@ class DoorHandleCam(Design):
         return self.lift_cam_angle + lift + relief
 
     @staticmethod
-    def _roller_direction(a: Any, l: Any, psi: Any) -> Any:
+    def _roller_direction(a: Value, l: Value, psi: Value) -> Value:
         return np.arctan2(l * np.sin(psi), a - l * np.cos(psi))
 
     def analyse(self, n: int = 721) -> DoorHandleAnalysis:
@@ -245,7 +246,7 @@ def door_handle_study(
     *,
     space: Space | None = None,
     reference: DoorHandleCam | None = None,
-    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+    weights: object = (5 / 7, 1 / 7, 1 / 7),
 ) -> Study:
     """The whole cam: little effort against a large least convex radius, both of the worse curve.
 
@@ -287,7 +288,7 @@ def door_handle_paper_study(
     start: DoorHandleCam | None = None,
     *,
     reference: DoorHandleCam | None = None,
-    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+    weights: object = (5 / 7, 1 / 7, 1 / 7),
 ) -> Study:
     """The whole cam in the paper's box: lift arm, start angle and relief arm, as far as the paper lets them go.
 
@@ -308,7 +309,7 @@ def lift_curve_study(
     *,
     space: Space | None = None,
     reference: DoorHandleCam | None = None,
-    weights: Any = (5 / 7, 1 / 7, 1 / 7),
+    weights: object = (5 / 7, 1 / 7, 1 / 7),
 ) -> Study:
     """The lift curve alone, as the paper judges it: little effort against a large least convex radius of its stroke.
 
@@ -350,7 +351,7 @@ WITHOUT_LIFT = (
 """How paths begin of quantities that neither the lift curve's pitch curve nor its frictionless forces depend on."""
 
 
-def _effort(of: Any, reference: DoorHandleCam, weights: Any) -> Measure:
+def _effort(of: Any, reference: DoorHandleCam, weights: object) -> Measure:
     """The weighted sum of pressure angle, force and torque, each over its value at ``reference``."""
     parts = [of[measure] for measure in EFFORT]
     weights = listed(weights, "the weights", "part of the effort")

@@ -15,6 +15,7 @@ from ..cam import bodies, groove
 from ..cam.analysis import OFFERS
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..geometry import Body, end_to_end, rotated
+from ..quantities.types import Value
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class DoorHandleAnalysis:
         return (*bodies.disk(self, True), *(body for arm in arms for body in arm))
 
     @property
-    def max_curvature(self) -> Any:
+    def max_curvature(self) -> Value:
         """The largest curvature of the pitch curve that both rollers can run on, 1/m."""
         return self.lift.max_curvature
 
@@ -112,7 +113,7 @@ class DoorHandleAnalysis:
         return self._joined("outer_profile")
 
     @cached_property
-    def stroke_curvature(self) -> Any:
+    def stroke_curvature(self) -> Value:
         """The largest convex curvature of the lift curve from its least convex (most hollow) place on, 1/m.
 
         A rise begins on the base circle with that circle's curvature, so the most convex point of the whole curve says

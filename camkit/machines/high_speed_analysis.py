@@ -20,6 +20,7 @@ from ..extrema import raised, with_tops
 from ..motion import Kinematics
 from ..motion.resolution import STEPS, Resolution, between, resolve
 from ..quantities import members
+from ..quantities.types import Array, Value
 from ..units import mm
 from . import high_speed_curves as curves
 
@@ -35,12 +36,12 @@ class HighSpeedContact(OscillatingRollerAnalysis):
 
     @property
     @abstractmethod
-    def rounding(self) -> Any:
+    def rounding(self) -> Array:
         """A force that is rounding, N."""
 
     @property
     @abstractmethod
-    def spring_rate(self) -> Any:
+    def spring_rate(self) -> Array:
         """``K``, shaped to multiply arrays of angles."""
 
     @cached_property
@@ -53,7 +54,7 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         return self.cam.load.resisting_torque(motion, self.cam.swing, self._rate, speed)
 
     @property
-    def _rate(self) -> Any:
+    def _rate(self) -> Array:
         """``K``, ``nan`` where no spring holds the arm."""
         return np.where(np.isfinite(self.spring_rate), self.spring_rate, np.nan)
 
@@ -110,7 +111,7 @@ class HighSpeedContact(OscillatingRollerAnalysis):
         return line_contact(force / pair.width, curvature, pair.modulus).pressure
 
 
-def inverse_root(ease: Any) -> Any:
+def inverse_root(ease: Any) -> Array:
     """``ease ** -0.5``; ``nan`` where it is not above 0."""
     return np.where(ease > 0, ease, np.nan) ** -0.5
 
@@ -123,17 +124,17 @@ class Glimpse(HighSpeedContact):
     rows: np.ndarray
 
     @property
-    def spring_rate(self) -> Any:
+    def spring_rate(self) -> Array:
         """``K`` of each."""
         return members(self.whole.spring_rate, self.rows)
 
     @property
-    def rounding(self) -> Any:
+    def rounding(self) -> Array:
         """That of each."""
         return members(self.whole.rounding, self.rows)
 
     @property
-    def buildable(self) -> Any:
+    def buildable(self) -> Array:
         """Whether each can be built."""
         return members(self.whole.buildable, self.rows)
 
@@ -147,7 +148,7 @@ class Interval(HighSpeedContact):
     """Those of the motion, by their numbers."""
 
     @property
-    def spring_rate(self) -> Any:
+    def spring_rate(self) -> Array:
         """``K`` of the whole cam."""
         return self.whole.spring_rate
 
@@ -165,12 +166,12 @@ class Interval(HighSpeedContact):
         return other
 
     @property
-    def buildable(self) -> Any:
+    def buildable(self) -> Array:
         """That of the whole cam."""
         return self.whole.buildable
 
     @property
-    def rounding(self) -> Any:
+    def rounding(self) -> Array:
         """That of the whole cam."""
         return self.whole.rounding
 
@@ -179,7 +180,7 @@ class Interval(HighSpeedContact):
         """What `tops` has found."""
         return {}
 
-    def tops(self, curve: Callable[[Any], Any], but: Any = False) -> np.ndarray:
+    def tops(self, curve: Callable[[Any], Any], but: Value = False) -> np.ndarray:
         """``curve(part)`` at the cam angles of the `resolution`, each peak that counts raised to its top.
 
         Not so exactly of those members of a population for which ``but`` holds.
@@ -190,7 +191,7 @@ class Interval(HighSpeedContact):
             self._tops[curve] = raised(values, inner) if self.rough else with_tops(values, inner, look, but)
         return self._tops[curve]
 
-    def _look(self, curve: Callable[[Any], Any], at: Any, x: Any) -> Any:
+    def _look(self, curve: Callable[[Any], Any], at: Value, x: Any) -> Array:
         """``curve`` at ``x`` steps, ``(k, m)``, beside the cam angles of the `resolution` of flat index ``at``."""
         row, column = np.divmod(at, self.resolution.angle.shape[-1])
         left = column[:, None] - ((x <= 0) & (x < 0).any(-1, keepdims=True))
@@ -202,7 +203,7 @@ class Interval(HighSpeedContact):
         return curve(seen) + 0.0 * share
 
 
-def _picked(values: Any, row: Any, column: Any) -> Any:
+def _picked(values: Array, row: Any, column: Any) -> Array:
     """Of each row the values in some columns, ``(k, m)``."""
     return values[column] if values.ndim == 1 else values[row[:, None] % len(values), column]
 
@@ -257,7 +258,7 @@ class HighSpeedAnalysis(HighSpeedContact):
         return other
 
     @cached_property
-    def rounding(self) -> Any:
+    def rounding(self) -> Array:
         """A force that is rounding, N."""
         return 1e-9 * abs(self.moving.resolved.contact_force).max(-1, keepdims=True)
 
@@ -283,7 +284,7 @@ class HighSpeedAnalysis(HighSpeedContact):
         return self.rise, self.fall
 
     @cached_property
-    def least_spring_factor(self) -> Any:
+    def least_spring_factor(self) -> Array:
         """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia at the rated speed.
 
         ``inf`` if the arm passes its start.  0/0 where the arm has not moved is left out.
@@ -296,7 +297,7 @@ class HighSpeedAnalysis(HighSpeedContact):
         return self.moving.tops(curves.spring_needed, self.passes_start)
 
     @cached_property
-    def spring_rate(self) -> Any:
+    def spring_rate(self) -> Array:
         """`spring_factor`, shaped to multiply arrays of angles."""
         given = self.cam.spring_factor
         if np.all(given > 0):
@@ -309,7 +310,7 @@ class HighSpeedAnalysis(HighSpeedContact):
         return number(self.spring_rate)
 
     @cached_property
-    def undercut_margin(self) -> Any:
+    def undercut_margin(self) -> Array:
         """Least ``q = 1 - r kappa``; 0 or less: the profile is undercut; ``-inf`` if the arm's speed drops at once."""
         return self.margins.min(-1)
 
@@ -351,7 +352,7 @@ class HighSpeedAnalysis(HighSpeedContact):
         return (self.forces < -self.rounding).any(-1, keepdims=True)
 
     @property
-    def loses_contact(self) -> Any:
+    def loses_contact(self) -> Array:
         """Whether the roller would lift off somewhere: ``N < 0``, or the arm's speed drops at once."""
         return self._pulled[..., 0] | (self.corner(-1).value > 0)
 
@@ -367,12 +368,12 @@ class HighSpeedAnalysis(HighSpeedContact):
         return -self.moving.tops(curves.lag)
 
     @property
-    def passes_start(self) -> Any:
+    def passes_start(self) -> Array:
         """Whether the arm swings back beyond its start, ``a < 0``: no spring can then follow ``K``."""
         return self._passes(curves.before)
 
     @property
-    def passes_end(self) -> Any:
+    def passes_end(self) -> Array:
         """Whether the arm swings beyond its end, ``a > 1``: ``r_k2`` is then not the largest radius."""
         return self._passes(curves.after)
 

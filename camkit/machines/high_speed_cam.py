@@ -23,6 +23,7 @@ from ..cam.loads import Friction
 from ..geometry import angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
@@ -127,7 +128,7 @@ class HighSpeedCam(FreeLawCam):
         self.keep(reaches & starts & clear)
 
     @property
-    def end_angle(self) -> Any:
+    def end_angle(self) -> Value:
         """``psi_max``: where the roller's centre is ``r_k2 + r`` from the cam axis, rad; ``nan`` if it never is."""
         return angle_opposite(self.max_radius + self.roller_radius, self.arm_length, self.centre_distance)
 
@@ -137,7 +138,7 @@ class HighSpeedCam(FreeLawCam):
         return self.end_angle - self.swing
 
     @property
-    def min_radius(self) -> Any:
+    def min_radius(self) -> Array:
         """``r_k1``: smallest radius of the profile, m."""
         L, l = self.centre_distance, self.arm_length
         return np.sqrt(L**2 + l**2 - 2 * L * l * np.cos(self.start_angle)) - self.roller_radius

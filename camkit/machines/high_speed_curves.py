@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.types import Array, Value
+
 AT_REST = 1e-6
 """Share of the swing below which the arm counts as not having moved."""
 BESIDE = 1e-4
 """Share of an interval so near to its end that the travel from there is lost in rounding."""
 
 
-def spring_needed(part: Any) -> Any:
+def spring_needed(part: Any) -> Array:
     """``-psi''/psi``: ``K`` of the spring that holds the arm's inertia at the rated speed.
 
     Very negative, and of no account, where the arm has not moved.
@@ -25,38 +27,38 @@ def spring_needed(part: Any) -> Any:
     return np.where(at_rest, -1e12, -part.motion.a / np.where(at_rest, 1, psi))
 
 
-def tightness(part: Any) -> Any:
+def tightness(part: Any) -> Array:
     """``-q``: above 0 the roller undercuts the profile."""
     return -part.margin
 
 
-def pull(part: Any) -> Any:
+def pull(part: Any) -> Array:
     """The force with which the roller would have to be pulled, N."""
     return -part.contact_force
 
 
-def strain(part: Any) -> Any:
+def strain(part: Any) -> Array:
     """``-1 / F_sigma^2``."""
     return -part.ease
 
 
-def attrition(part: Any) -> Any:
+def attrition(part: Any) -> Array:
     """``-1 / F_wear^2``."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return -part.ease / part.contact_force**2
 
 
-def before(part: Any) -> Any:
+def before(part: Any) -> Array:
     """How far the arm is before its start, as a share of the swing."""
     return -part.motion.s / part.cam.swing
 
 
-def after(part: Any) -> Any:
+def after(part: Any) -> Array:
     """How far the arm is beyond its end, as a share of the swing."""
     return part.motion.s / part.cam.swing - 1
 
 
-def lag(part: Any) -> Any:
+def lag(part: Any) -> Value:
     """Travel from either end as a share of what a 3-4-5 polynomial makes of it, the smaller one, below 0.
 
     Above 0 the arm is beyond an end.  It stays of a size near the ends, where the travel itself vanishes.
@@ -70,7 +72,7 @@ def lag(part: Any) -> Any:
     return -np.minimum(_over_345(share, travel, a, j), _over_345(1 - share, 1 - travel, -a, j))
 
 
-def _over_345(u: Any, s: Any, a: Any, j: Any) -> Any:
+def _over_345(u: Array, s: Any, a: Array, j: Any) -> Value:
     """``s`` over that of a 3-4-5 polynomial at ``u`` from its beginning; next to that, by its derivatives ``a, j``.
 
     There both are rounding.  ``s = u^2 a / 4 - u^3 j / 12`` where it is of the third to fifth power of ``u``.

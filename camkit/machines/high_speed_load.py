@@ -11,6 +11,7 @@ import numpy as np
 from ..cam.loads import Table, refuse_table, tabulated
 from ..motion import Kinematics
 from ..quantities import Design, quantity
+from ..quantities.types import Array, Value
 
 
 @dataclass(frozen=True)
@@ -29,12 +30,12 @@ class InertialSpringLoad(Design):
 
     name: ClassVar[str] = "inertia and closing spring"
 
-    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+    def resisting_torque(self, motion: Kinematics, swing: Array, spring_factor: Any, speed: Value) -> Array:
         """About the arm's pivot, N m; ``speed`` is a share of the speed for which ``inertia_speed2`` is given."""
         spring = (self.closing * swing + motion.s) * spring_factor
         return self.inertia_speed2 * (speed**2 * motion.a + spring)
 
-    def preload(self, swing: Any, spring_factor: Any) -> Any:
+    def preload(self, swing: Array, spring_factor: Any) -> Array:
         """Torque of the spring before the arm moves, N m."""
         return self.inertia_speed2 * self.closing * swing * spring_factor
 
@@ -53,7 +54,7 @@ class ConstantTorque(Design):
 
     name: ClassVar[str] = "constant torque"
 
-    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+    def resisting_torque(self, motion: Kinematics, swing: Value, spring_factor: Value, speed: Value) -> Array:
         """About the arm's pivot, N m."""
         return self.torque + 0.0 * motion.s
 
@@ -84,11 +85,11 @@ class SliderLoad(Design):
     def _force(self, way: Any) -> Any:
         return self.force(way) if callable(self.force) else tabulated(self.force, way)
 
-    def way(self, motion: Kinematics, swing: Any) -> Any:
+    def way(self, motion: Kinematics, swing: Array) -> Any:
         """``s``: of the slider from its lowest position, m."""
         return self.lever * (np.sin(motion.s - swing / 2) + np.sin(swing / 2))
 
-    def resisting_torque(self, motion: Kinematics, swing: Any, spring_factor: Any, speed: Any) -> Any:
+    def resisting_torque(self, motion: Kinematics, swing: Array, spring_factor: Value, speed: Value) -> Array:
         """About the lever's pivot, N m."""
         static = self.weight + self._force(self.way(motion, swing))
         inertia = self.inertia_speed2 * speed**2 * motion.a

@@ -13,6 +13,7 @@ from ..cam.force_closure import jump_speed
 from ..cam.measures import number
 from ..quantities import Measure, Paths, PeakMeasure
 from ..quantities.kinds import refuse_arguments
+from ..quantities.types import Array
 from ..study.study import Space, Study
 from ..units import mm
 from .high_speed_cam import FreeLawCam, HighSpeedCam
@@ -27,11 +28,11 @@ def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
 _force = attrgetter("contact_force")
 
 
-def _steepness(part: Any) -> Any:
+def _steepness(part: Any) -> Array:
     return abs(part.pressure_angle)
 
 
-def _torque(part: Any) -> Any:
+def _torque(part: Any) -> Array:
     return abs(part.cam_torque)
 
 

@@ -17,6 +17,7 @@ from ..data.materials import MATERIALS
 from ..data.tubes import TUBE_FILES, standard_tubes
 from ..quantities import Design, Measure, fails, quantities_of, quantity, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
+from ..quantities.types import Array, Value
 from ..study.design_map import DesignMap
 from ..study.study import Space, Study
 from ..units import deg, kW, mm, rpm
@@ -95,7 +96,7 @@ class UniversalJointShaft(Design):
         return self.service_factor * self.power / self.speed
 
     @property
-    def tube_torque(self) -> Any:
+    def tube_torque(self) -> Array:
         """The largest torque in the tube over a turn, ``M / cos(beta)``, N m.
 
         Behind a joint the torque swings between ``M cos(beta)`` and this, twice a turn.  The couple that the joint
@@ -107,11 +108,11 @@ class UniversalJointShaft(Design):
         return self.torque / np.cos(self.joint_angle)
 
     @property
-    def stiff_difference(self) -> Any:
+    def stiff_difference(self) -> Array:
         """``D^4 - d^4`` at which the twist is just what is allowed, m^4: ``32 M / (pi G theta_p cos(beta))``."""
         return 32 * self.tube_torque / (np.pi * self.shear_modulus * self.allowable_twist)
 
-    def stiff_diameter(self, inner_diameter: Any) -> Any:
+    def stiff_diameter(self, inner_diameter: Value) -> Array:
         """Outer diameter at which the twist is just what is allowed, m (see `stiff_difference`)."""
         bore = numbers(inner_diameter, "the inner diameters")
         with np.errstate(over="ignore"):

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..quantities import declarations
+from ..quantities.types import Array
 
 
 def nearest_of(here: np.ndarray, tubes: np.ndarray) -> np.ndarray:
@@ -32,38 +33,38 @@ class ShaftAnalysis:
     shaft: Any
 
     @cached_property
-    def _outer(self) -> Any:
+    def _outer(self) -> Array:
         """``D``; ``nan`` where any quantity of the shaft is."""
         numbers = sum(getattr(self.shaft, name) for name in declarations(self.shaft))
         return np.where(np.isfinite(numbers), self.shaft.outer_diameter, np.nan)[()]
 
     @cached_property
-    def area(self) -> Any:
+    def area(self) -> Array:
         """``A = pi (D^2 - d^2) / 4``, m^2."""
         return np.pi * (self._outer**2 - self.shaft.inner_diameter**2) / 4
 
     @cached_property
-    def polar_moment(self) -> Any:
+    def polar_moment(self) -> Array:
         """``I_p = pi (D^4 - d^4) / 32``, m^4; the second moment of area ``I`` is half of it."""
         return np.pi * (self._outer**4 - self.shaft.inner_diameter**4) / 32
 
     @cached_property
-    def mass(self) -> Any:
+    def mass(self) -> Array:
         """Of the tube between the joints, kg."""
         return self.shaft.density * self.area * self.shaft.length
 
     @cached_property
-    def inertia(self) -> Any:
+    def inertia(self) -> Array:
         """About the tube's own axis, ``rho L I_p``, kg m^2."""
         return self.shaft.density * self.shaft.length * self.polar_moment
 
     @cached_property
-    def tube_torque(self) -> Any:
+    def tube_torque(self) -> Array:
         """The largest in the tube, ``M / cos(beta)``, N m (see `UniversalJointShaft.tube_torque`)."""
         return self.shaft.tube_torque + 0.0 * self._outer
 
     @cached_property
-    def shear_stress(self) -> Any:
+    def shear_stress(self) -> Array:
         """At the tube's surface, ``tau = M_t / W_n``, ``W_n = pi D^3 [1 - (d / D)^4] / 16 = 2 I_p / D``, Pa.
 
         ``M_t`` is the `tube_torque`; no bending couple makes more of it.
@@ -71,12 +72,12 @@ class ShaftAnalysis:
         return self.tube_torque * self._outer / (2 * self.polar_moment)
 
     @cached_property
-    def twist(self) -> Any:
+    def twist(self) -> Array:
         """Over the length at the largest torque, ``theta = M_t / (G I_p)``, rad/m."""
         return self.tube_torque / (self.shaft.shear_modulus * self.polar_moment)
 
     @cached_property
-    def critical_speed(self) -> Any:
+    def critical_speed(self) -> Array:
         """``sqrt(g / y)``, ``y = 5 Q L^3 / (384 E I)`` the sag of the tube under its weight ``Q``, rad/s.
 
         The paper prints 348.  Gravity cancels: ``sqrt(76.8 E I / (rho A L^4))``, 11 % below the exact
@@ -86,7 +87,7 @@ class ShaftAnalysis:
         return np.sqrt(76.8 * s.elastic_modulus * self.polar_moment / 2 / (s.density * self.area * s.length**4))
 
     @cached_property
-    def buckling_stress(self) -> Any:
+    def buckling_stress(self) -> Array:
         """Shear stress at which a long tube's wall buckles, ``tau_c = 0.292 E ((D - d) / D)^1.5``, Pa.
 
         ``0.272 E (t / r)^1.5 / (1 - nu^2)^0.75`` with ``nu = 0.3``, wall ``t`` and outer radius ``r``.

@@ -22,6 +22,7 @@ from ..contact import LineContact, line_contact
 from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics, MotionProgram
 from ..quantities import unremarked
+from ..quantities.types import Array
 from ..units import deg, mm
 
 ROUNDING = 1e-12
@@ -111,27 +112,27 @@ class ValveAnalysis(CamAnalysis):
         return Kinematics(*(x * self.cam.load.speed**k for k, x in enumerate(self.motion)))
 
     @cached_property
-    def fullness(self) -> Any:
+    def fullness(self) -> Array:
         """``xi = 1 + sum C_i / (1 + e_i) / C_0``: mean lift of a flank over the lift at the nose."""
         return 1 + (self.coefficients / (1 + self.exponents)).sum(0) / number(self.cam.max_lift)
 
     @cached_property
-    def _nose_curve(self) -> Any:
+    def _nose_curve(self) -> Array:
         """``h''`` at the nose, ``2 C_p / alpha_B^2``, m/rad^2."""
         return 2 * self.coefficients[0] / number(self.cam.half_angle) ** 2
 
     @cached_property
-    def nose_acceleration(self) -> Any:
+    def nose_acceleration(self) -> Array:
         """Of the follower at the nose, m/s^2, negative."""
         return self._nose_curve * number(self.cam.load.speed) ** 2
 
     @cached_property
-    def peak_acceleration(self) -> Any:
+    def peak_acceleration(self) -> Array:
         """Largest acceleration of the opening follower, anywhere on the flank, m/s^2."""
         return self.highest(_acceleration).value * number(self.cam.load.speed) ** 2
 
     @cached_property
-    def nose_radius(self) -> Any:
+    def nose_radius(self) -> Array:
         """Radius of curvature at the nose under a flat follower, ``r_0 + h + h''``, m."""
         return number(self.cam.base_radius) + number(self.cam.max_lift) + self._nose_curve
 
@@ -149,14 +150,14 @@ class ValveAnalysis(CamAnalysis):
         """Where the cam holds the valve open; on ramp and base circle the lash is open instead."""
         return self.lift >= -ROUNDING
 
-    def force_at(self, speed: Any) -> np.ndarray:
+    def force_at(self, speed: Array) -> np.ndarray:
         """Force between cam and follower along the line of travel with the camshaft at ``speed``, N.
 
         0 where the valve is shut; negative where the follower would have to be pulled: there it jumps.
         """
         return np.where(self.is_open, self.spring_force - self.needed_at(speed), 0 * self.lift)
 
-    def needed_at(self, speed: Any) -> np.ndarray:
+    def needed_at(self, speed: Array) -> np.ndarray:
         """Spring force that keeps the train on the cam at ``speed``, N; negative where the cam lifts it anyway."""
         return np.where(self.is_open, -self.cam.load.mass * speed**2 * self.acceleration, 0 * self.lift)
 
@@ -167,7 +168,7 @@ class ValveAnalysis(CamAnalysis):
         return force
 
     @property
-    def other_force(self) -> Any:
+    def other_force(self) -> Array:
         """What resists the lift besides spring and inertia, N: it helps to hold the follower."""
         return self.cam.load.replace(spring_rate=0.0, preload=0.0).static_force(self.lift)
 
@@ -188,7 +189,7 @@ class ValveAnalysis(CamAnalysis):
         return self.contact.pressure
 
     @property
-    def top_speed(self) -> Any:
+    def top_speed(self) -> Array:
         """Speed of the camshaft with the speed margin, rad/s."""
         return self.cam.load.speed * (1 + self.cam.speed_margin)
 
@@ -224,11 +225,11 @@ class ValveAnalysis(CamAnalysis):
         }
 
 
-def _acceleration(analysis: Any) -> Any:
+def _acceleration(analysis: Any) -> Array:
     return analysis.acceleration
 
 
-def _stem(cam: Any, lift: Any, foot: Any) -> Outline:
+def _stem(cam: Any, lift: Array, foot: Any) -> Outline:
     """The follower's stem, which begins ``foot`` above the cam."""
     length = 1.6 * cam.max_lift + foot
     return Outline("follower", "arm", np.array([[0, 0], [0, length]]), x=0.0, y=cam.base_radius + lift + foot)
@@ -246,7 +247,7 @@ class FlatValveAnalysis(ValveAnalysis, TranslatingFlatAnalysis):
         return np.nan * self.profile
 
     @property
-    def min_concave_radius(self) -> Any:
+    def min_concave_radius(self) -> Array:
         """``inf``: the profile is hollow nowhere."""
         return np.inf + 0 * self.fullness
 

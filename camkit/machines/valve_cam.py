@@ -22,6 +22,7 @@ from ..cam.slide import SlideFriction
 from ..motion import MotionProgram, Return, Rise
 from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.kinds import one_number
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
 from .valve_motion import BLEND, Backwards, Flank, Ramp
@@ -90,7 +91,7 @@ class ValveCam(Design):
         self.keep(self._exponents_differ & self._fits_the_turn & (self.base_radius > self.ramp_height))
 
     @property
-    def _exponents(self) -> tuple[Any, ...]:
+    def _exponents(self) -> tuple[Value, ...]:
         """``p, q, r, s``."""
         return 2.0, 2.0 * self.n, 2.0 * self.n + 2.0 * self.m, 2.0 * self.n + 4.0 * self.m
 
@@ -100,7 +101,7 @@ class ValveCam(Design):
         return (q - p >= LEAST_GAP) & (r - q >= LEAST_GAP) & (s - r >= LEAST_GAP)
 
     @property
-    def _fits_the_turn(self) -> Any:
+    def _fits_the_turn(self) -> bool:
         return self.half_angle + self.ramp_angle <= np.pi * (1 + 1e-12)
 
     @property
@@ -110,7 +111,7 @@ class ValveCam(Design):
             return np.divide(self.seating_velocity, self.load.speed)
 
     @property
-    def ramp_height(self) -> Any:
+    def ramp_height(self) -> Array:
         """Lift of the ramp: from the base circle to the start of the flank, m."""
         return self.seating_slope * self.ramp_angle * (1 - BLEND / 2)
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..motion import Kinematics, Law, Peaks, Poly345
 from ..motion.law import law_peaks
+from ..quantities.types import Value
 
 BLEND = 1 / 3
 """Share of a ramp over which the follower gains the seating velocity; the rest of it is straight."""
@@ -31,7 +32,7 @@ class Flank(Law):
     continuity = 0
 
     @classmethod
-    def of(cls, exponents: tuple[Any, ...], slope: Any) -> Flank:
+    def of(cls, exponents: tuple[Any, ...], slope: Value) -> Flank:
         """Coefficients from ``s = 0, s' = slope, s'' = s''' = 0`` at the start, in closed form.
 
         The moments ``sum c_i = -1`` and ``sum c_i e_i^k = -slope``, k = 1, 2, 3, solved by Lagrange:
@@ -75,7 +76,7 @@ class Ramp(Law):
     continuity = 0
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         """Where the ramp begins, unless it takes all the time, and where its velocity is steady."""
         begins = (1 - self.share,) if np.any(self.share < 1) else ()
         return (*begins, 1 - self.share * (1 - BLEND))
@@ -105,7 +106,7 @@ class Backwards(Law):
         return self.law.continuity
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return tuple(1 - x for x in reversed(self.law.kinks))
 
     def at(self, u: Any) -> Kinematics:

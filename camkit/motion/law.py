@@ -30,9 +30,9 @@ class Kinematics(NamedTuple):
 class Peaks(NamedTuple):
     """The largest |v|, |a| and |j| of a law, unpackable as ``Cv, Ca, Cj``."""
 
-    Cv: Any
-    Ca: Any
-    Cj: Any
+    Cv: Value
+    Ca: Value
+    Cj: Value
 
 
 class Law(Declared, ABC):
@@ -52,7 +52,7 @@ class Law(Declared, ABC):
         """Highest derivative without a jump where the law meets a dwell: 1 velocity, 2 acceleration, 3 jerk."""
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         """The ``u`` inside (0, 1), in order, at which a derivative up to the jerk may jump or have a corner."""
         return ()
 

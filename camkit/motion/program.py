@@ -274,7 +274,7 @@ class MotionProgram(Declared):
         np.copyto(out, np.nan, where=np.logical_not(self.possible))
         return out
 
-    def _piece(self, i: int, here: Array, x: Array) -> tuple[slice, Any, Kinematics]:
+    def _piece(self, i: int, here: Array, x: Array) -> tuple[slice, Value, Kinematics]:
         """The columns that segment ``i`` has a say in, where in them it speaks, and what it says there."""
         said = np.flatnonzero(here.any(axis=tuple(range(here.ndim - 1))))
         columns, segment = slice(said[0], said[-1] + 1), self.segments[i]

@@ -50,7 +50,7 @@ class Segment(Declared, ABC):
         """What the segment adds to the level."""
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         """The shares of the segment at which its motion may jump or have a corner."""
         return ()
 
@@ -124,7 +124,7 @@ class Move(Segment):
         return bool(np.all(np.asarray(self.lift) == 0))
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return getattr(self.law, "kinks", ())
 
     @property
@@ -160,7 +160,7 @@ class Return(Move):
         return -self.lift
 
 
-def _is_law(law: Any) -> bool:
+def _is_law(law: object) -> bool:
     """Whether ``law`` is a motion law, or a function that gives four arrays as one does."""
     if isinstance(law, Law):
         return True

@@ -44,13 +44,13 @@ class Vibration(NamedTuple):
 
     residual: Any
     """Largest deviation after the rise, a share of the lift."""
-    during: Any
+    during: Value
     """Largest deviation during the rise, a share of the lift."""
     acceleration: Any
     """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
 
 
-def period_ratio(angle: Value, speed: Value, natural_frequency: Any) -> Array:
+def period_ratio(angle: Value, speed: Value, natural_frequency: Value) -> Array:
     """``tau`` of a rise over the cam ``angle`` (rad) at a shaft ``speed`` (rad/s); natural frequency in rad/s.
 
     >>> from camkit.units import rpm
@@ -70,7 +70,7 @@ class _Whole:
     program: MotionProgram
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         program = self.program
         parts = zip(program.starts[:-1], program.segments, strict=True)
         inner = [(start, *(start + u * segment.angle for u in segment.kinks)) for start, segment in parts]
@@ -129,7 +129,7 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
     return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
 
 
-def _root(W: Any, damping: float) -> Array:
+def _root(W: Value, damping: float) -> Array:
     """``m``: the free vibration goes as ``e^{m t}``."""
     return W * (-damping + 1j * np.sqrt(1 - damping**2))
 

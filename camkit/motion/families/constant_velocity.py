@@ -13,7 +13,7 @@ from numpy import cos, inf, pi, sin
 
 from ...quantities import choice, quantity
 from ...quantities.kinds import a_number, shown
-from ...quantities.types import Value
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, mirrored
 
 SHAPES = ("cycloidal", "parabolic")
@@ -40,7 +40,7 @@ class ConstantVelocity(Law):
     ValueError: the blend of the constant velocity law is 0.7; it must be above 0 and at most 0.5
     """
 
-    blend: Any = quantity("b", 0.25, 0.01, 0.5, "", "share of the time spent in each blend")
+    blend: Value = quantity("b", 0.25, 0.01, 0.5, "", "share of the time spent in each blend")
     shape: str = choice("", "cycloidal", {shape: shape for shape in SHAPES}, "what the blends are")
 
     name = "constant velocity"
@@ -60,7 +60,7 @@ class ConstantVelocity(Law):
         return True
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return (self.blend, 1 - self.blend)
 
     def at(self, u: Value) -> Kinematics:
@@ -81,10 +81,10 @@ class ConstantVelocity(Law):
         return Peaks(V, pi * V / (2 * b), pi**2 * V / (2 * b**2))
 
 
-def _cycloidal(u: Value, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
+def _cycloidal(u: Value, b: Any, V: Any) -> tuple[Array, Array, Array, Array]:
     k = pi / b
     return V / 2 * (u - sin(k * u) / k), V / 2 * (1 - cos(k * u)), V / 2 * k * sin(k * u), V / 2 * k**2 * cos(k * u)
 
 
-def _parabolic(u: Value, b: Any, V: Any) -> tuple[Any, Any, Any, Any]:
+def _parabolic(u: Value, b: Any, V: Any) -> tuple[Array, Array, Array, Array]:
     return V * u**2 / (2 * b), V * u / b, V / b + 0 * u, 0 * u * b

@@ -85,7 +85,7 @@ class ShapedLaw(Law):
         return self.base.continuity if self._plain else min(self.base.continuity, 2)
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return self.base.kinks if self._plain else tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
 
     def at(self, u: Value) -> Kinematics:

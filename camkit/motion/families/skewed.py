@@ -7,7 +7,6 @@ Manufacturing Handbook; the form used here is derived in the docstring.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -40,7 +39,7 @@ class Skewed(Law):
     """
 
     law: Law = field(metadata={"declared": Choice("S", Cycloidal(), LAWS, "symmetric law that is skewed")})
-    inflection: Any = quantity("x", 0.5, 0.2, 0.8, "", "share of the time before the inflection point")
+    inflection: Value = quantity("x", 0.5, 0.2, 0.8, "", "share of the time before the inflection point")
 
     name = "skewed"
 
@@ -63,7 +62,7 @@ class Skewed(Law):
         return True
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         x = self.inflection
         early = [2 * x * k for k in self.law.kinks if k < 0.5]
         late = [1 - 2 * (1 - x) * (1 - k) for k in self.law.kinks if k > 0.5]

@@ -72,7 +72,7 @@ class SplineLaw(Law):
             raise ValueError(f"the spline has {shown}; it can have v, or v, a, or v, a, j at both")
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return self.u
 
     @property
@@ -100,7 +100,7 @@ class SplineLaw(Law):
         return law_peaks(self)
 
 
-def _row(values: Any, what: str) -> tuple[float, ...]:
+def _row(values: object, what: str) -> tuple[float, ...]:
     """One number for each place."""
     row = numbers(listed(values, what), what)
     if row.ndim != 1:
@@ -153,7 +153,7 @@ class TableLaw(Law):
         _refuse_table(self)
 
     @property
-    def kinks(self) -> tuple[Any, ...]:
+    def kinks(self) -> tuple[Value, ...]:
         return self.u[1:-1]
 
     @cached_property
@@ -200,7 +200,7 @@ def _smoothed(u: Any, s: Any, tolerance: float) -> BSpline:
     return best
 
 
-def _smoother(u: Array, s: Any) -> Any:
+def _smoother(u: Array, s: Value) -> Any:
     """A function of the weight that solves the normal equations for the spline's inner coefficients.
 
     Dwell ends fix the first three coefficients of a clamped quintic at 0 and the last three at 1.
