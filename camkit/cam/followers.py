@@ -8,7 +8,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import deg
 from .analysis import CamAnalysis
 from .statics import Guide, Pivot
@@ -33,10 +33,16 @@ class SlidingAnalysis(CamAnalysis):
         """``s``, m."""
         return np.where(self.buildable, self.motion.s, np.nan)
 
+    @property
+    def start_height(self) -> Value:
+        """Of the roller's centre, or of the face, above the cam axis at the level 0, m."""
+        return self.cam.start_height
+
     @cached_property
     def height(self) -> np.ndarray:
         """``h``: of the roller's centre, or of the face, above the cam axis, m."""
-        return self.cam.start_height + self.travel
+        height: np.ndarray = self.start_height + self.travel
+        return height
 
     @property
     def foot(self) -> np.ndarray:
@@ -52,7 +58,7 @@ class SlidingAnalysis(CamAnalysis):
     def bearing(self) -> Guide:
         """The guide in which the follower slides."""
         cam, friction = self.cam, self.cam.friction
-        mouth = cam.start_height + top_level(cam.motion) + friction.overhang
+        mouth = self.start_height + top_level(cam.motion) + friction.overhang
         return Guide(cam.offset, mouth, friction.guide_length, self.velocity, friction.guide, cam.load.side_force)
 
     @property

@@ -31,6 +31,7 @@ TORQUE_NUMBER = 9550
 class UniversalJointShaft(Design):
     """The tube between two universal joints (defaults: the paper's best design and data).
 
+    >>> from camkit import MPa
     >>> tube = UniversalJointShaft(outer_diameter=128*mm, inner_diameter=98*mm).analyse()
     >>> print(f"{tube.area / mm**2:.0f} mm^2, {tube.shear_stress / MPa:.3f} MPa, {tube.critical_speed / rpm:.1f} rpm")
     5325 mm^2, 83.564 MPa, 2974.7 rpm
@@ -76,6 +77,7 @@ class UniversalJointShaft(Design):
     def made_of(self, name: str) -> UniversalJointShaft:
         """The same shaft of another of `MATERIALS`: moduli, density and allowable shear stress change.
 
+        >>> from camkit import MPa
         >>> round(UniversalJointShaft().made_of("40Cr").allowable_shear / MPa, 1)
         142.5
         """

@@ -242,6 +242,11 @@ class FlatValveAnalysis(ValveAnalysis, TranslatingFlatAnalysis):
     cam: Any
 
     @property
+    def start_height(self) -> Any:
+        """Of the face where the flank begins, m: a roller has no part in it."""
+        return self.cam.base_radius
+
+    @property
     def pitch(self) -> np.ndarray:
         """``nan``: there is no roller."""
         return np.nan * self.profile
