@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+import tomllib
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -72,3 +73,45 @@ def test_a_wing_lists_what_it_offers(wing: str) -> None:
     if hasattr(module, "__all__"):
         assert module.__doc__
         assert len(module.__all__) == len(set(module.__all__))
+
+
+# ---------------------------------------------------------------- the map
+
+TEXT = (REPOSITORY / "CONTRIBUTING.md").read_text(encoding="utf-8")
+MAP = re.search(r"```\nnotebooks\n(.*?)```", TEXT, re.DOTALL)[1]  # type: ignore[index]
+
+
+def test_the_map_names_what_stands_at_the_root_in_the_order_of_its_floors() -> None:
+    floors = [re.findall(r"(\w+)/?(?=  |$)", line.strip().partition("    ")[0]) for line in MAP.splitlines()]
+    assert sorted(name for floor in floors for name in floor) == sorted(WINGS)
+    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))
+    layers = settings["tool"]["importlinter"]["contracts"][0]["layers"]
+    height = {name.strip(" ()"): -i for i, layer in enumerate(layers) for name in layer.split("|")}
+    assert height.keys() == WINGS
+    drawn = [height[name] for floor in floors for name in floor]
+    assert drawn == sorted(drawn, reverse=True)
+
+
+def test_what_the_text_names_is_there() -> None:
+    named = set(re.findall(r"`((?:camkit|tests|notebooks)/[\w/.]+)`", TEXT)) - {"camkit/linkage/slider_crank.py"}
+    assert len(named) > 8
+    assert [path for path in sorted(named) if not (REPOSITORY / path).exists()] == []
+    inside = MAP + TEXT[TEXT.index("In `quantities/`") : TEXT.index("`make lint`")]
+    parts = {path.stem for path in (REPOSITORY / "camkit/quantities").glob("*.py")} - {"__init__"}
+    assert parts <= set(re.findall(r"`(\w+)`", inside))
+
+
+@pytest.mark.parametrize("word", ["mechanism", "motion law", "objective or a limit", "search", "view", "panel"])
+def test_what_is_added_is_one_file_or_a_line(word: str) -> None:
+    begins = TEXT.split(f"## Add a{'n' if word[0] == 'o' else ''} {word}\n\n")[1]
+    assert re.match("One (file|line)", begins)
+
+
+def test_the_mechanism_of_the_walk_has_a_panel_a_study_and_a_minimum() -> None:
+    """The stroke of a crank on the slider's line is twice the crank, whatever the rod."""
+    code = next(code for where, code in sources() if where == "CONTRIBUTING.md" and "SliderCrank" in code)
+    made: dict = {"__name__": "__main__"}
+    exec(code, made)
+    assert made["app"].design.crank == pytest.approx(0.025, rel=1e-6)
+    assert set(made["app"].controls) >= {"crank", "rod"}
+    assert "position of the slider" in made["app"].picture.views[0].__name__.replace("_", " ")
