@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import platform
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,7 @@ from camkit.search.evolution import StudyProblem
 from camkit.search.nsga2 import nsga2_steps
 from camkit.search.toolbox_genetic import ToolboxGenetic
 from camkit.units import deg
+from stored import in_rows
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "cabin_door_searches.json"
 SEEDS = 30
@@ -78,12 +78,7 @@ def main() -> None:
         },
         "searches": {name: trials(name) for name in METHODS},
     }
-    CACHE.write_text(_in_rows(json.dumps(data, indent=1)) + "\n", encoding="utf-8")
-
-
-def _in_rows(text: str) -> str:
-    """A list of numbers in one row."""
-    return re.sub(r"\[[^][{}]*\]", lambda found: " ".join(found[0].split()), text)
+    CACHE.write_text(in_rows(json.dumps(data, indent=1)) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

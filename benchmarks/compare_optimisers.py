@@ -37,6 +37,7 @@ from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.study import Evaluation, Study
 from known_problems import KNOWN_PROBLEMS
+from stored import in_rows
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "optimiser_comparison.json"
 BUDGET = 10_000
@@ -271,16 +272,7 @@ def main() -> None:
         known = old["evaluations"]
     measured = measure(arguments.methods, arguments.seeds, min(2, os.cpu_count() or 1))
     text = json.dumps(data(arguments.seeds, joined(known, measured)), indent=1)
-    arguments.out.write_text(_in_rows(text) + "\n", encoding="utf-8")
-
-
-def _in_rows(text: str) -> str:
-    """A list of numbers in one row."""
-    rows, inside = [], False
-    for line in text.splitlines():
-        rows[-1:] = [rows[-1] + line.strip()] if inside else [*rows[-1:], line]
-        inside = line.rstrip().endswith("[") or (inside and not line.strip().startswith("]"))
-    return "\n".join(rows)
+    arguments.out.write_text(in_rows(text) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import platform
-import re
 import resource
 import time
 from collections.abc import Iterator
@@ -28,6 +27,7 @@ from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.nsga2 import nsga2_steps
 from camkit.search.protocol import Step
 from camkit.units import mm
+from stored import in_rows
 from test_minimax import METHODS, PROBLEMS, ten_trials
 
 CACHE = Path(__file__).parents[1] / "camkit" / "data" / "high_speed_searches.json"
@@ -88,12 +88,7 @@ def main() -> None:
         "min_stress": min_stress(),
         "fronts": fronts(),
     }
-    CACHE.write_text(_in_rows(json.dumps(data, indent=1)) + "\n", encoding="utf-8")
-
-
-def _in_rows(text: str) -> str:
-    """A list of numbers in one row."""
-    return re.sub(r"\[[^][{}]*\]", lambda found: " ".join(found[0].split()), text)
+    CACHE.write_text(in_rows(json.dumps(data, indent=1)) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

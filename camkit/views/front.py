@@ -144,17 +144,17 @@ def live_pareto(shown: LiveFront) -> Picture:
 
 
 def searches_compared(searches: Mapping[str, Any]) -> Picture:
-    """What each search still lacks of the best hypervolume known, against the processor's time; both axes logarithmic.
+    """What each search still lacks of the best hypervolume known, against the designs evaluated; both axes logarithmic.
 
-    ``searches``: pairs of processor seconds and missing share of the hypervolume, ``(k, 2)``, by name.
+    ``searches``: pairs of designs evaluated and missing share of the hypervolume, ``(k, 2)``, by name.
     """
     refuse_arguments(searches_compared, locals())
     for name, points in searches.items():
         if np.shape(numbers(points, f"the points of {name}"))[1:] != (2,):
-            raise ValueError(f"the points of {name} are {shown(points)}; they must be pairs of seconds and shares")
+            raise ValueError(f"the points of {name} are {shown(points)}; they must be pairs of designs and shares")
     axes = Axes(
         title="How fast a front is found",
-        xlabel="processor time  [s]",
+        xlabel="designs evaluated",
         ylabel="hypervolume still missing  [%]",
         log="xy",
     )

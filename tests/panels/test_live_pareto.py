@@ -558,6 +558,6 @@ def test_drawing_again_moves_what_was_drawn(lift):
 
 def test_searches_are_compared_in_per_cent():
     _, axes = layout((searches_compared,), width=6, height=4)
-    draw({"one": [(0.1, 0.5), (1, 0.01)], "other": [(0.2, 0.2)]}, axes, (searches_compared,))
-    assert_allclose(artist_of(axes[0], "one").get_data(), [(0.1, 1), (50, 1)])
+    draw({"one": [(100, 0.5), (1000, 0.01)], "other": [(200, 0.2)]}, axes, (searches_compared,))
+    assert_allclose(artist_of(axes[0], "one").get_data(), [(100, 1000), (50, 1)])
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"

@@ -134,7 +134,7 @@ def test_a_box_for_a_count_refuses_what_a_program_may_set_only_in_range():
 
 # ---------------------------------------------------------------- every box of every panel
 
-TYPED = ("1e160", "-1e300", "1e308", "0")
+TYPED = ("1e160", "-1e300", "0")
 LEVER = (mechanism, pressure_angle, curvature, contact_force)
 PANELS = {
     "door handle": (DoorHandleCam(), (), DoorHandleCam.measures),

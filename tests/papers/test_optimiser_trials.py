@@ -13,6 +13,7 @@ from camkit.data import load
 from camkit.machines.shaft import lightest_shaft
 from camkit.papers.optimiser_trials import Trials, measured_trials, probability_faster, trial_table
 from known_problems import KNOWN_PROBLEMS
+from stored import in_rows
 
 INF = np.inf
 DATA = load("optimiser_comparison")
@@ -248,8 +249,8 @@ def test_a_trial_counts_every_design_and_no_more_than_the_budget(script) -> None
         assert reached == (np.argmax(near) + 1 if near.any() else None)
 
 
-def test_the_data_file_is_written_in_rows(script) -> None:
-    text = json.dumps({"a": [[1, 2], [3, None]], "b": {"c": 1}}, indent=1)
-    rows = script._in_rows(text)
-    assert json.loads(rows) == json.loads(text)
-    assert rows.splitlines()[1:3] == [' "a": [[1,2],', "  [3,null]"]
+def test_data_files_are_written_in_rows() -> None:
+    content = {"a": [[1, 2], [3, None]], "b": {"c": 1}}
+    rows = in_rows(json.dumps(content, indent=1))
+    assert json.loads(rows) == content
+    assert rows.splitlines()[2:4] == ["  [ 1, 2 ],", "  [ 3, null ]"]
