@@ -6,11 +6,9 @@ absurdly large is refused by a ``ValueError`` in a sentence; what does not match
 
 from __future__ import annotations
 
-import codecs
 import hashlib
 import json
 import re
-from collections.abc import Iterable
 from typing import Any
 
 from ..quantities.kinds import shown
@@ -26,13 +24,6 @@ MOST_DIGITS = 20
 UNMARKED = "it carries no digest of its content, as files of an earlier camkit do: damage to it would not show"
 EDITED = "its content does not match its digest: it was edited or damaged after it was saved; check its numbers"
 
-MARKS = {
-    codecs.BOM_UTF32_LE: "UTF-32",
-    codecs.BOM_UTF32_BE: "UTF-32",
-    codecs.BOM_UTF16_LE: "UTF-16",
-    codecs.BOM_UTF16_BE: "UTF-16",
-}
-"""How files in other encodings begin; UTF-32 before UTF-16, of which it is a case."""
 BINARY = {
     b"\x89PNG": "a PNG picture",
     b"\xff\xd8\xff": "a JPEG picture",
@@ -49,6 +40,8 @@ TEXTS = {
 """What other texts begin with."""
 
 _COMPACT = re.compile(r'("[^"\\]*(?:\\.[^"\\]*)*")|\s+')
+_BRACKETS = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"|([][{}])')
+"""Brackets that are not in a word."""
 _DIGEST = re.compile(r'"digest":"[^"]*",?')
 
 
@@ -112,13 +105,9 @@ def _refuse_binary(data: bytes) -> None:
     for start, kind in BINARY.items():
         if data.startswith(start):
             raise ValueError(f"the file is {kind}, no saved design or study")
-    for mark, name in MARKS.items():
-        if data.startswith(mark):
-            raise ValueError(_encoding(f"in {name}"))
-    if data[1:4] == b"\0\0\0" or data[:3] == b"\0\0\0":  # letters in four bytes
-        raise ValueError(_encoding("in UTF-32"))
-    if data[1:4:2] == b"\0\0" or data[:4:2] == b"\0\0":  # every other byte: letters in two bytes
-        raise ValueError(_encoding("in UTF-16"))
+    encoding = json.detect_encoding(data)  # by its byte order mark, or by where zeros stand
+    if not encoding.startswith("utf-8"):
+        raise ValueError(_encoding(f"in {encoding[:6].upper()}"))
     if b"\0" in data:
         raise ValueError("the file is no text, and no saved design or study")
 
@@ -138,26 +127,17 @@ def _parsed(text: str) -> Any:
     except json.JSONDecodeError as error:
         raise ValueError(f"the file is damaged: it is no JSON at line {error.lineno} ({error.msg})") from None
     except RecursionError:
-        raise _too_deep() from None
-    _refuse_depth(content)
+        content = None
+    _refuse_depth(text)
     return content
 
 
-def _too_deep() -> ValueError:
-    return ValueError("the file is damaged: it is nested too deeply")
-
-
-def _refuse_depth(content: object) -> None:
-    level: list[Any] = [content]
-    for _ in range(MOST_NESTED):
-        level = [inner for outer in level for inner in _inside(outer) if isinstance(inner, (list, dict))]
-        if not level:
-            return
-    raise _too_deep()
-
-
-def _inside(value: object) -> Iterable[Any]:
-    return value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+def _refuse_depth(text: str) -> None:
+    depth = 0
+    for found in _BRACKETS.finditer(text):
+        depth += {"[": 1, "{": 1, "]": -1, "}": -1}.get(found[1], 0)
+        if depth > MOST_NESTED:
+            raise ValueError("the file is damaged: it is nested too deeply")
 
 
 def _number(text: str) -> float:
