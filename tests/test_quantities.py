@@ -286,8 +286,11 @@ def test_a_design_shows_as_a_table_in_display_units():
 
 @every_design
 def test_every_design_shows_as_a_table(kind):
-    html = kind()._repr_html_()
+    design = kind()
+    html, following = design._repr_html_(), design.following()
     for name, declared in declarations(kind).items():
+        if name in following:
+            continue
         assert name.replace("_", " ") in html
         assert declared.meaning in html
         if isinstance(declared, Quantity):
