@@ -190,7 +190,7 @@ class ContourPanel(Panel):
         return "\n".join([f"{problem}: {weights}", *self._lines()])
 
 
-def _text(measure: Measure, analysis: Any) -> str:
+def _text(measure: Measure, analysis: object) -> str:
     return measure.text(float(measure.sign * measure(analysis)))
 
 

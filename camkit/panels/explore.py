@@ -44,7 +44,7 @@ VIEWPOINT = {
 }
 
 
-def changed(design: Any, values: Mapping[str, Any]) -> Any:
+def changed(design: object, values: Mapping[str, Any]) -> Any:
     """``design`` with other values by path, as a panel gives them."""
     with unremarked():  # a panel's numbers have their units
         return with_quantities(design, values)
@@ -110,7 +110,7 @@ class Explorer(Panel):
             self._orbit = Orbit(self.picture, positions, self._show)
         return positions
 
-    def _fit_controls(self, design: Any) -> None:
+    def _fit_controls(self, design: object) -> None:
         """Controls for the paths that ``design`` has: another law has other coefficients."""
         declared = {path: d for path, d in declared_in(design).items() if self._free is None or path in self._free}
         if declared != {path: knob.declared for path, knob in self.controls.items()}:
@@ -120,14 +120,14 @@ class Explorer(Panel):
             if isinstance(knob, Menu):  # what is chosen may have changed below: a coefficient of the law
                 knob.set(value_of(design, path))
 
-    def _control(self, path: str, declared: Quantity | Choice, value: Any) -> NumberRow | Menu:
+    def _control(self, path: str, declared: Quantity | Choice, value: object) -> NumberRow | Menu:
         """The control of a path, the one that is there if its declaration is the same."""
         there = self.controls.get(path)
         if there and there.declared == declared:
             return there
         return control(path, declared, value, self._changed, self._refuse_number)
 
-    def _set_controls(self, design: Any) -> None:
+    def _set_controls(self, design: object) -> None:
         """Every control at what ``design`` has."""
         self._fit_controls(design)
         for path, knob in self.controls.items():
@@ -246,7 +246,7 @@ class Explorer(Panel):
         """Say why a number was not taken; what is shown stays."""
         self.banner.show_message(f"{sentence} {self._impossible}".strip())
 
-    def _go_back(self, design: Any, analysis: Any, error: Exception) -> None:
+    def _go_back(self, design: object, analysis: object, error: Exception) -> None:
         """Controls, picture and numbers of the last design, and a sentence that says why."""
         self.design, self.analysis = design, analysis
         self._set_controls(design)

@@ -93,7 +93,7 @@ class FrontsPanel(JobPanel):
 
     # ------------------------------------------------------------ the searches
 
-    def _steps(self, design: Any) -> Iterator[Step]:
+    def _steps(self, design: object) -> Iterator[Step]:
         try:
             for name, (make, search) in self.ways.items():
                 self._name, began = name, time.monotonic()
@@ -118,7 +118,7 @@ class FrontsPanel(JobPanel):
 
     # ------------------------------------------------------------ what is shown
 
-    def _objectives(self, analysis: Any) -> np.ndarray:
+    def _objectives(self, analysis: object) -> np.ndarray:
         return np.array([float(m(analysis)) for m in next(iter(self.fronts.values())).study.minimise])
 
     def _show(self) -> None:

@@ -78,7 +78,7 @@ class OptimisePanel(JobPanel):
     def _prepare(self) -> Iterator[Step]:
         return self._steps(self._study(), self.explorer.design, self.choices.values["method"], self.starts.value)
 
-    def _steps(self, study: Study, before: Any, method: str, starts: int) -> Iterator[Step]:
+    def _steps(self, study: Study, before: object, method: str, starts: int) -> Iterator[Step]:
         self.study, self.before, self.back.disabled = study, before, False
         self.minimum, self._seen = None, []
         for step in search(study, method, starts=starts):

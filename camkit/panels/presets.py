@@ -51,7 +51,7 @@ class Presets(Panel):
         except IMPOSSIBLE as refusal:
             self.banner.show_message(f"This cannot be offered: {refusal}.")
 
-    def _follow(self, design: Any) -> None:
+    def _follow(self, design: object) -> None:
         """Every menu shows which of its options the design is."""
         self.banner.show_message("")
         with self._quiet:
@@ -63,7 +63,7 @@ class Presets(Panel):
         return self.explorer.summary()
 
 
-def _leads_to(change: Change, design: Any) -> bool:
+def _leads_to(change: Change, design: object) -> bool:
     try:
         return bool(change(design) == design)
     except IMPOSSIBLE:  # an offer that cannot be made now

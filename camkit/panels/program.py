@@ -108,7 +108,7 @@ class ProgramEditor(Panel):
         self._list_rows([self._row(segment) for segment in program.segments])
         self._try(lambda: program)
 
-    def _row(self, segment: Any) -> SegmentRow:
+    def _row(self, segment: object) -> SegmentRow:
         changed = self._quiet.unless(self._changed)
         return SegmentRow(segment, self.unit, changed, self._remove, self.banner.show_message)
 

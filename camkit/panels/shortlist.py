@@ -50,7 +50,7 @@ class Shortlist(Panel):
         self._show()
 
     @staticmethod
-    def _has_profile(analysis: Any) -> bool:
+    def _has_profile(analysis: object) -> bool:
         return hasattr(getattr(analysis, "whole", analysis), "profile")
 
     def keep(self) -> None:

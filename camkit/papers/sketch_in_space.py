@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..units import deg, mm
 from ..views.picture import Axes, Formula, Picture, Text
@@ -43,7 +44,7 @@ def linkage_sketch(
     return scene.picture(Axes(equal=True, bare=True))
 
 
-def _letter(scene: Turntable, key: str, point: Any, words: str) -> None:
+def _letter(scene: Turntable, key: str, point: ArrayLike, words: str) -> None:
     scene.words(key, point, Formula(words), size=15)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..geometry import Disc, circle, rotated
 from ..units import deg, mm
@@ -25,7 +26,7 @@ def arc(key: str, centre: Any, radius: Any, first: Any, last: Any, role: str = "
     return Line(key, centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn), role=role, stroke="thin")
 
 
-def arrow(key: str, start: Any, tip: Any, role: str = "ink", both: bool = False) -> Line:
+def arrow(key: str, start: ArrayLike, tip: ArrayLike, role: str = "ink", both: bool = False) -> Line:
     """An arrow from ``start`` to ``tip``, with a head at ``both`` ends if asked for."""
     start, tip = np.asarray(start, dtype=float), np.asarray(tip, dtype=float)
     along = (tip - start) / np.hypot(*(tip - start))
@@ -36,7 +37,7 @@ def arrow(key: str, start: Any, tip: Any, role: str = "ink", both: bool = False)
     return Line(key, *np.transpose(points), role=role, stroke="solid")
 
 
-def _stretch(key: str, first: Any, last: Any, role: str = "guide", stroke: str = "") -> Line:
+def _stretch(key: str, first: ArrayLike, last: ArrayLike, role: str = "guide", stroke: str = "") -> Line:
     return Line(key, *np.transpose([first, last]), role=role, stroke=stroke)
 
 
@@ -49,7 +50,7 @@ def _radius(analysis: Any) -> Any:
     return next(body.radius for body in analysis.bodies if isinstance(body, Disc)) / mm
 
 
-def _middle(first: Any, second: Any, shift: tuple[float, float]) -> Any:
+def _middle(first: ArrayLike, second: ArrayLike, shift: tuple[float, float]) -> Any:
     return (np.asarray(first) + np.asarray(second)) / 2 + shift
 
 
@@ -183,7 +184,7 @@ def flat_face_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     )
 
 
-def _cam_angles(alpha: Any, half: Any, r0: Any, tip: Any) -> list[Mark]:
+def _cam_angles(alpha: Any, half: Any, r0: object, tip: Any) -> list[Mark]:
     """The radii to the start of the flank and to the nose, the cam angle and the half angle."""
     marks: list[Mark] = []
     for words, turned, length, side in (

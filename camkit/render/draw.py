@@ -120,7 +120,7 @@ def colour(role: str, index: int = 0, theme: str = "light") -> str:
     return to_hex((red, green, blue))
 
 
-def plain(words: Any) -> str:
+def plain(words: object) -> str:
     """Text that is drawn letter by letter: matplotlib reads what stands between two dollars as a formula.
 
     >>> print(plain("5 $ or 6 $"))

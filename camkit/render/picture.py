@@ -86,7 +86,7 @@ def positions_of(view: View) -> tuple[str, ...]:
     return tuple(name for name in POSITIONS if name in takes)
 
 
-def draw(analysis: Any, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
+def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
     ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` (a mapping from measures to
@@ -109,7 +109,7 @@ def _name(view: View) -> str:
 
 
 def picture(
-    shown: Any,
+    shown: object,
     *views: View,
     width: float = 12.6,
     height: float = 7.0,
@@ -138,7 +138,7 @@ def picture(
     return figure
 
 
-def strip(analysis: Any, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Still:
+def strip(analysis: object, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Still:
     """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
     with rc_context(theme_style()):
         turns = tuple(turns)

@@ -11,6 +11,7 @@ import numpy as np
 from ..geometry import Disc
 from ..quantities import PeakMeasure
 from ..quantities.kinds import refuse_empty, refuse_kinds
+from ..quantities.types import Array
 from ..units import deg, factor, mm
 from .cam import bodies, position
 from .picture import Axes, Line, Mark, Picture, Text
@@ -46,7 +47,7 @@ def cams_beside(shown: Beside, turn: float = 0.0) -> Picture:
     return Picture.of(Axes(title="To the same scale", xlabel="x  [mm]", ylabel="y  [mm]", equal=True), marks)
 
 
-def _reach(analysis: Any) -> tuple[Any, Any, Any]:
+def _reach(analysis: Any) -> tuple[float, float, float]:
     """How far a cam with its followers reaches to the left, to the right and, the cam, down over the turn, mm."""
     size = np.max(np.hypot(*analysis.profile), axis=-1)
     ends = [_sides(body) for body in analysis.bodies if body.name]
@@ -54,7 +55,7 @@ def _reach(analysis: Any) -> tuple[Any, Any, Any]:
     return left / mm, right / mm, -size / mm
 
 
-def _sides(body: Any) -> tuple[Any, Any]:
+def _sides(body: Any) -> tuple[Array, Array]:
     """Least and largest x of a body over its path, m."""
     if isinstance(body, Disc):
         return np.min(body.x) - body.radius, np.max(body.x) + body.radius

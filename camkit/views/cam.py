@@ -36,7 +36,9 @@ def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
     return Picture.of(axes, bodies(analysis.bodies, position(analysis, turn)))
 
 
-def bodies(shown: tuple[Body, ...], i: Any, away: Any = 0.0, prefix: str = "", index: int | None = None) -> list[Mark]:
+def bodies(
+    shown: tuple[Body, ...], i: Any, away: float = 0.0, prefix: str = "", index: int | None = None
+) -> list[Mark]:
     """Marks of bodies at position ``i``, shifted by ``away`` mm along x.
 
     What belongs to one name has one colour, and its name in the legend where there are several; with ``index`` all
@@ -54,7 +56,7 @@ def bodies(shown: tuple[Body, ...], i: Any, away: Any = 0.0, prefix: str = "", i
     return marks
 
 
-def _body(body: Any, i: Any, away: Any, key: str, style: Any) -> Iterator[Mark]:
+def _body(body: Any, i: Any, away: float, key: str, style: Any) -> Iterator[Mark]:
     """The marks of one body."""
     x, y = body.at(i) / mm
     x = x + away
@@ -104,7 +106,7 @@ def _each(analysis: Any, name: str, unit: float, named: bool = True) -> list[Mar
     ]
 
 
-def pressure_angle(analysis: Any, limits: Mapping[Measure, float] | None = None) -> Picture:
+def pressure_angle(analysis: object, limits: Mapping[Measure, float] | None = None) -> Picture:
     """The signed pressure angle, and the band that the ``limits`` of its measures leave; without any, no band."""
     allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
     bands = [
@@ -114,13 +116,13 @@ def pressure_angle(analysis: Any, limits: Mapping[Measure, float] | None = None)
     return Picture.of(axes, bands, _each(analysis, "pressure_angle", deg))
 
 
-def contact_force(analysis: Any) -> Picture:
+def contact_force(analysis: object) -> Picture:
     """Force between cam and follower, without friction."""
     axes = Axes(title="Contact force", xlabel=ANGLE, ylabel="F  [N]")
     return Picture.of(axes, _each(analysis, "contact_force", 1.0))
 
 
-def cam_torque(analysis: Any) -> Picture:
+def cam_torque(analysis: object) -> Picture:
     """Torque on the cam, without friction."""
     axes = Axes(title="Cam torque", xlabel=ANGLE, ylabel="M  [N mm]")
     return Picture.of(axes, _each(analysis, "cam_torque", mm))

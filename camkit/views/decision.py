@@ -214,7 +214,7 @@ ANCHORS = (("bottom", 0.05), ("top", -0.05), ("top", -0.05))
 """Where the names of the corners stand."""
 
 
-def triangle(weights: Any) -> np.ndarray:
+def triangle(weights: object) -> np.ndarray:
     """Where weights ``(..., 3)`` lie in the triangle, ``(..., 2)``."""
     return np.asarray(np.asarray(weights, dtype=float) @ CORNERS)
 

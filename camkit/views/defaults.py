@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..study.tolerances import AnalysisCurve
@@ -54,7 +52,7 @@ VIEW_OF: dict[str, View] = {
 """By what an analysis offers: the name of one of its attributes."""
 
 
-def default_views(analysis: Any) -> tuple[View, ...]:
+def default_views(analysis: object) -> tuple[View, ...]:
     """A view of everything that ``analysis.offers``, which names attributes or holds curves (`AnalysisCurve`).
 
     >>> from camkit import OscillatingFlatCam
@@ -70,7 +68,7 @@ def default_views(analysis: Any) -> tuple[View, ...]:
 def curve_view(curve: AnalysisCurve) -> View:
     """A view of one curve of an analysis over its angle, with its limits."""
 
-    def view(analysis: Any) -> Picture:
+    def view(analysis: object) -> Picture:
         name, angle = curve.angle(analysis)
         x, unit = angle / deg, factor(curve.unit)
         limits = [

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..quantities import words
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
+from ..quantities.types import Array
 from ..study.design_map import DesignMap
 from ..study.study import KEPT
 from ..units import factor
@@ -150,7 +151,7 @@ def objective_plane(shown: ShownPlane) -> Picture:
     )
 
 
-def _ends(values: np.ndarray) -> tuple[Any, Any]:
+def _ends(values: np.ndarray) -> tuple[Array, Array]:
     """First and last value, and room for a mark on the edge."""
     room = 0.025 * np.ptp(values)
     return values[0] - room, values[-1] + room

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..quantities.types import Array
 from ..units import factor, mm
 from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
 
@@ -91,39 +92,39 @@ def _told(way: str, part: Any, x: Any, top: Any, found: tuple[Any, Any], along: 
     ]
 
 
-def _values(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
+def _values(part: Any, curve: Curve, along: Along) -> tuple[Array, Array]:
     """Where, and what there is, in the units of the axes."""
     return along.of(part) / factor(along.unit), curve.of(part) / factor(curve.unit)
 
 
-def _peak(part: Any, curve: Curve, along: Along) -> tuple[Any, Any]:
+def _peak(part: Any, curve: Curve, along: Along) -> tuple[Array, Array]:
     """Where an interval's peak is and how high, ``(1,)`` in the units of the axes."""
     found = part.highest(curve.of)
     where = along.of(part.at(np.atleast_1d(found.cam_angle)))
     return where / factor(along.unit), np.atleast_1d(found.value) / factor(curve.unit)
 
 
-def contact_stress(analysis: Any) -> Picture:
+def contact_stress(analysis: object) -> Picture:
     """The coefficient ``F_sigma`` over the turn."""
     return _with_peaks(analysis, STRESS)
 
 
-def wear(analysis: Any) -> Picture:
+def wear(analysis: object) -> Picture:
     """The coefficient ``F_wear`` over the turn."""
     return _with_peaks(analysis, WEAR)
 
 
-def hertz_pressure(analysis: Any) -> Picture:
+def hertz_pressure(analysis: object) -> Picture:
     """The largest pressure between cam and roller over the turn."""
     return _with_peaks(analysis, HERTZ)
 
 
-def stress_over_way(analysis: Any) -> Picture:
+def stress_over_way(analysis: object) -> Picture:
     """The coefficient ``F_sigma`` over the slider's way, in the paper's unit."""
     return _with_peaks(analysis, STRESS._replace(unit="N^0.5 cm^-0.5"), WAY)
 
 
-def wear_over_way(analysis: Any) -> Picture:
+def wear_over_way(analysis: object) -> Picture:
     """The coefficient ``F_wear`` over the slider's way, in the paper's unit."""
     return _with_peaks(analysis, WEAR._replace(unit="N^1.5 cm^-0.5"), WAY)
 

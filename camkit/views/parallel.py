@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from textwrap import fill
-from typing import Any
 
 import numpy as np
 
@@ -50,7 +49,7 @@ class Designs:
         """Least and largest value of each column, ``(2, n)``."""
         return np.array([self.values.min(axis=0), self.values.max(axis=0)])
 
-    def height(self, values: Any) -> np.ndarray:
+    def height(self, values: object) -> np.ndarray:
         """Values of all columns as heights, 0 at the least and 1 at the largest; in the middle if all are alike."""
         low, high = self.ends
         span = np.where(high > low, high - low, 1.0)

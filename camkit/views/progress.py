@@ -82,7 +82,7 @@ def intervals_tried(shown: ShownIntervals) -> Picture:
     )
 
 
-def _left(shown: ShownIntervals) -> tuple[Any, Any]:
+def _left(shown: ShownIntervals) -> tuple[float, float]:
     """Between what is too short and what is long enough, deg."""
     last = shown.steps[-1] if shown.steps else None
     return (last.low / deg, last.high / deg) if last and last.low and last.best else (np.nan, np.nan)

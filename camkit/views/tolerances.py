@@ -52,7 +52,7 @@ def _band(tolerances: Tolerances, curve: AnalysisCurve, base: Any) -> Picture:
     )
 
 
-def cloud(front: Any = None) -> View:
+def cloud(front: object = None) -> View:
     """A view of every part in the first two objectives, beside ``front``; trouble: what misses a limit.
 
     With one objective: which share of the parts stays below each of its values.

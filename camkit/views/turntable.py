@@ -8,6 +8,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, gaps
 
@@ -60,7 +61,7 @@ class Turntable:
     def _height(self, near: Any) -> Any:
         return NEAR + 4 * np.mean(near) / self.radius
 
-    def path(self, key: str, points: Any, at: float = 3.0, **style: Any) -> None:
+    def path(self, key: str, points: ArrayLike, at: float = 3.0, **style: Any) -> None:
         """A line through ``points`` ``(3, n)``."""
         x, y, _ = self.seen(points)
         self.put(at, Line(key, x, y, **style))
@@ -70,13 +71,13 @@ class Turntable:
         x, y, near = self.seen(points)
         self.put(self._height(near), Line(key, x, y, **style))
 
-    def link(self, key: str, ends: Any, **style: Any) -> None:
+    def link(self, key: str, ends: ArrayLike, **style: Any) -> None:
         """A thick line that parts what lies behind it."""
         x, y, near = self.seen(ends)
         self.put(self._height(near) - 0.01, Line(f"{key} edge", x, y, role="paper", stroke="solid"))
         self.put(self._height(near), Line(key, x, y, stroke="arm", **style))
 
-    def ball(self, key: str, point: Any, size: float, **style: Any) -> None:
+    def ball(self, key: str, point: ArrayLike, size: float, **style: Any) -> None:
         """A round mark at ``point`` ``(3,)``, above the links that it joins."""
         x, y, near = self.seen(point)
         self.put(self._height(near) + 2.5, Points(key, x, y, size=size, **style))
@@ -88,12 +89,12 @@ class Turntable:
         shaft = np.transpose([foot, tip, tip + back + side, tip, tip + back - side])
         self.put(18.0, Line(key, *shaft, **style))
 
-    def face(self, key: str, corners: Any, at: float = 3.0, **style: Any) -> None:
+    def face(self, key: str, corners: ArrayLike, at: float = 3.0, **style: Any) -> None:
         """A filled polygon with ``corners`` ``(3, n)``."""
         x, y, _ = self.seen(corners)
         self.put(at, Polygon(key, x, y, **style))
 
-    def words(self, key: str, point: Any, said: str, **style: Any) -> None:
+    def words(self, key: str, point: ArrayLike, said: str, **style: Any) -> None:
         """A text at ``point`` ``(3,)``."""
         x, y, _ = self.seen(point)
         self.put(19.0, Text(key, x, y, said, **style))
@@ -102,7 +103,7 @@ class Turntable:
         """A line through ``point``, ``along`` being direction and half its length."""
         self.path(key, np.stack([point - along, point + along], axis=1), at=4.0, stroke="dashdot", **style)
 
-    def box(self, key: str, low: Any, high: Any, where: Any = True, **style: Any) -> None:
+    def box(self, key: str, low: Any, high: Any, where: object = True, **style: Any) -> None:
         """The edges of a box from corner ``low`` to corner ``high``, if ``where`` holds."""
         corners = np.array(list(product(*zip(low, high, strict=True))))
         edges = [(i, i | axis) for i in range(8) for axis in (1, 2, 4) if not i & axis]
@@ -119,11 +120,11 @@ class Turntable:
         grid = self.frame.T @ np.vstack([flat, np.full(flat.shape[1], -self.depth)]) + self.centre[:, None]
         self.path(key, grid, at=1.0, role="body")
 
-    def shadow(self, key: str, points: Any) -> None:
+    def shadow(self, key: str, points: ArrayLike) -> None:
         """The shadow of ``points`` ``(3, n)`` on the floor, light from straight above."""
         self.path(key, self.dropped(points), at=2.0, role="body", stroke="arm")
 
-    def dropped(self, points: Any) -> np.ndarray:
+    def dropped(self, points: ArrayLike) -> np.ndarray:
         """``points`` ``(3, n)`` let fall to the floor."""
         up = self.frame[2][:, None]
         return points - up * (up.T @ (points - self.centre[:, None]) + self.depth)

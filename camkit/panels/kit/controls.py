@@ -43,12 +43,12 @@ def label_html(name: str, declared: Quantity | Choice) -> Html:
     return html("<span {} {}>{}</span>", attribute("title", declared.meaning), attribute("data-name", said), shown)
 
 
-def small_html(text: Any) -> Html:
+def small_html(text: object) -> Html:
     """A unit or a hint, paler than the rest."""
     return html("<span class='camkit-unit'>{}</span>", text)
 
 
-def bar_html(colour: str, width: int, text: Any) -> Html:
+def bar_html(colour: str, width: int, text: object) -> Html:
     """A bar in a colour, and a text behind it."""
     style = attribute("style", f"width: {width}px; background: {colour}")
     return html("<span class='camkit-bar' {}></span>{}", style, text)
@@ -179,7 +179,7 @@ def _decade(width: float) -> int:
 class Menu:
     """One choice among named options; ``value`` is the option itself."""
 
-    def __init__(self, name: str, declared: Choice, value: Any, changed: Callable[[], None]) -> None:
+    def __init__(self, name: str, declared: Choice, value: object, changed: Callable[[], None]) -> None:
         self.declared, self._quiet = declared, Quiet()
         self.menu = w.Dropdown(
             options=self._options(value), value=value,
@@ -195,7 +195,7 @@ class Menu:
         """The chosen option."""
         return self.menu.value
 
-    def set(self, value: Any) -> None:
+    def set(self, value: object) -> None:
         """Show ``value`` without telling anyone."""
         with self._quiet:
             if (options := self._options(value)) != list(self.menu.options):

@@ -37,7 +37,7 @@ def places_on(front: Front, design: Any) -> np.ndarray:
     return np.flatnonzero(np.isclose(front.x, now, rtol=1e-9, atol=0).all(-1))
 
 
-def place_on(front: Front, design: Any) -> int | None:
+def place_on(front: Front, design: object) -> int | None:
     """The first of the places where a design stands on a front."""
     return next(map(int, places_on(front, design)), None)
 

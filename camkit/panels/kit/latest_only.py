@@ -26,7 +26,7 @@ class LatestOnly:
         """Whether something newer waits, or the kernel is going and nobody waits any more."""
         return bool(self._next) or not threading.main_thread().is_alive()
 
-    def ask(self, task: Any) -> None:
+    def ask(self, task: object) -> None:
         """Do ``task`` as soon as what is being done is finished; returns at once."""
         with self._lock:
             self._next = (task,)

@@ -17,7 +17,7 @@ def button(
     return made
 
 
-def menu(options: Any, description: str, width: str, description_width: str = "initial", **look: Any) -> w.Dropdown:
+def menu(options: object, description: str, width: str, description_width: str = "initial", **look: Any) -> w.Dropdown:
     """A menu with its name before it."""
     style = {"description_width": description_width}
     return w.Dropdown(options=options, description=description, layout=w.Layout(width=width), style=style, **look)

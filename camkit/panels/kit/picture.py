@@ -74,7 +74,7 @@ class LivePicture:
         self._later = Debounced(self._settle_and_describe, SETTLE)
         self._moved = 0.0
 
-    def show(self, analysis: Any, **position: Any) -> None:
+    def show(self, analysis: object, **position: Any) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit.
 
         What cannot be drawn raises ``ValueError`` or ``ArithmeticError``, and the picture stays as it was.

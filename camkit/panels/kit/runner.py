@@ -28,7 +28,7 @@ def told(result: str, why: str) -> Html:
     return html("<div style='line-height: 1.45'><b>{}</b><br>{}</div>", result, why)
 
 
-def named(thing: Any) -> str:
+def named(thing: object) -> str:
     """A function by its name, since it is another one whenever its cell runs; anything else by what it is."""
     return str(getattr(getattr(thing, "func", thing), "__qualname__", None) or repr(thing))
 

@@ -45,7 +45,7 @@ class SearchPage:
         return f"{type(self.start).__name__}-{_short(json.dumps(page))}"
 
     def study(
-        self, mode: str, design: Any, space: Mapping[str, tuple[float, float]], judgements: Mapping[str, Judgements]
+        self, mode: str, design: object, space: Mapping[str, tuple[float, float]], judgements: Mapping[str, Judgements]
     ) -> Study:
         """One of its problems around a design, with the weights that the judgements of the criteria give."""
         weights = {"weights": judgements["criteria"].weights} if "criteria" in self.judged else {}
