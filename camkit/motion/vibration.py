@@ -107,13 +107,7 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
     if not isinstance(law, Law | MotionProgram):
         raise ValueError(f"residual vibration is that of a motion law or of a motion program, not of {shown(law)}")
     motion = law if isinstance(law, Law) else _Whole(law)
-    ratio = np.atleast_1d(numbers(tau, "the period ratios tau"))
-    if not (np.isfinite(ratio).all() and (ratio > 0).all()):
-        raise ValueError("the period ratio tau holds a value that is not a finite number above 0; it must be that")
-    if ratio.ndim > 1 or not ratio.size:
-        raise ValueError(f"the period ratios tau are {shown(tau)}; they must be numbers in a row")
-    if ratio.max() > LARGEST:
-        raise ValueError(f"the period ratio tau is {ratio.max():.6g}; it must be at most {LARGEST:.6g}")
+    ratio = _ratios(tau)
     damping = a_number(damping, "the damping ratio", "be at least 0 and below 1", lambda z: (z >= 0) & (z < 1))
     if np.ndim(damping):
         raise ValueError("the damping ratio is a column; it must be one number")
@@ -127,6 +121,18 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
     after = _ringing((W**2 + 2 * damping * W * m) * end, m)
     parts = _ringing(end, m), abs(z).max(-1), np.maximum(pull, after)
     return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
+
+
+def _ratios(tau: Any) -> np.ndarray:
+    """The period ratios in a row, ``(r,)``; ``ValueError`` for what they cannot be."""
+    ratio = np.atleast_1d(numbers(tau, "the period ratios tau"))
+    if not (np.isfinite(ratio).all() and (ratio > 0).all()):
+        raise ValueError("the period ratio tau holds a value that is not a finite number above 0; it must be that")
+    if ratio.ndim > 1 or not ratio.size:
+        raise ValueError(f"the period ratios tau are {shown(tau)}; they must be numbers in a row")
+    if ratio.max() > LARGEST:
+        raise ValueError(f"the period ratio tau is {ratio.max():.6g}; it must be at most {LARGEST:.6g}")
+    return ratio
 
 
 def _root(W: Value, damping: float) -> Array:
