@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from .translating_roller import TranslatingRollerAnalysis
 
 
+FASTEST = 1e9
+"""A speed (rad/s) above this is a slip."""
+
+
 def jump_speed(analysis: CamAnalysis) -> Value:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
@@ -52,7 +56,7 @@ def preload_needed(analysis: TranslatingRollerAnalysis, speed: Value) -> Value:
     """Least preload of the spring that keeps the follower on the cam at ``speed``, N, or N m for an arm.
 
     The spring's rate and all other loads stay as they are; of a load without spring it is what one would have to add.
-    ``inf`` where the follower's speed drops at once.  ``ValueError`` for a speed that is not finite.
+    ``inf`` where the follower's speed drops at once.  ``ValueError`` for a speed that is none.
 
     >>> from camkit.cam import TranslatingRollerCam
     >>> from camkit.units import rpm
@@ -62,7 +66,8 @@ def preload_needed(analysis: TranslatingRollerAnalysis, speed: Value) -> Value:
     >>> print(f"{least:.2f} N, jumps at {jump_speed(closed.analyse()) / rpm:.1f} rpm")
     135.88 N, jumps at 1200.0 rpm
     """
-    speed = a_number(speed, "the speed of the cam", "be a finite number of at least 0", lambda w: w >= 0)
+    must = f"be a finite number of at least 0 and at most {FASTEST:g}"
+    speed = a_number(speed, "the speed of the cam", must, lambda w: (w >= 0) & (w <= FASTEST))
 
     def lacking(at: TranslatingRollerAnalysis) -> Array:
         without = at.static_resistance - at.preload
