@@ -18,7 +18,7 @@ from camkit.machines.door_handle import LIFT_SPACE
 from camkit.views import mechanism
 
 app = explore(DoorHandleCam(), mechanism)
-pareto_panel(app, {"lift curve": lift_curve_study}, space=LIFT_SPACE, free=LIFT_SPACE, generations=10000)"""
+pareto_panel(app, {"lift curve": lift_curve_study()}, generations=10000)"""
 ]
 
 WATCH = """([button, status]) => {

@@ -252,7 +252,7 @@ FUNCTIONS = {
     UniversalJointShaft().stiff_diameter: {"inner_diameter": 0.1},
     STUDY.design: {"x": [0.03]},
     STUDY.evaluate: {"x": [[0.03]]},
-    STUDY.weighing: {"weights": (1.0,)},}  # fmt: skip
+    STUDY.with_weights: {"weights": (1.0,)},}  # fmt: skip
 FUNCTIONS |= {
     kind().analyse: {"n": 61}
     for kind in CLASSES

@@ -263,12 +263,12 @@ def test_judgements_and_fronts(explorer, front, tmp_path, monkeypatch):
     judged.boxes[0, 1].value = EVIL
     assert_panel_harmless(judged, 4)
     space = {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}
-    found = pareto_panel(explorer, {EVIL: study}, space=space, free=["x", "y"], population=24, generations=4)
+    found = pareto_panel(explorer, {EVIL: study()}, space, ["x", "y"], population=24, generations=4)
     found.run()
     found.wait(60)
     assert_panel_harmless(found, 3)
     assert_panel_harmless(choose_panel(found), 2)
-    assert_panel_harmless(live_pareto_panel(explorer, {EVIL: study}, space))
+    assert_panel_harmless(live_pareto_panel(explorer, {EVIL: study()}, space))
     assert_panel_harmless(compare_fronts(explorer, given={EVIL: front}))
 
 

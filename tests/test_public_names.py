@@ -170,7 +170,7 @@ def app(name="roller"):
 @cache
 def search():
     """A panel with a front, which nobody has searched yet."""
-    return camkit.pareto_panel(app(), {"two": two}, space=SPACE, free=("base_radius",))
+    return camkit.pareto_panel(app(), TWO)
 
 
 @cache
@@ -238,7 +238,7 @@ GOOD = {
     "speed": lambda: 10.0,
     "space": lambda: SPACE,
     "steps": lambda: 2,
-    "studies": lambda: {"two": two},
+    "studies": lambda: {"two": TWO},
     "study": lambda: TWO,
     "target": lambda: 0.01,
     "least_over_bound.name": lambda: "base_radius",

@@ -33,7 +33,7 @@ from ..cam.oscillating_roller import OscillatingRollerCam
 from ..decision import Judgements
 from ..geometry import angle_opposite, end_to_end
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, Measure, choice, counted, fails, quantity, words
+from ..quantities import Design, Measure, choice, counted, fails, quantity
 from ..quantities.kinds import listed, refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.study import Space, Study, weighted
@@ -325,30 +325,16 @@ def lift_curve_study(
     """
     refuse_arguments(lift_curve_study, locals())
     start = start or DoorHandleCam()
-    free = space or LIFT_SPACE
-    for path in free:
-        if path.startswith(WITHOUT_LIFT):
-            raise ValueError(f"the {words(path)} has no effect on the lift curve; it must not be free")
     of = LIFT_CURVE
-    return Study(
+    study = Study(
         start=start,
-        free=free,
+        free=LIFT_SPACE,
         minimise=(_effort(of, reference or start, weights), -stroke_radius),
         at_most={of[max_pressure_angle]: 45 * deg},
         at_least={of[base_radius]: 30 * mm, stroke_radius: 7 * mm},
         angles=STUDY_ANGLES,
     )
-
-
-WITHOUT_LIFT = (
-    "relief_arm",
-    "relief_centre_distance",
-    "relief_swing",
-    "relief_load",
-    "roller_radius",
-    "friction",
-)
-"""How paths begin of quantities that neither the lift curve's pitch curve nor its frictionless forces depend on."""
+    return study.freeing(space) if space else study
 
 
 def _effort(of: Any, reference: DoorHandleCam, weights: object) -> Measure:

@@ -21,6 +21,7 @@ from ..cam.translating_roller import TranslatingRollerAnalysis, TranslatingRolle
 from ..contact import LineContact, line_contact
 from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics, MotionProgram
+from ..motion.resolution import Resolution
 from ..quantities import unremarked
 from ..quantities.types import Array
 from ..units import deg, mm
@@ -51,6 +52,11 @@ class ValveAnalysis(CamAnalysis):
         """The opening flank alone."""
         program: MotionProgram = self.cam.opening
         return program
+
+    @cached_property
+    def resolution(self) -> Resolution:
+        """As fine for a rough look: the acceleration of a full lift has its peak within a few degrees."""
+        return self.program.resolution
 
     @cached_property
     def whole(self) -> Self:

@@ -10,13 +10,13 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..quantities import Paths, Quantity, value_of, with_quantities
-from ..quantities.kinds import refuse_arguments, refuse_empty
+from ..quantities import value_of, with_quantities
+from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, html, joined
 from ..search.fast_front import quick_front
 from ..search.front import Front
 from ..search.protocol import search
-from ..study.study import Study, made_study, refuse_bounds
+from ..study.study import Study, named_studies
 from ..views.front import LiveFront, live_pareto
 from .ahp import AhpPanel
 from .explore import Explorer
@@ -26,15 +26,14 @@ from .kit.latest_only import LatestOnly
 from .kit.layout import column, menu, wrapped
 from .kit.panel import IMPOSSIBLE
 from .kit.picture import LivePicture
-from .kit.runner import MakeStudy
 
 
 class LiveParetoPanel(FrontPanel):
     """The Pareto front around the design of an `Explorer`, which follows its sliders and the judgements.
 
-    ``studies`` maps a name in the menu to a function ``make(start, reference=, space=)`` that gives a `Study`; it
-    takes ``weights=`` as well if there are ``criteria`` to judge.  ``space`` maps the free quantities, four at most, to
-    bounds in SI.  ``importance`` judges the objectives among each other.
+    ``studies`` is a `Study`, or maps names in a menu to several.  ``space`` maps the free quantities, four at most, to
+    bounds in SI; without it they are those that the first study frees.  ``criteria`` weigh the parts of objectives that
+    are weighted sums, ``importance`` judges the objectives among each other.
 
     A change starts from the front that is shown and takes about a tenth of a second; when nothing newer has been
     asked for, the front is computed once more from nothing, so that what stays depends on the design alone.
@@ -43,15 +42,16 @@ class LiveParetoPanel(FrontPanel):
     def __init__(
         self,
         explorer: Explorer,
-        studies: Mapping[str, MakeStudy],
-        space: Mapping[str, tuple[float, float]],
+        studies: Study | Mapping[str, Study],
+        space: Mapping[str, tuple[float, float]] | None = None,
         criteria: AhpPanel | None = None,
         importance: AhpPanel | None = None,
     ) -> None:
         refuse_arguments(LiveParetoPanel.__init__, locals())
-        refuse_empty(studies, "studies")
-        refuse_bounds(Paths(explorer.start, space, Quantity).declared, space)
-        self.explorer, self.studies, self.space = explorer, dict(studies), dict(space)
+        named = named_studies(studies)
+        self.space = dict(next(iter(named.values())).free if space is None else space)
+        self.studies = {name: study.around(explorer.start).freeing(self.space) for name, study in named.items()}
+        self.explorer = explorer
         self.criteria, self.importance = criteria, importance
         self._lock = threading.RLock()
         self._worker = LatestOnly(self._compute)
@@ -105,8 +105,8 @@ class LiveParetoPanel(FrontPanel):
         """The problem of the menu around the design in the sliders; its free quantities do not count."""
         first = self.explorer.start
         start = with_quantities(self.explorer.design, {name: value_of(first, name) for name in self.space})
-        weights = {"weights": self.criteria.weights} if self.criteria else {}
-        return made_study(self.studies[self.menu.value], start, reference=first, space=self.space, **weights)
+        study = self.studies[self.menu.value].around(start)
+        return study.with_weights(self.criteria.weights) if self.criteria else study
 
     def _changed(self) -> None:
         """Ask for another front, unless only free quantities have moved."""
@@ -198,7 +198,7 @@ class LiveParetoPanel(FrontPanel):
     def _before(self) -> Front:
         """The front that the panel began with, weighed as the one that is shown."""
         first = self._first.get(self._mode, self.front)
-        return first.judged_by(first.study.weighing(self.criteria.weights)) if self.criteria else first
+        return first.judged_by(first.study.with_weights(self.criteria.weights)) if self.criteria else first
 
     def _in_sliders(self, here: np.ndarray) -> Html:
         """The design in the sliders, in words."""
@@ -216,7 +216,10 @@ class LiveParetoPanel(FrontPanel):
 
 
 def live_pareto_panel(
-    explorer: Explorer, studies: Mapping[str, MakeStudy], space: Mapping[str, tuple[float, float]], **options: Any
+    explorer: Explorer,
+    studies: Study | Mapping[str, Study],
+    space: Mapping[str, tuple[float, float]] | None = None,
+    **options: Any,
 ) -> LiveParetoPanel:
     """A panel whose Pareto front follows the sliders of ``explorer`` (see `LiveParetoPanel`)."""
     return LiveParetoPanel(explorer, studies, space, **options)

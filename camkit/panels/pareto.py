@@ -12,11 +12,11 @@ import numpy as np
 from ..decision import CHOOSERS, Judgements
 from ..files import Session, designs, sessions
 from ..quantities import Paths, Quantity, words
-from ..quantities.kinds import refuse_arguments, refuse_empty, whole
+from ..quantities.kinds import refuse_arguments, whole
 from ..quantities.markup import escaped, joined
 from ..search.front import Front
 from ..search.protocol import Step
-from ..study.study import Study, refuse_bounds
+from ..study.study import Study, named_studies, refuse_bounds
 from ..views.front import ShownFront, pareto
 from .ahp import AhpPanel
 from .explore import Explorer, remarked
@@ -27,7 +27,7 @@ from .kit.layout import button, column, menu, wrapped
 from .kit.number import WholeBox, staying
 from .kit.panel import IMPOSSIBLE, reason
 from .kit.picture import LivePicture
-from .kit.runner import JobPanel, MakeStudy, Runner
+from .kit.runner import JobPanel, Runner
 from .kit.running import Job
 from .kit.search_job import SessionSearch, progress_text, record_text
 from .kit.search_page import SearchPage
@@ -39,10 +39,12 @@ COUNTS = {"population": range(4, 1001), "generations": range(1, 10_001), "seed":
 class ParetoPanel(JobPanel, FrontPanel):
     """NSGA-II on the design of an `Explorer`, and the choice from its front.
 
-    ``studies`` maps a name in the menu to a function ``make(start, reference=, space=)`` that gives a `Study`; it
-    takes ``weights=`` as well if there are ``criteria`` to judge.  ``importance`` judges the objectives among each
-    other.  The search runs in a thread of its own: the page stays alive, Stop takes effect after the running
-    generation and keeps the front so far.  Judgements weigh the objectives anew without a new search.
+    ``studies`` is a `Study`, or maps names in a menu to several; it is searched around the design in the explorer.
+    ``space`` are the quantities that can be freed, with their bounds in SI, ``free`` those of them that are free at
+    first; without these, what the studies free.  ``criteria`` weigh the parts of objectives that are weighted sums,
+    ``importance`` judges the objectives among each other.  The search runs in a thread of its own: the page stays
+    alive, Stop takes effect after the running generation and keeps the front so far.  Judgements weigh the objectives
+    anew without a new search.
 
     A panel that is made while a search of its kind runs, because its cell is run again, takes that search over; a
     search of another kind that the cell began is stopped.
@@ -54,17 +56,21 @@ class ParetoPanel(JobPanel, FrontPanel):
     def __init__(
         self,
         explorer: Explorer,
-        studies: Mapping[str, MakeStudy],
-        space: Mapping[str, tuple[float, float]],
-        free: Sequence[str] | Mapping[str, tuple[float, float]],
+        studies: Study | Mapping[str, Study],
+        space: Mapping[str, tuple[float, float]] | None = None,
+        free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,
         criteria: AhpPanel | None = None,
         importance: AhpPanel | None = None,
         population: int = 100,
         generations: int = 100,
     ) -> None:
         refuse_arguments(ParetoPanel.__init__, locals())
-        refuse_empty(studies, "studies")
         self.explorer, self.criteria, self.importance = explorer, criteria, importance
+        studies = named_studies(studies)
+        first, *others = (study.free for study in studies.values())
+        if space is None:
+            space = {path: bounds for each in (first, *others) for path, bounds in each.items()} | dict(first)
+        free = first if free is None else free
         declared = Paths(explorer.design, dict.fromkeys((*space, *free)), Quantity).declared
         refuse_bounds(declared, space)
         self.page = self._page(studies, space)
@@ -86,7 +92,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         explorer.on_change(lambda _: self._show_front(self.front) if self.picker.moved else None)
         super().__init__([self._body()])
 
-    def _page(self, studies: Mapping[str, MakeStudy], space: Mapping[str, Any]) -> SearchPage:
+    def _page(self, studies: Mapping[str, Study], space: Mapping[str, Any]) -> SearchPage:
         judged = {name: panel.names for name, panel in self._judges.items()}
         offered = {**COUNTS, "mode": tuple(studies), "rule": tuple(CHOOSERS)}
         return SearchPage(self.explorer.start, studies, tuple(space), judged, offered, self.explorer.measures)
@@ -211,7 +217,7 @@ class ParetoPanel(JobPanel, FrontPanel):
     def _judged(self) -> None:
         """Weigh the same designs anew."""
         if self.criteria:
-            self.study = self.study.weighing(self.criteria.weights)
+            self.study = self.study.with_weights(self.criteria.weights)
         self._show_front(self.found.judged_by(self.study))
 
     def _show_front(self, front: Front) -> None:
@@ -320,9 +326,9 @@ class ParetoPanel(JobPanel, FrontPanel):
 
 def pareto_panel(
     explorer: Explorer,
-    studies: Mapping[str, MakeStudy],
-    space: Mapping[str, tuple[float, float]],
-    free: Sequence[str] | Mapping[str, tuple[float, float]],
+    studies: Study | Mapping[str, Study],
+    space: Mapping[str, tuple[float, float]] | None = None,
+    free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,
     **options: Any,
 ) -> ParetoPanel:
     """A panel that searches around the design in ``explorer`` and helps to choose from the front."""

@@ -15,8 +15,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..quantities import Analysable, D, Measure, Paths, Quantity, counted, refuse_design, unremarked, words
-from ..quantities.kinds import finite, listed, number, numbers, one_number, refuse_fields, refuse_kinds, shown
+from ..quantities.kinds import (
+    finite,
+    listed,
+    number,
+    numbers,
+    one_number,
+    refuse_empty,
+    refuse_fields,
+    refuse_kinds,
+    shown,
+)
 
+TRIED = 32
+"""So many pairs of designs, at random, say whether a free quantity has any effect."""
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
 
@@ -116,6 +128,14 @@ def refuse_limits(at_most: Mapping[Any, Any], at_least: Mapping[Any, Any]) -> No
         if not keeps(at_least[measure], at_most[measure], 1):
             low, high = measure.text(at_least[measure]), measure.text(at_most[measure])
             raise ValueError(f"the {measure.name} is to be at least {low} and at most {high}; no design can be both")
+
+
+def named_studies(studies: Study | Mapping[str, Study]) -> dict[str, Study]:
+    """Studies by their names in a menu; one that is given alone is named by its objectives."""
+    if isinstance(studies, Study):
+        return {", ".join(measure.name for measure in studies.minimise): studies}
+    refuse_empty(studies, "studies")
+    return dict(studies)
 
 
 def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
@@ -297,7 +317,41 @@ class Study(Generic[D]):
         bound = "at most" if sense > 0 else "at least"
         return f"the {measure.name} of {bound} {measure.text(limit)} by {measure.text(missed)}"
 
-    def weighing(self, weights: ArrayLike) -> Self:
+    def around(self, design: D) -> Self:
+        """The same study of another design of the same kind, where a search then begins.
+
+        >>> from camkit import door_handle_study
+        >>> study = door_handle_study()
+        >>> study.around(study.start.replace(lift_arm=0.05)).x0[0]
+        np.float64(0.05)
+        """
+        self.x_of(design)
+        return replace(self, start=design)
+
+    def freeing(self, free: Any) -> Self:
+        """The same study with other free quantities, as ``free`` of a study names them.
+
+        Raises ``ValueError`` for one on which nothing depends that the study judges.
+        """
+        study = replace(self, free=free)
+        for path, idle in zip(study.free, study._idle(), strict=True):
+            if idle:
+                raise ValueError(f"the {words(path)} has no effect on what the study judges; it must not be free")
+        return study
+
+    def _idle(self) -> np.ndarray:
+        """Which free quantities change no objective and no limit, wherever two designs differ in one alone."""
+        (low, high), n = self.bounds, len(self.free)
+        first, second = np.random.default_rng(1).uniform(low, high, (2, TRIED, n))
+        x = np.repeat(first[:, None], n + 1, axis=1)
+        x[:, range(n), range(n)] = second  # the last of each row stays as it was
+        found = self.evaluate(x.reshape(-1, n))
+        judged = np.hstack([found.f, found.g]).reshape(TRIED, n + 1, -1)
+        known = np.isfinite(judged).all(-1)
+        same = (judged[:, :n] == judged[:, n:]).all(-1) & known[:, :n] & known[:, n:]
+        return np.asarray(same.any(0) & (same | ~known[:, :n] | ~known[:, n:]).all(0))
+
+    def with_weights(self, weights: ArrayLike) -> Self:
         """The same study with other weights in the objectives that are weighted sums."""
         changed = (m.with_weights(weights) if isinstance(m, WeightedSum) else m for m in self.minimise)
         return replace(self, minimise=tuple(changed))

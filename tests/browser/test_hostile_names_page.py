@@ -63,10 +63,10 @@ PANELS = (
     "app = explore(Evil(), view, measures=(first, second, limited), at_most={limited: 1 * mm})\napp",
     "kept = shortlist(app, study())\nkept.keep()\nkept",
     "judged = ahp_panel(Judgements([EVIL, 'b'], [3]), EVIL)\njudged.boxes[0, 1].value = EVIL\njudged",
-    "found = pareto_panel(app, {EVIL: study}, space=space, free=['x', 'y'], population=24, generations=3)\n"
+    "found = pareto_panel(app, {EVIL: study()}, space=space, free=['x', 'y'], population=24, generations=3)\n"
     "found.run()\nfound.wait()\nfound",
     "choose_panel(found)",
-    "live_pareto_panel(app, {EVIL: study}, space)",
+    "live_pareto_panel(app, {EVIL: study()}, space)",
     "compare_fronts(app, given={EVIL: found.front})",
     "make = lambda start, weights: Study(start, space, (first,), at_most={limited: 5 * mm})\n"
     "contour_panel(app, {EVIL: make}, {'x': 1.0})",

@@ -76,7 +76,7 @@ def test_sliders_and_judgements_move_the_front(book: Workbook) -> None:
     assert_allclose(book.value("live.front.f"), front.f, rtol=1e-9)  # free quantities move no front
 
     book.value("criteria.load([1, 1, 1])")
-    book.shows(quick_front(front.study.weighing(ahp([1, 1, 1]).weights)))
+    book.shows(quick_front(front.study.with_weights(ahp([1, 1, 1]).weights)))
 
 
 def test_what_is_impossible_is_told_in_place_of_the_picture(book: Workbook) -> None:

@@ -21,7 +21,7 @@ from camkit.machines.door_handle import PAPER_SPACE
 from camkit.views import pressure_angle
 
 app = explore(DoorHandleCam(), pressure_angle)
-pareto_panel(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
+pareto_panel(app, {"lift": door_handle_study(space=PAPER_SPACE)}, generations=10000)
 """
 
 

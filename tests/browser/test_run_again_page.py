@@ -19,7 +19,7 @@ app = explore(DoorHandleCam(), pressure_angle)
 app
 """
 SEARCH = """
-finder = pareto_panel(app, {"lift": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE), generations=10000)
+finder = pareto_panel(app, {"lift": door_handle_study(space=PAPER_SPACE)}, generations=10000)
 finder
 """
 THREADS = "[job.thread.ident for job in RUNNING]"

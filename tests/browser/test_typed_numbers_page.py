@@ -23,8 +23,8 @@ editor = edit_program(MotionProgram((Rise(100 * deg, 20 * mm, Cycloidal()), Dwel
                                      Return(100 * deg, 20 * mm, Cycloidal()), Dwell(100 * deg))))
 editor""",
     """
-finder = pareto_panel(explore(DoorHandleCam(), free=["lift_arm"], *[mechanism]), {"door": door_handle_study},
-                space={"lift_arm": (45 * mm, 55 * mm)}, free=["lift_arm"])
+finder = pareto_panel(explore(DoorHandleCam(), free=["lift_arm"], *[mechanism]), 
+                      door_handle_study(space={"lift_arm": (45 * mm, 55 * mm)}))
 finder""",
 )
 

@@ -828,7 +828,7 @@ def page():
     app = explore(DoorHandleCam(), pressure_angle, measures=CURVE_TABLE[:5], width=4, height=3, **limits)
     criteria = ahp_panel(PAPER_JUDGEMENTS)
     importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
-    problems = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
+    problems = {"lift curve alone": lift_curve_study(), "whole cam": door_handle_study()}
     return pareto_panel(
         app, problems, space=EXPANDED_SPACE, free=list(DOOR_HANDLE_SPACE), criteria=criteria, importance=importance
     )
@@ -931,7 +931,7 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
 def test_a_study_of_three_objectives_is_shown_where_nothing_weighs_them(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     app = explore(DoorHandleCam(), pressure_angle, width=4, height=3)
-    finder = pareto_panel(app, {"lift": lift_curve_study}, space=plain.free, free=list(plain.free))
+    finder = pareto_panel(app, lift_curve_study())
     study = plain.replace(minimise=SIZES[:3])
     finder.load_json(to_json(Session(study, app.design, front=front_of(study.evaluate(GRID), study))))
     assert said(finder) == ""
@@ -988,12 +988,8 @@ def test_what_cannot_be_saved_is_told_in_the_panel(monkeypatch, tmp_path):
 def test_the_page_comes_back_with_its_methods_and_a_measure_of_ones_own(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     app = explore(DoorHandleCam(), pressure_angle, measures=(slack,), width=4, height=3)
-
-    def problem(start, reference=None, space=None, weights=None):
-        return owned.replace(start=start, free=space)
-
     criteria = ahp_panel(PAPER_JUDGEMENTS)
-    finder = pareto_panel(app, {"own": problem}, space=PAPER_SPACE, free=list(PAPER_SPACE), criteria=criteria)
+    finder = pareto_panel(app, {"own": owned.freeing(PAPER_SPACE)}, criteria=criteria)
     criteria.method.value = "geometric"
     text = to_json(finder.session())
     criteria.method.value = "eigenvector"

@@ -491,7 +491,7 @@ def test_what_the_lift_curve_does_not_depend_on_may_not_be_free_there(name):
     x = [48.09 * mm, 0.34]
     assert_array_equal(changed.evaluate(x).f, lift_curve_study().evaluate(x).f)
     assert_array_equal(changed.evaluate(x).g, lift_curve_study().evaluate(x).g)
-    with pytest.raises(ValueError, match=rf"^the {name.replace('_', ' ')} has no effect on the lift curve"):
+    with pytest.raises(ValueError, match=rf"^the {name.replace('_', ' ')} has no effect on what the study judges"):
         lift_curve_study(space={name: (0.95 * value, 1.05 * value)})
 
 

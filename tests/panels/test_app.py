@@ -71,7 +71,7 @@ from camkit.views.front import shown_objectives
 
 SMALL = {"width": 4.0, "height": 2.6}
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction.coefficient")
-STUDIES = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
+STUDIES = {"lift curve alone": lift_curve_study(), "whole cam": door_handle_study()}
 
 
 def inside(panel, kind):
@@ -549,7 +549,7 @@ def test_a_search_finds_what_the_package_finds(finder, mode):
     finder.mode.value = mode
     run(finder, seed=3)
     space = {name: EXPANDED_SPACE[name] for name in DOOR_HANDLE_SPACE}
-    front = nsga2(STUDIES[mode](DoorHandleCam(), space=space), 24, 12, 3)
+    front = nsga2(STUDIES[mode].freeing(space), 24, 12, 3)
     assert_array_equal(finder.front.x, front.x)
     assert_allclose(finder.front.f, front.f, rtol=1e-12)
     assert finder.progress.value == finder.progress.max == 12
@@ -606,7 +606,7 @@ def test_a_search_that_cannot_be_is_refused_in_a_sentence(finder):
     before = finder.front
     finder.bounds["relief_arm"].free.value = True
     run(finder)
-    expected = "the relief arm has no effect on the lift curve; it must not be free"
+    expected = "the relief arm has no effect on what the study judges; it must not be free"
     assert alert(finder) == f"This cannot be searched: {expected}."
     finder.bounds["relief_arm"].free.value = False
     finder.bounds["lift_arm"].low.value = 60.0
@@ -775,7 +775,7 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     same = {"space": EXPANDED_SPACE, "free": list(DOOR_HANDLE_SPACE), "criteria": weighed, "importance": importance}
     other_start = explore(DoorHandleCam(friction=Friction(0.2)), pressure_angle, free=SLIDERS, **SMALL)
     pages = {
-        "problems": pareto_panel(an_explorer(), {"another": door_handle_study}, **same),
+        "problems": pareto_panel(an_explorer(), {"another": door_handle_study()}, **same),
         "judgements": pareto_panel(an_explorer(), STUDIES, **(same | {"importance": None})),
         "bounds": pareto_panel(an_explorer(), STUDIES, **(same | {"space": PAPER_SPACE})),
         "start": pareto_panel(other_start, STUDIES, **same),
@@ -892,10 +892,10 @@ def test_a_search_that_ends_in_a_newer_panel_leaves_nothing(finder, monkeypatch)
 
 
 OTHERS = {
-    "another page": lambda: pareto_panel(an_explorer(), {"another": door_handle_study}, space=PAPER_SPACE,
+    "another page": lambda: pareto_panel(an_explorer(), {"another": door_handle_study()}, space=PAPER_SPACE,
                                    free=list(PAPER_SPACE)),
     "another study of the same name": lambda: pareto_panel(
-        an_explorer(), STUDIES | {"lift curve alone": door_handle_study}, space=EXPANDED_SPACE,
+        an_explorer(), STUDIES | {"lift curve alone": door_handle_study()}, space=EXPANDED_SPACE,
         free=list(PAPER_SPACE), criteria=ahp_panel(PAPER_JUDGEMENTS),
         importance=ahp_panel(Judgements(["effort", "least radius"], [1]))),
 }  # fmt: skip
@@ -925,7 +925,7 @@ def test_two_searches_of_one_run_of_a_cell_run_beside_each_other(finder, monkeyp
     monkeypatch.setattr(finder.runner, "place", Place("cell", "first"))
     monkeypatch.setattr(sys.modules["camkit.panels.kit.runner"], "here", lambda: Place("cell", "first"))
     underway(finder)
-    other = pareto_panel(an_explorer(), {"another": door_handle_study}, space=PAPER_SPACE, free=list(PAPER_SPACE))
+    other = pareto_panel(an_explorer(), {"another": door_handle_study()}, space=PAPER_SPACE, free=list(PAPER_SPACE))
     underway(other)
     assert len(searching()) == 2
     for panel in (finder, other):

@@ -268,10 +268,8 @@ def test_a_follower_that_fails_stops_no_other():
     assert "too large" in sentence(panel.banner)
 
 
-def plane_study(start, weights=None, reference=None, space=None):
-    return door_handle_study(
-        start=start, space=space or {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
-    )
+def plane_study(start=None):
+    return door_handle_study(start, space=SPACE)
 
 
 def one_goal(start, weights):
@@ -289,8 +287,8 @@ def other_panels(app):
     return {
         "survey": lambda: contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7),
         "tolerate": lambda: tolerance_panel(app, door_handle_study(space=SPACE)),
-        "live front": lambda: live_pareto_panel(app, {"door": plane_study}, SPACE),
-        "search": lambda: pareto_panel(app, {"door": plane_study}, space=SPACE, free=["lift_arm"]),
+        "live front": lambda: live_pareto_panel(app, plane_study()),
+        "search": lambda: pareto_panel(app, plane_study(), free=["lift_arm"]),
         "improve": lambda: optimise_panel(fast, lambda design, method: make(design)),
         "shorten": lambda: cycle_time_panel(fast, lambda design: make(design), 2.0, 40 * deg, 120 * deg),
         "program": lambda: edit_program(MotionProgram(program)),
@@ -325,7 +323,7 @@ def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch)
     app = explore(DoorHandleCam(), mechanism, free=["lift_arm", "lift_load.torque", "lift_load.speed"])
     space = {"lift_arm": (40 * mm, 50 * mm), "relief_cam_angle": (50 * deg, 75 * deg)}  # some of it is feasible
     study = door_handle_study(space=space)
-    kept, made = shortlist(app, study), live_pareto_panel(app, {"door": plane_study}, space)
+    kept, made = shortlist(app, study), live_pareto_panel(app, plane_study(), space)
     panels = [contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7), tolerance_panel(app, study), made]
     compare_fronts(app, given={"quick": made.front})
     presets(app, {"arm": {"long": lambda cam: cam.replace(lift_arm=60 * mm)}})

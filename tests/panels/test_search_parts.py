@@ -28,7 +28,7 @@ from camkit.search.front import Front, front_of, reference_point
 from camkit.search.nsga2 import nsga2
 from camkit.units import mm
 
-STUDIES = {"lift curve alone": lift_curve_study, "whole cam": door_handle_study}
+STUDIES = {"lift curve alone": lift_curve_study(), "whole cam": door_handle_study()}
 JUDGEMENTS = {"criteria": PAPER_JUDGEMENTS, "importance": Judgements(["effort", "least radius"], [3])}
 OFFERED = {"population": range(4, 101), "generations": range(1, 101), "seed": range(10), "mode": tuple(STUDIES),
            "rule": tuple(CHOOSERS)}  # fmt: skip
@@ -82,7 +82,7 @@ def test_a_search_that_is_left_is_resumed_by_its_own_page_alone():
     assert next(steps).number == 2
     steps.close()
     assert page.can_resume()
-    assert not a_page({"another": lift_curve_study}).can_resume()
+    assert not a_page({"another": lift_curve_study()}).can_resume()
     assert not a_page(judged={"criteria": COLUMNS["criteria"]}).can_resume()
     resumed = page.resume(a_session(page, seed=9))
     assert (resumed.session.search, resumed.session.judgements) == (SEARCH, JUDGEMENTS)
@@ -118,8 +118,8 @@ def test_the_page_knows_its_own_search_from_another_of_the_same_name():
     *_, _ = search
     session = search.session  # as its file says it
     assert page.searches_as(session)
-    assert not a_page(STUDIES | {"lift curve alone": door_handle_study}).searches_as(session)
-    assert not a_page({"whole cam": door_handle_study}).searches_as(session)
+    assert not a_page(STUDIES | {"lift curve alone": door_handle_study()}).searches_as(session)
+    assert not a_page({"whole cam": door_handle_study()}).searches_as(session)
     assert not SearchPage(OscillatingRollerCam(), STUDIES, (), COLUMNS, OFFERED).searches_as(session)
 
 
@@ -148,7 +148,7 @@ def test_a_session_of_another_mechanism_is_refused():
 
 
 def test_the_kind_of_a_page_is_what_it_is_made_of():
-    kinds = {a_page().kind, a_page().kind, a_page({"another": lift_curve_study}).kind, a_page(judged={}).kind}
+    kinds = {a_page().kind, a_page().kind, a_page({"another": lift_curve_study()}).kind, a_page(judged={}).kind}
     assert len(kinds) == 3
     assert all(kind.startswith("DoorHandleCam-") for kind in kinds)
 

@@ -77,8 +77,8 @@ def test_as_meant_every_weight_gives_the_corner(method, paper_units):
 def test_as_printed_there_are_two_ends():
     study = valve_study(printed_sign=True)
     for w, best in ((0.4, 4.827593), (0.55, 4.827593), (0.56, 20.0), (0.98, 20.0)):
-        assert_allclose(minimise(study.weighing((w, 1 - w)), "de").x, (best, 20), atol=1e-3)
-    stuck = minimise(study.weighing((0.58, 0.42)))  # slopes lead to the end of the valley where they begin
+        assert_allclose(minimise(study.with_weights((w, 1 - w)), "de").x, (best, 20), atol=1e-3)
+    stuck = minimise(study.with_weights((0.58, 0.42)))  # slopes lead to the end of the valley where they begin
     assert_allclose(stuck.x, (4.827593, 20), atol=1e-3)
 
 
@@ -91,5 +91,5 @@ def test_as_corrected_the_weight_moves_the_optimum():
     study = corrected_valve_study(ValveCam(base_radius=24.5 * mm))
     for w, best in ((0.5, (4.0305, 20)), (0.8, (5.807, 20)), (0.98, (20, 20))):
         for method in ("slsqp", "de"):
-            assert_allclose(minimise(study.weighing((w, 1 - w)), method).x, best, atol=2e-3)
-        assert_allclose(DesignMap(study.weighing((w, 1 - w)), n=21).best, best, atol=2e-3)
+            assert_allclose(minimise(study.with_weights((w, 1 - w)), method).x, best, atol=2e-3)
+        assert_allclose(DesignMap(study.with_weights((w, 1 - w)), n=21).best, best, atol=2e-3)

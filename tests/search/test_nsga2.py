@@ -237,7 +237,7 @@ def test_an_empty_front_says_that_nothing_can_be_built():
 
 
 def test_new_weights_judge_the_same_designs(lift):
-    study = lift.study.weighing((0, 0, 1))
+    study = lift.study.with_weights((0, 0, 1))
     judged = lift.judged_by(study)
     assert judged.study is study
     assert set(map(tuple, judged.x)) <= set(map(tuple, lift.x))
@@ -344,7 +344,7 @@ def test_a_study_is_recognised_by_what_it_says():
     assert fingerprint(study) == fingerprint(same)
     others = [
         study.replace(start=study.start.replace(motion_law=Poly345())),
-        study.weighing((0.5, 0.25, 0.25)),
+        study.with_weights((0.5, 0.25, 0.25)),
         study.replace(at_most={}),
         study.replace(free={**study.free, "lift_arm": (0.045, np.nextafter(0.055, 1))}),
     ]

@@ -141,7 +141,7 @@ def test_a_weighted_sum_is_the_sum_of_shares(rows):
 def test_new_weights_change_weighted_sums_only():
     effort = weighted("effort", {area: 0.5, slenderness: 0.5}, (0.05, 2.0))
     study = can_study(minimise=(effort, -volume))
-    other = study.weighing((0.9, 0.1))
+    other = study.with_weights((0.9, 0.1))
     assert isinstance(other.minimise[0], WeightedSum)
     assert other.minimise[0].weights == (0.9, 0.1)
     assert other.minimise[1] == study.minimise[1]
@@ -157,7 +157,7 @@ def test_the_sign_of_a_weighted_sum_survives_new_weights():
     """``-effort`` is to be made large; so it must be after a judgement has changed."""
     effort = weighted("effort", {area: 1.0}, (1.0,))
     study = can_study(minimise=(-effort,))
-    assert study.weighing((1.0,)).evaluate(study.x0).f[0, 0] == study.evaluate(study.x0).f[0, 0]
+    assert study.with_weights((1.0,)).evaluate(study.x0).f[0, 0] == study.evaluate(study.x0).f[0, 0]
 
 
 @pytest.mark.parametrize(
@@ -252,3 +252,31 @@ def test_a_measure_gives_real_numbers(value):
     for study in (a_study(minimise=(odd,)), a_study(at_most={odd: 1.0})):
         with pytest.raises(ValueError, match=r"^the odd gives .*; a measure gives real numbers, one or an array$"):
             study.evaluate([[0.03]])
+
+
+def test_a_study_goes_around_another_design():
+    """Objectives, limits and bounds stay; what is not free is the other design's."""
+    study, other = can_study(), TinCan(radius=30 * mm, height=90 * mm, sheet=0.4 * mm)
+    moved = study.around(other)
+    assert_allclose(moved.x0, [30 * mm, 90 * mm])
+    assert moved.design([40 * mm, 50 * mm]).sheet == 0.4 * mm
+    assert (moved.minimise, moved.limits, moved.free) == (study.minimise, study.limits, study.free)
+    assert study.start == TinCan()
+    with pytest.raises(ValueError, match=r"^the design is a TranslatingRollerCam; it must be a TinCan$"):
+        study.around(TranslatingRollerCam())
+
+
+def test_a_study_frees_other_quantities():
+    freed = can_study().freeing({"height": (50 * mm, 60 * mm)})
+    assert dict(freed.free) == {"height": (50 * mm, 60 * mm)}
+    assert list(can_study().freeing(["height", "radius"]).free) == ["height", "radius"]
+
+
+def test_what_changes_nothing_that_is_judged_may_not_be_free():
+    sentence = r"^the sheet has no effect on what the study judges; it must not be free$"
+    for free in (["sheet"], ["radius", "sheet"], ["sheet", "height"]):
+        with pytest.raises(ValueError, match=sentence):
+            can_study().freeing(free)
+    thick = Measure("thick", "mm", lambda a: np.maximum(a["r"], 95 * mm)[..., 0])
+    assert can_study(minimise=(thick,), at_most={}, at_least={}).freeing(["radius"])  # where it is large
+    assert can_study().freeing({"height": (1.1, 1.2)})  # of what cannot be built nothing is known

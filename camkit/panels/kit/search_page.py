@@ -14,9 +14,7 @@ from ...files import Session, designs, sessions
 from ...quantities import Measure
 from ...quantities.kinds import kind_words
 from ...search.checkpoint import fingerprint, resume, why
-from ...study.study import Study, WeightedSum, made_study
-from .panel import IMPOSSIBLE
-from .runner import MakeStudy
+from ...study.study import Study, WeightedSum
 from .search_files import Kept, keep, pending
 from .search_job import SIZE, SessionSearch
 
@@ -32,7 +30,7 @@ class SearchPage:
 
     start: Any
     """The design that it began with."""
-    studies: Mapping[str, MakeStudy]
+    studies: Mapping[str, Study]
     space: tuple[str, ...]
     judged: Mapping[str, tuple[str, ...]]
     offered: Mapping[str, Container[Any]]
@@ -48,16 +46,13 @@ class SearchPage:
         self, mode: str, design: object, space: Mapping[str, tuple[float, float]], judgements: Mapping[str, Judgements]
     ) -> Study:
         """One of its problems around a design, with the weights that the judgements of the criteria give."""
-        weights = {"weights": judgements["criteria"].weights} if "criteria" in self.judged else {}
-        return made_study(self.studies[mode], design, reference=self.start, space=space, **weights)
+        study = self.studies[mode].around(design).freeing(space)
+        return study.with_weights(judgements["criteria"].weights) if "criteria" in self.judged else study
 
     def known_measures(self, now: Session) -> tuple[Measure, ...]:
         """Every measure that a study of this page may have beside those of its mechanism."""
-        measures = [*self.measures, *now.study.measures]
-        for mode in self.studies:
-            with suppress(*IMPOSSIBLE):  # of free quantities that this problem does not have
-                measures += self.study(mode, self.start, dict(now.study.free), now.judgements).measures
-        return tuple(measures)
+        studies = (now.study, *self.studies.values())
+        return (*self.measures, *(measure for study in studies for measure in study.measures))
 
     # ------------------------------------------------------------ what belongs to it
 
