@@ -27,9 +27,10 @@ DEFAULTS = {
     "CamAnalysis": {"bodies", "buildable", "form_closed", "preload", "program", "resolution", "resolved", "stretch"},
     "FlatAnalysis": {"pitch"},
     "HighSpeedContact": {"inertia"},
-    "Law": {"kinks"},
+    "Law": {"kinks", "kinks_move"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
-    "Segment": {"kinks", "still"},
+    "SlidingAnalysis": {"start_height"},
+    "Segment": {"kinks", "kinks_move", "still"},
 }
 """What a base computes as most of its kinds have it, and some of them in their own way, by name on purpose."""
 
