@@ -7,11 +7,12 @@ the legend.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 ROLES = (
     "ink",  # what is read: letters, the design in hand, edges
@@ -76,7 +77,7 @@ class Mark:
     label: str = field(kw_only=True, default="")
     """Its name in the legend."""
     opacity: float = field(kw_only=True, default=1.0)
-    height: Any = field(kw_only=True, default=0.0)
+    height: float = field(kw_only=True, default=0.0)
     """Marks of a larger one lie above, whatever their order."""
 
 
@@ -84,8 +85,8 @@ class Mark:
 class Line(Mark):
     """A curve through points; ``nan`` parts it."""
 
-    x: Any
-    y: Any
+    x: ArrayLike
+    y: ArrayLike
     stroke: str = field(kw_only=True, default="")
     """How it is drawn, if not as its role: "thin", "dashed", "dotted", "bold", "arm", "bar", or two of them."""
     steps: bool = field(kw_only=True, default=False)
@@ -96,8 +97,8 @@ class Line(Mark):
 class Band(Mark):
     """All between two values of one axis; a line where they are equal."""
 
-    low: Any
-    high: Any
+    low: ArrayLike
+    high: ArrayLike
     along: str = field(kw_only=True, default="x")
     """The axis along which it runs, from end to end; the values are of the other one."""
 
@@ -106,17 +107,17 @@ class Band(Mark):
 class Area(Mark):
     """All between two curves over the same places."""
 
-    x: Any
-    low: Any
-    high: Any
+    x: ArrayLike
+    low: ArrayLike
+    high: ArrayLike
 
 
 @dataclass(frozen=True)
 class Polygon(Mark):
     """A filled outline; ``nan`` parts it."""
 
-    x: Any
-    y: Any
+    x: ArrayLike
+    y: ArrayLike
     edged: bool = field(kw_only=True, default=False)
 
 
@@ -124,10 +125,10 @@ class Polygon(Mark):
 class Contour(Mark):
     """Where values on a grid are one of several levels: ``z`` ``(m, n)`` over ``x`` ``(n,)`` and ``y`` ``(m,)``."""
 
-    x: Any
-    y: Any
-    z: Any
-    levels: Any
+    x: ArrayLike
+    y: ArrayLike
+    z: ArrayLike
+    levels: Sequence[float] | np.ndarray
     names: tuple[str, ...] = field(kw_only=True, default=())
     """Written on the curves, one for each level; of several levels those that find room."""
     stroke: str = field(kw_only=True, default="")
@@ -137,19 +138,19 @@ class Contour(Mark):
 class Region(Mark):
     """Where values on a grid, as of a `Contour`, are between two levels."""
 
-    x: Any
-    y: Any
-    z: Any
-    low: Any
-    high: Any
+    x: ArrayLike
+    y: ArrayLike
+    z: ArrayLike
+    low: float
+    high: float
 
 
 @dataclass(frozen=True)
 class Points(Mark):
     """Marks of one kind."""
 
-    x: Any
-    y: Any
+    x: ArrayLike
+    y: ArrayLike
     mark: str = field(kw_only=True, default="dot")
     """Its form: "dot", "plus", "cross", "star", "square", "diamond", "triangle"."""
     size: float = field(kw_only=True, default=8.0)
@@ -162,17 +163,17 @@ class Points(Mark):
 class Circle(Mark):
     """A circle that is to scale; a knife edge, whose radius is 0, is a point."""
 
-    x: Any
-    y: Any
-    radius: Any
+    x: float
+    y: float
+    radius: float
 
 
 @dataclass(frozen=True)
 class Text(Mark):
     """Words at a place; at ``nan`` they are not shown."""
 
-    x: Any
-    y: Any
+    x: float
+    y: float
     words: str
     values: tuple[Any, ...] = field(kw_only=True, default=())
     """Numbers for the braces in ``words``, if there are any: a view that is recorded does not know them."""
