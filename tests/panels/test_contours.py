@@ -247,7 +247,7 @@ def test_free_quantities_move_the_mark_and_nothing_else(panel):
     panel.explorer.controls["load.speed"].box.value = 1500
     settled(panel)
     assert panel.plane is not plane
-    assert_allclose(panel.plane.study.start.speed, 1500 * rpm)
+    assert_allclose(panel.plane.study.start.load.speed, 1500 * rpm)
 
 
 def test_a_design_outside_the_bounds_is_surveyed_too(panel):
