@@ -134,7 +134,7 @@ class ContactPair(Design):
 
     >>> soft = ContactPair(cam_material="EN AW-6082 T6", follower_material="42CrMo")
     >>> print(f"{soft.modulus / 1e9:.2f} GPa")
-    57.38 GPa
+    57.28 GPa
     """
 
     width: float = quantity("b", 15, 2, 60, "mm", "width of the contact")

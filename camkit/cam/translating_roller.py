@@ -43,6 +43,8 @@ class TranslatingRollerCam(Design):
     ``base_radius``.  ``rotation`` is ``sigma``: +1 counter-clockwise, -1 clockwise.  A roller of radius 0 is a
     knife edge.
 
+    >>> from camkit.motion import Cycloidal, Rise
+    >>> from camkit.units import deg
     >>> rise = MotionProgram((Rise(120 * deg, 20 * mm, Cycloidal()),))
     >>> for offset in (0, 5 * mm):
     ...     alpha = TranslatingRollerCam(rise, 30 * mm, 8 * mm, offset).analyse(2001).pressure_angle
@@ -99,6 +101,7 @@ class TranslatingRollerCam(Design):
         Where the follower's speed drops at once the profile has a corner, which only a knife edge can follow: there no
         base radius keeps a ``min_radius``, which is a ``ValueError``, or ``nan`` in a population.
 
+        >>> from camkit.units import deg
         >>> cam = TranslatingRollerCam()
         >>> wide = cam.replace(base_radius=cam.base_radius_for(pressure_angle=20 * deg))
         >>> print(f"{wide.base_radius / mm:.2f} mm, {abs(wide.analyse().pressure_angle).max() / deg:.3f} deg")
