@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -42,7 +42,6 @@ class AhpPanel(Panel):
         refuse_arguments(AhpPanel.__init__, locals())
         self.start = self.judgements = judgements
         self.names = tuple(judgements.names)
-        self._followers: list[Callable[[], None]] = []
         self._quiet = Quiet()
         methods = [("eigenvector", "eigenvector"), ("geometric mean", "geometric")]
         self.method = menu(methods, "weights by", "230px")
@@ -110,10 +109,6 @@ class AhpPanel(Panel):
         if given.note:
             self.banner.show_message(f"{given.note[0].upper()}{given.note[1:]}. {self.advice}".strip())
 
-    def on_change(self, act: Callable[[], None]) -> None:
-        """Call ``act()`` after every change of a judgement."""
-        self._followers.append(act)
-
     def _typed(self, pair: Pair, words: str) -> None:
         try:
             value = typed_judgement(words)
@@ -140,8 +135,7 @@ class AhpPanel(Panel):
         for pair in self.sliders:
             self._place(pair)
         self._show()
-        for act in self._followers:
-            act()
+        self._tell_followers()
 
     def _place(self, pair: Pair) -> None:
         """Slider and box of a pair show its judgement, or what the others imply."""

@@ -47,11 +47,11 @@ class CycleTimePanel(JobPanel):
         self.choices = Choices(choices)
         self.measure: Measure = self._study().minimise[0]
         cycle_time_steps(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
+        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, explorer.start, make)
         self.limit = self._limit_knob(limit)
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
         self.steps: list[IntervalStep] = []
-        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, explorer.start, make)
         self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
         self.take = button("Load the design", self.load, "star", disabled=True)
         self.verdict = w.HTML()
@@ -63,14 +63,11 @@ class CycleTimePanel(JobPanel):
         unit = self.measure.unit
         shown = in_unit(limit, unit)
         declared = Quantity("max", shown, 0, 2 * shown, unit, f"largest {self.measure.name} that is allowed")
-        return NumberRow("limit", declared, limit, lambda: None, self._refused)
+        return NumberRow("limit", declared, limit, lambda: None, self.runner.banner.show_message)
 
     def _interval(self, symbol: str, name: str, value: float) -> NumberRow:
         declared = Quantity(symbol, value / deg, 10, 170, "deg", f"{name} interval that is tried")
-        return NumberRow(f"{name}_interval", declared, value, lambda: None, self._refused)
-
-    def _refused(self, sentence: str) -> None:
-        self.runner.banner.show_message(sentence)
+        return NumberRow(f"{name}_interval", declared, value, lambda: None, self.runner.banner.show_message)
 
     def _asked(self) -> list[w.Widget]:
         runner = self.runner

@@ -87,7 +87,6 @@ class Explorer(Panel):
         upper, lower = dict(at_most or {}), dict(at_least or {})
         self._limits = {m: (v, 1) for m, v in upper.items()} | {m: (v, -1) for m, v in lower.items()}
         self._first = [float(m(self.analysis)) for m in self.measures]
-        self._followers: list[Callable[[Any], None]] = []
         views = tuple(views) or default_views(self.analysis)
         self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
         self.banner, self._undercut = Banner(), Banner()
@@ -195,10 +194,6 @@ class Explorer(Panel):
         self._set_controls(design)
         self._try(lambda: design)
 
-    def on_change(self, act: Callable[[Any], None]) -> None:
-        """Call ``act(design)`` after every change to a design that can be built."""
-        self._followers.append(act)
-
     def _changed(self) -> None:
         self._try(lambda: changed(self.design, self._moved()))
 
@@ -226,11 +221,7 @@ class Explorer(Panel):
         except IMPOSSIBLE as error:
             self._go_back(*last, error)
             return
-        self._tell_followers()
-
-    def _tell_followers(self) -> None:
-        """Each of them, whatever the others make of the design."""
-        for act in self._followers:
+        for act in self._followers:  # each of them, whatever the others make of the design
             try:
                 act(self.design)
             except IMPOSSIBLE as error:

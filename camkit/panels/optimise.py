@@ -43,14 +43,14 @@ class OptimisePanel(JobPanel):
             raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
         self.explorer, self.make = explorer, make
         self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
-        layout, refused = w.Layout(width="190px"), staying("starts", self._refused, "stay")
+        self.runner = Runner("Optimise from here", self._prepare, self._show, explorer.start, make)
+        layout, refused = w.Layout(width="190px"), staying("starts", self.runner.banner.show_message, "stay")
         self.starts = WholeBox(1, 1, 100, refused, description="starts", description_width="112px", layout=layout)
         self.choices.menus["method"].observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.runner = Runner("Optimise from here", self._prepare, self._show, explorer.start, make)
         self.back = button("Put back", lambda: self.explorer.load(self.before), "undo", disabled=True)
         self.verdict = w.HTML()
         self._lines: tuple[str, ...] = ()
@@ -64,9 +64,6 @@ class OptimisePanel(JobPanel):
         asked = [menu for menu in menus.values() if len(menu.options) > 1]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
         return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
-
-    def _refused(self, sentence: str) -> None:
-        self.runner.banner.show_message(sentence)
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""

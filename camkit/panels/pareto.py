@@ -86,11 +86,11 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
         self._make_widgets()
-        self._show_front(self.found)
         for panel in self._judges.values():
             panel.on_change(self.picker.quiet.unless(self._judged))
         explorer.on_change(lambda _: self._show_front(self.front) if self.picker.moved else None)
         super().__init__([self._body()])
+        self._show_front(self.front)
 
     def _page(self, studies: Mapping[str, Study], space: Mapping[str, Any]) -> SearchPage:
         judged = {name: panel.names for name, panel in self._judges.items()}

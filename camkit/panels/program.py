@@ -90,7 +90,6 @@ class ProgramEditor(Panel):
         factor(unit)
         self.start = self.program = program
         self.unit = unit
-        self._followers: list[Callable[[MotionProgram], None]] = []
         self._quiet = Quiet()
         self._held: int | None = None
         self.rows: list[SegmentRow] = []
@@ -115,10 +114,6 @@ class ProgramEditor(Panel):
     def _list_rows(self, rows: list[SegmentRow]) -> None:
         self.rows, self._list.children = rows, [row.row for row in rows]
 
-    def on_change(self, act: Callable[[MotionProgram], None]) -> None:
-        """Call ``act(program)`` after every change to a program that is possible."""
-        self._followers.append(act)
-
     def _changed(self) -> None:
         self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
 
@@ -134,8 +129,7 @@ class ProgramEditor(Panel):
             return
         self.refuse_picture("")
         self.numbers.value = table
-        for act in self._followers:
-            act(self.program)
+        self._tell_followers(self.program)
 
     def _add(self) -> None:
         rest = max(2 * np.pi - float(self.program.span), 0.0)

@@ -689,7 +689,6 @@ def test_a_panel_that_follows_the_front_is_called_after_it_is_shown(finder):
     before = len(seen)
     finder.criteria.sliders[(0, 1)].value = 1 / 9
     assert len(seen) > before
-    finder.picker.followers.clear()
 
 
 # ---------------------------------------------------------------- a search that was stopped or killed

@@ -103,7 +103,6 @@ class FrontPicker:
         self.take = button("Load the winner", lambda: self.select(self.choice.winner), "star")
         self.quiet.hear(self.rule, lambda _: judged())
         self.quiet.hear(self.pick, self.select)
-        self.followers: list[Callable[[], None]] = []
         self.show(front)
 
     def show(self, front: Front) -> None:
@@ -153,8 +152,4 @@ class FrontPanel(Panel):
 
     def on_front(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after each new front is shown, from whichever thread shows it."""
-        self.picker.followers.append(act)
-
-    def _tell_followers(self) -> None:
-        for act in self.picker.followers:
-            act()
+        self.on_change(act)

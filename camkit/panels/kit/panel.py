@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,10 +45,19 @@ class Panel(w.VBox):
     numbers: w.HTML
 
     def __init__(self, children: Sequence[w.Widget]) -> None:
+        self._followers: list[Callable[..., Any]] = []
         super().__init__([PanelStyle(layout=w.Layout(display="none")), *children])
         self.add_class("camkit-panel")
         if self.picture.said is str:  # else the picture is another panel's
             self.picture.said = self.summary
+
+    def on_change(self, act: Callable[..., Any]) -> None:
+        """Call ``act`` after every change of what is shown: with the new design or program, if that is what it is."""
+        self._followers.append(act)
+
+    def _tell_followers(self, *given: Any) -> None:
+        for act in self._followers:
+            act(*given)
 
     def refuse_picture(self, sentence: str) -> None:
         """Show a sentence in place of the picture and the numbers, which would belong to something else.
