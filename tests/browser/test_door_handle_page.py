@@ -237,7 +237,7 @@ def test_turning_the_handle_turns_cam_and_cranks(book: Workbook) -> None:
 
 def front_here(book: Workbook, weights: Any) -> tuple[np.ndarray, np.ndarray]:
     """The designs of the kernel's front and their objectives under ``weights``, computed here, beaten ones out."""
-    x = np.array(book.value("finder._x"))
+    x = np.array(book.value("finder.found.x"))
     f = door_handle_study(START, weights=weights).evaluate(x).f
     beaten = [any((g <= row).all() and (g < row).any() for g in f) for row in f]
     order = np.argsort(f[~np.array(beaten), 0], kind="stable")
