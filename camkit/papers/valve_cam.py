@@ -131,4 +131,4 @@ def front_points(front: Any) -> Comparison:
 def known_front() -> np.ndarray:
     """Points of the front of fullness against peak positive acceleration, evaluated apart, ``(2, 5)``, m/s^2."""
     points = _of_formulas("front")
-    return np.array([points["fullness"], points["acceleration"]])
+    return np.array([points["fullness"], points["acceleration"]], float)

@@ -32,6 +32,8 @@ class ShownFront:
             if place is not None and not 0 <= place < len(self.front):
                 raise ValueError(f"the {what} is {place}; there are {len(self.front)} designs, counted from 0")
         _refuse_objectives(self.start, "starting design", self.front)
+        if self.known is not None and numbers(self.known, "the points of the front that are known").shape[:-1] != (2,):
+            raise ValueError(f"the points of the front that are known are {shown(self.known)}; they must be two rows")
 
 
 def _refuse_objectives(at: Any, what: str, front: Any) -> None:

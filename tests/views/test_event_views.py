@@ -210,6 +210,8 @@ def test_the_fronts_known_points_are_on_it():
         "winner",
         "known points",
     ]
+    with pytest.raises(ValueError, match="known"):  # axes of words would be drawn
+        ShownFront(front, known=known_front().astype(str))
 
 
 def test_the_sketch_is_made_from_the_cam():
