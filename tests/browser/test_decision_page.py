@@ -91,8 +91,8 @@ def test_a_drag_along_an_axis_brushes_the_front(page: Page) -> None:
     image.scroll_into_view_if_needed()
     box = image.bounding_box()
     assert box
-    size = kernel_value(page, "panel._pictures[0].figure.canvas.get_width_height()")
-    points = kernel_value(page, "panel._pictures[0].axes[0].transData.transform([[1, 0.25], [1, 0.7]])")
+    size = kernel_value(page, "panel.pictures[0].figure.canvas.get_width_height()")
+    points = kernel_value(page, "panel.pictures[0].axes[0].transData.transform([[1, 0.25], [1, 0.7]])")
     (x, y0), (_, y1) = [(box["x"] + p / size[0] * box["width"], box["y"] + (1 - q / size[1]) * box["height"])
                         for p, q in points]  # fmt: skip
     shown = image.get_attribute("src")
