@@ -188,11 +188,19 @@ class Explorer(Panel):
                 self.banner.show_message(remarked(found))
 
     def load(self, design: Any) -> None:
-        """Show ``design``: every slider moves to its value; ``ValueError`` for what is no design of this kind."""
+        """Show ``design``: every slider moves to its value; the last one stays where it cannot be built or drawn.
+
+        ``ValueError`` for what is no design of this kind.
+        """
         refuse_design(design, "the design")
         Paths(self.start, ()).values(design)  # refuses another kind
-        self._set_controls(design)
-        self._try(lambda: design)
+        try:
+            analysis = design.analyse()
+        except IMPOSSIBLE as error:
+            self._go_back(self.design, self.analysis, error)
+        else:
+            self._set_controls(design)
+            self._take(design, analysis)
 
     def _changed(self) -> None:
         self._try(lambda: changed(self.design, self._moved()))
@@ -205,16 +213,19 @@ class Explorer(Panel):
 
     def _try(self, make: Callable[[], Any]) -> None:
         """Show the design that ``make()`` gives if it can be built, computed and drawn."""
-        last = self.design, self.analysis
         try:
             design = make()
             analysis = design.analyse()
         except (ArithmeticError, np.linalg.LinAlgError) as error:
-            self._go_back(*last, error)
-            return
+            self._go_back(self.design, self.analysis, error)
         except ValueError as refusal:
             self._refuse(str(refusal))
-            return
+        else:
+            self._take(design, analysis)
+
+    def _take(self, design: Any, analysis: Any) -> None:
+        """Show a design and its analysis, or the last one where they cannot be drawn; tell the followers."""
+        last = self.design, self.analysis
         self.design, self.analysis = design, analysis
         try:
             self._show()

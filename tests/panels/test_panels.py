@@ -33,7 +33,7 @@ from camkit.machines.high_speed_measures import HIGH_SPEED_MEASURES, high_speed_
 from camkit.machines.shaft import UniversalJointShaft
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import VALVE_MEASURES
-from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise
+from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise, ShapedLaw
 from camkit.panels import (
     compare_fronts,
     contour_panel,
@@ -237,6 +237,18 @@ def test_what_cannot_be_computed_or_drawn_brings_the_last_design_back():
         assert panel.controls["lift_arm"].box.text == "48.5"
         assert f"so the last one stays: {error}" in sentence(panel.banner)
         assert panel.picture.widget.layout.display == ""
+
+
+def test_a_design_of_another_make_that_cannot_be_built_leaves_the_last_one():
+    panel = explore(HighSpeedCam(rise_law=Cycloidal()))
+    start = panel.design
+    panel.load(HighSpeedCam(rise_law=ShapedLaw(c=(50.0, 0.0, 0.0, 0.0))))
+    assert "the last one stays" in sentence(panel.banner)
+    assert panel.design is start
+    assert_shows_its_design(panel)
+    panel.controls["roller_radius"].slider.value -= 1
+    assert (sentence(panel.banner), panel.design == start) == ("", False)
+    assert_shows_its_design(panel)
 
 
 def test_a_curve_beyond_all_bounds_is_not_drawn():
