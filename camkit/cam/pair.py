@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from .slide import SlideLoad
 from .translating_flat import TranslatingFlatCam
 from .translating_roller import TranslatingRollerCam
 
+OFFERS = ("bodies", "motion", "pressure_angle", "contact_force")
 SLIDE, ARM = SlideLoad(spring_rate=0, preload=0), ArmLoad(mass=0.5, speed=300 * rpm)
 CAMS = (
     TranslatingRollerCam(groove=False, load=SLIDE),
@@ -110,13 +111,15 @@ class ConjugatePair(Design):
 class ConjugatePairAnalysis:
     """What follows from a `ConjugatePair` at the given cam angles; arrays ``(n,)`` or ``(p, n)``."""
 
-    offers: ClassVar[tuple[str, ...]] = ("bodies", "motion", "pressure_angle", "contact_force")
-    """The shapes and curves that are shown of it where nobody chooses; a force below 0 is that of the other cam."""
-
     cam: ConjugatePair
     cam_angle: np.ndarray
     rough: bool = field(default=False, kw_only=True)
     """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
+
+    @property
+    def offers(self) -> tuple[str, ...]:
+        """The shapes and curves that are shown of it where nobody chooses; a force below 0 is that of the other cam."""
+        return (*OFFERS, *self.cam.first.contact.offers)
 
     @cached_property
     def first(self) -> CamAnalysis:

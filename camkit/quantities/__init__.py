@@ -50,7 +50,7 @@ from .declaration import (
     unremarked,
     words,
 )
-from .design import Design, measures_of
+from .design import Design, measures_of, refuse_unmeasured
 from .measure import Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 
@@ -78,6 +78,7 @@ __all__ = [
     "quantity",
     "refuse_design",
     "refuse_population",
+    "refuse_unmeasured",
     "row",
     "unremarked",
     "value_of",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -11,7 +11,7 @@ from .declaration import Choice, Declared, Quantity, declarations, words
 from .kinds import refuse_kinds, refuse_lengths
 from .markup import Html, html, table
 from .measure import Measure
-from .tree import declared_in, refuse_no_design, value_of
+from .tree import choices_of, declared_in, refuse_no_design, value_of
 
 
 class Design(Declared):
@@ -56,6 +56,21 @@ def _measures_below(part: Any) -> Iterator[Measure]:
     for held in part.branches().values():
         yield from () if hasattr(held, "analyse") else getattr(type(held), "measures", ())
         yield from _measures_below(held)
+
+
+def refuse_unmeasured(design: object, measures: Iterable[Measure], what: str) -> None:
+    """``ValueError`` in a sentence for a measure of a part that a choice of ``design`` offers and is not chosen."""
+    lacking = {measure.function: measure for measure in measures}
+    for measure in measures_of(design):
+        lacking.pop(measure.function, None)
+    for path, declared in choices_of(design).items() if lacking else ():
+        for name, option in declared.named.items():
+            of_option = () if hasattr(option, "analyse") else getattr(type(option), "measures", ())
+            for measure in (m for m in of_option if m.function in lacking):
+                now = declared.text(value_of(design, path))
+                raise ValueError(
+                    f"the {measure.name} does not apply to {what}: the {words(path)} is {now}; it must be {name}"
+                )
 
 
 def _left(text: str) -> Html:

@@ -14,7 +14,18 @@ from typing import Any, Generic, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import Analysable, D, Measure, Paths, Quantity, counted, refuse_design, unremarked, words
+from ..quantities import (
+    Analysable,
+    D,
+    Measure,
+    Paths,
+    Quantity,
+    counted,
+    refuse_design,
+    refuse_unmeasured,
+    unremarked,
+    words,
+)
 from ..quantities.kinds import (
     finite,
     listed,
@@ -196,7 +207,8 @@ class Study(Generic[D]):
 
     Raises ``ValueError`` for what is no design that can be analysed, for a name that is not a number of the design,
     for bounds that are reversed, not finite or impossible, for a limit that is not finite, and for no free quantity or
-    no objective at all.  `evaluate` does for a measure that does not apply to the design.
+    no objective at all, for a measure of a part that the design does not have, such as a contact that is not given.
+    `evaluate` does for one that does not apply to the design in another way.
     """
 
     start: D
@@ -229,6 +241,7 @@ class Study(Generic[D]):
             if not isinstance(measure, Measure):
                 raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
         refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
+        refuse_unmeasured(self.start, self.measures, "the start of the study")
 
     @cached_property
     def _paths(self) -> Paths:

@@ -162,11 +162,14 @@ def efficiency(analysis: Any) -> Picture:
 
 
 def contact_pressure(analysis: Any) -> Picture:
-    """Largest Hertz pressure between cam and follower; trouble: undercut, or the follower would have to be pulled."""
-    marks = []
+    """Largest Hertz pressure between cam and follower; trouble: undercut, or the follower would have to be pulled.
+
+    Of a pair of cams none where the other one pushes.
+    """
+    marks, several = [], len(analysis.curves) > 1
     for i, (name, curve) in enumerate(analysis.curves.items()):
         x, y = curve.cam_angle / deg, curve.contact_pressure / MPa
-        there = np.isfinite(y)
-        marks.append(Line(name, x, gaps(y, there), role="series", index=i))
-        marks.append(Line(f"{name} none", x, gaps(0 * x, ~there), role="trouble"))
+        there, other = np.isfinite(y), several & (curve.contact_force < 0)
+        marks.append(Line(name, x, gaps(y, there), label=several * name, role="series", index=i))
+        marks.append(Line(f"{name} none", x, gaps(0 * x, ~(there | other)), role="trouble"))
     return Picture.of(Axes(title="Contact pressure", xlabel=ANGLE, ylabel="p_0  [MPa]"), marks)

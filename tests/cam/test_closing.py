@@ -8,7 +8,7 @@ from camkit import OscillatingRollerCam, Session, Study
 from camkit.cam.follower_measures import jump_margin, mean_torque, min_force, peak_pressure
 from camkit.cam.force_closure import ContactPair, contact_along, jump_speed, preload_needed, torque_balance
 from camkit.cam.loads import ArmLoad
-from camkit.cam.measures import min_concave_radius, min_convex_radius, undercut_margin
+from camkit.cam.measures import base_radius, min_concave_radius, min_convex_radius, undercut_margin
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
@@ -28,6 +28,7 @@ from camkit.motion import (
     Rise,
 )
 from camkit.quantities import measures_of, quantities_of, unremarked, with_quantities
+from camkit.study.study import weighted
 from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
 from camkit.views.cam import contact_pressure
 from camkit.views.defaults import default_views
@@ -351,6 +352,15 @@ def test_a_contact_adds_its_measure_and_its_curve(cam):
     assert np.isnan(peak_pressure(cam.analyse(31)))
     study = Study(given, ["contact.width"], [peak_pressure])
     assert from_json(to_json(Session(study, given))).study.minimise == (peak_pressure,)
+    none = r"^the peak contact pressure does not apply to the start of the study: the contact is not given; it must be "
+    total = weighted("both", {peak_pressure: 1.0, base_radius: 1.0}, (1.0, 1.0))
+    for refused in (
+        lambda: Study(given, ["load.speed"], (peak_pressure,)).around(cam),
+        lambda: Study(cam, ["load.speed"], (total,)),
+        lambda: Study(cam, ["load.speed"], (base_radius,), at_least={-peak_pressure: -1e9}),
+    ):
+        with pytest.raises(ValueError, match=none + "along a line$"):
+            refused()
 
 
 # ---------------------------------------------------------------- a groove, and jumps of the speed

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import deg, mm
+from camkit import MPa, Study, deg, mm
 from camkit.cam import ContactPair, base_radius, max_pressure_angle, mean_efficiency, peak_force, peak_torque
 from camkit.cam.follower_measures import min_profile_radius, peak_pressure
+from camkit.cam.force_closure import NoContact
 from camkit.cam.pair import CAMS, ConjugatePair
 from camkit.geometry import rotated
-from camkit.quantities import quantities_of, with_quantities
+from camkit.quantities import measures_of, quantities_of, with_quantities
+from camkit.views import default_views
+from camkit.views.cam import contact_pressure
 
 PAIRS = [ConjugatePair(cam.replace(rotation=sigma, contact=ContactPair())) for cam in CAMS for sigma in (1, -1)]
 every_pair = pytest.mark.parametrize("pair", PAIRS, ids=lambda p: f"{p.cam.name}, {p.cam.rotation:+d}")
@@ -72,6 +75,24 @@ def test_measures_count_each_cam_where_it_pushes(pair):
     tight = min(a.profile_margin.value for a in (first, second))
     assert min_profile_radius(few) == tight
     assert 0.2 < mean_efficiency(few) < 1
+
+
+@every_pair
+def test_the_pressure_of_a_pair_is_shown_where_its_cams_push(pair):
+    analysis = pair.analyse(91)
+    assert peak_pressure in measures_of(pair)
+    assert default_views(analysis)[-1] is contact_pressure
+    shown = contact_pressure(analysis)
+    for name, curve in analysis.curves.items():
+        one = curve.cam.analyse(91)  # alone
+        pushed = np.where(one.contact_force >= 0, one.contact_pressure, np.nan)
+        assert_allclose(shown[name].y * MPa, pushed, rtol=1e-12)
+        assert np.isnan(shown[f"{name} none"].y).all()  # nothing is wrong where the other cam pushes
+    bare = pair.replace(cam=pair.cam.replace(contact=NoContact()))
+    assert peak_pressure not in measures_of(bare)
+    assert contact_pressure not in default_views(bare.analyse(91))
+    with pytest.raises(ValueError, match=r"^the peak contact pressure does .*: the cam contact is not given; it must "):
+        Study(bare, ["distance" if "distance" in quantities_of(bare) else "spread"], (peak_pressure,))
 
 
 def test_the_sizes_of_the_second_cam_are_those_that_its_follower_has():
