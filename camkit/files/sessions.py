@@ -25,6 +25,7 @@ COUNTS = {"population": (1, 100_000), "generations": (1, 1_000_000), "designs": 
 
 NEEDED = ("start", "free", "minimise")
 DEFAULTS: dict[str, Any] = {
+    "columns": [],
     "at_most": {},
     "at_least": {},
     "sums": [],
@@ -36,8 +37,8 @@ DEFAULTS: dict[str, Any] = {
     "search": {},
 }
 """What a study is read with where its file says nothing."""
-QUIETLY = {"sums", "made", "record"}
-"""Which of them are no matter for a remark: a file has them only where there is something to say."""
+QUIETLY = {"columns", "sums", "made", "record"}
+"""Which of them are no matter for a remark: an earlier camkit wrote none, or there is nothing to say."""
 SESSION = {"design", "judgements", "methods", "search"}
 """What a front alone does not have."""
 

@@ -33,11 +33,11 @@ def study_entry(study: Study) -> dict[str, Any]:
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
     made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}
     sums = [m for of in limits.values() for m in of or {} if isinstance(m, WeightedSum)]
+    free = {key(path, q): [exact_in_unit(b, q.unit) for b in study.free[path]] for path, q in study.declared.items()}
     return {
         "start": entry_of(study.start),
-        "free": {
-            key(path, q): [exact_in_unit(b, q.unit) for b in study.free[path]] for path, q in study.declared.items()
-        },
+        "free": free,
+        "columns": [*free],
         "minimise": [_objective_entry(measure, known) for measure in study.minimise],
         **{
             name: {_relative_key(m, known): exact_in_unit(v, m.unit) for m, v in (of or {}).items()}
@@ -88,7 +88,16 @@ def _free(entry: Mapping[str, Any], start: object, reading: Reading) -> dict[str
             raise ValueError(f"the file frees {shown(given.name)}, which {mechanism} does not have")
         path, quantity = declared[k]
         found[path] = given, given.times * quantity.factor
-    return found
+    order = _order(entry)
+    return dict(sorted(found.items(), key=lambda item: order.index(item[1][0].name)))
+
+
+def _order(entry: Mapping[str, Any]) -> list[str]:
+    """What a file frees in the order of its front's columns; of an earlier camkit: in that of the file."""
+    free, columns = [*entry["free"]], listed(entry["columns"], "columns")
+    if columns and (not all(isinstance(k, str) for k in columns) or sorted(columns) != sorted(free)):
+        raise ValueError(f"the file says {shown(columns)} for 'columns'; they must be what it frees, each once")
+    return columns or free
 
 
 def _bounds(start: object, path: str, given: Given, scale: float) -> tuple[float, float]:
@@ -182,9 +191,11 @@ def _relative_key(measure: Measure, known: Mapping[str, Measure]) -> str:
 def _objective_entry(measure: Measure, known: Mapping[str, Measure]) -> Any:
     if not isinstance(measure, WeightedSum):
         return _key(measure) if measure.sign > 0 else f"-{_key(measure)}"
-    parts = {_relative_key(p, known): w for p, w in zip(measure.parts, measure.weights, strict=True)}
-    reference = [exact_in_unit(r, p.unit) for p, r in zip(measure.parts, measure.reference, strict=True)]
-    return {"name": measure.name, "weights": parts, "reference": reference, "sign": measure.sign}
+    parts = [_relative_key(p, known) for p in measure.parts]
+    weights = [[k, w] for k, w in zip(parts, measure.weights, strict=True)]
+    si = zip(parts, measure.parts, measure.reference, strict=True)
+    reference = {k: exact_in_unit(r, p.unit) for k, p, r in si}
+    return {"name": measure.name, "weights": weights, "reference": reference, "sign": measure.sign}
 
 
 def _found(named: Mapping[str, Measure], renaming: Renaming, k: str) -> Measure:
@@ -228,7 +239,24 @@ def _sum(entry: object, find: Find) -> WeightedSum:
         or entry["sign"] is True
     ):
         raise ValueError("the file is damaged: its weighted sum is not as camkit writes it")
-    parts = _by_measure(entry["weights"], "weights", find)
-    reference = all_numbers(entry["reference"], "reference", len(parts))
+    parts = _by_measure(_ordered(entry["weights"]), "weights", find)
+    if isinstance(entry["reference"], dict):
+        by_measure = _by_measure(entry["reference"], "reference", find)
+        if by_measure.keys() != parts.keys():
+            raise ValueError("the file is damaged: the reference of its weighted sum is of other measures")
+        reference = [by_measure[m] for m in parts]
+    else:
+        reference = all_numbers(entry["reference"], "reference", len(parts))
     si = [r * factor(m.unit) for m, r in zip(parts, reference, strict=True)]
     return replace(weighted(plain(entry["name"]), parts, si), sign=int(entry["sign"]))
+
+
+def _ordered(weights: object) -> object:
+    """The weights of a sum by name, of pairs, whose order stays; in files of an earlier camkit they are by name."""
+    if not isinstance(weights, list):
+        return weights
+    if not all(isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str) for pair in weights):
+        raise ValueError(f"the file says {shown(weights)} for 'weights', where pairs of a measure and a number belong")
+    if len(by_name := dict(weights)) < len(weights):
+        raise ValueError(f"the file says {shown(weights)} for 'weights'; each measure must be there once")
+    return by_name

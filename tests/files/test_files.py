@@ -303,6 +303,41 @@ def test_parts_of_either_sign_and_limits_on_a_weighted_sum_come_back():
     assert_allclose(again.evaluate(again.x0).g, study.evaluate(study.x0).g, rtol=1e-12)
 
 
+@pytest.mark.parametrize("turn", [sorted, lambda items: sorted(items, reverse=True)])
+def test_the_order_of_names_in_a_file_is_no_matter(turn):
+    """What sorts the names of a JSON object may not exchange columns of the front or references of a sum."""
+    effort, radius = plain.minimise
+    total = weighted("sum of both", {radius: 0.25, effort.parts[0]: 0.75}, (30 * mm, 0.5))
+    study = plain.replace(minimise=(total, -radius), at_most={effort: 1.5}, at_least={})
+    front = nsga2(study.replace(at_most={}), 20, 3, 1)
+    text = to_json(Session(study.replace(at_most={}), study.start, front=front))
+    content = json.loads(text, object_pairs_hook=lambda items: dict(turn(items)))
+    again, first = read_json(json.dumps(content)).thing, read_json(text).thing
+    assert list(again.study.free) == list(study.free)
+    assert again.study.minimise[0].parts == total.parts
+    assert again.study.minimise[0].reference == first.study.minimise[0].reference
+    assert_array_equal(again.front.x, first.front.x)
+    assert_array_equal(again.front.f, first.front.f)
+    limited = json.loads(to_json(Session(study, study.start)), object_pairs_hook=lambda items: dict(turn(items)))
+    ((limit, _, _),) = read_json(json.dumps(limited)).thing.study.limits
+    assert limit.parts == effort.parts
+    assert_allclose(limit.reference, effort.reference, rtol=1e-14)
+
+
+def test_columns_and_references_of_something_else_are_refused():
+    def spoiled(change):
+        content = json.loads(to_json(Session(plain, plain.start)))
+        change(content["session"])
+        with pytest.raises(ValueError, match=r"^the file (says .* for '(columns|weights)'|is damaged: the reference)"):
+            read_json(json.dumps(content))
+
+    spoiled(lambda session: session["columns"].pop())
+    spoiled(lambda session: session["columns"].append(3))
+    spoiled(lambda session: session["minimise"][0]["reference"].popitem())
+    spoiled(lambda session: session["minimise"][0]["weights"].append(session["minimise"][0]["weights"][0]))
+    spoiled(lambda session: session["minimise"][0]["weights"].append("x"))
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 def test_an_objective_that_its_mechanism_declares_with_a_minus_keeps_its_sign(sign):
     study = high_speed_study()
