@@ -140,8 +140,10 @@ class ContactPair(Design):
     width: float = quantity("b", 15, 2, 60, "mm", "width of the contact")
     cam_modulus: float = quantity("E_1", 210, 50, 220, "GPa", "elastic modulus of the cam")
     follower_modulus: float = quantity("E_2", 210, 50, 650, "GPa", "elastic modulus of the follower")
-    cam_poisson: float = quantity("nu_1", 0.3, 0, 0.5, "", "Poisson's ratio of the cam", at_least=0)
-    follower_poisson: float = quantity("nu_2", 0.3, 0, 0.5, "", "Poisson's ratio of the follower", at_least=0)
+    cam_poisson: float = quantity("nu_1", 0.3, 0, 0.5, "", "Poisson's ratio of the cam", at_least=0, at_most=0.5)
+    follower_poisson: float = quantity(
+        "nu_2", 0.3, 0, 0.5, "", "Poisson's ratio of the follower", at_least=0, at_most=0.5
+    )
     cam_material: str = choice("M_1", OWN, MENU, "what the cam is made of")
     follower_material: str = choice("M_2", OWN, MENU, "what the follower is made of")
 

@@ -35,9 +35,11 @@ class ArmLoad(Design):
     table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
 
     def __post_init__(self) -> None:
+        torques = as_table("torque table", "travel", "torque", self.torque_table)
+        object.__setattr__(self, "torque_table", torques)
+        torques = as_table("cam angle table", "cam angle", "torque", self.cam_angle_table)
+        object.__setattr__(self, "cam_angle_table", torques)
         super().__post_init__()
-        refuse_table("torque table", "travel", "torque", self.torque_table)
-        refuse_table("cam angle table", "cam angle", "torque", self.cam_angle_table)
 
     def following(self) -> dict[str, str]:
         """Without a table its factor has no effect."""
@@ -86,20 +88,32 @@ class ArmLoad(Design):
 
 Table = tuple[tuple[float, float], ...]
 """Pairs of an argument and a load, in order of the argument."""
+LARGEST = 1e9
+"""A load (N, N m) or what it is tabulated over (m, rad) above this is a slip."""
 
 
-def refuse_table(name: str, first: str, second: str, table: Table) -> None:
-    """``ValueError`` if a table is not one of pairs, has an entry that is no finite number or is out of order."""
+def as_table(name: str, first: str, second: str, table: object) -> Table:
+    """``table``, a tuple, list or array of pairs, as a tuple of pairs of floats.
+
+    ``ValueError`` if it is none, has an entry that is no finite number of a possible size, or is out of order.
+
+    >>> as_table("torque table", "travel", "torque", np.array([[0, 1], [2, 3]]))
+    ((0.0, 1.0), (2.0, 3.0))
+    """
     try:
         entries = numbers(table, name)
     except ValueError:
         entries = np.zeros(1)
-    if entries.size and (entries.ndim != 2 or entries.shape[1] != 2):
+    if entries.shape != (0,) and entries.shape[1:] != (2,):
         raise ValueError(f"the {name} is {shown(table)}; it must hold pairs of numbers ({first}, {second})")
     if not np.isfinite(entries).all():
         raise ValueError(f"the {name} has an entry that is not a finite number; it holds ({first}, {second})")
+    if (abs(entries) > LARGEST).any():
+        most = f"at most {LARGEST:g} in size"
+        raise ValueError(f"the {name} has the entry {entries[abs(entries) > LARGEST][0]:g}; an entry must be {most}")
     if entries.size and (np.diff(entries[:, 0]) <= 0).any():
         raise ValueError(f"the {name}'s {first} must grow from entry to entry; it does not")
+    return tuple((at, load) for at, load in entries.tolist())
 
 
 def tabulated(table: Table, at: Value) -> Value:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..quantities import Design, quantity
 from ..quantities.types import Array, Value
-from .loads import FollowerFriction, Table, opposite_table, refuse_table, tabulated
+from .loads import FollowerFriction, Table, as_table, opposite_table, tabulated
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,11 @@ class SlideLoad(Design):
     table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
 
     def __post_init__(self) -> None:
+        forces = as_table("force table", "travel", "force", self.force_table)
+        object.__setattr__(self, "force_table", forces)
+        forces = as_table("cam angle table", "cam angle", "force", self.cam_angle_table)
+        object.__setattr__(self, "cam_angle_table", forces)
         super().__post_init__()
-        refuse_table("force table", "travel", "force", self.force_table)
-        refuse_table("cam angle table", "cam angle", "force", self.cam_angle_table)
 
     def following(self) -> dict[str, str]:
         """Without a table its factor has no effect."""

@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..cam import bodies
-from ..cam.loads import Table, refuse_table, tabulated
+from ..cam.loads import Table, as_table, tabulated
 from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
 from ..quantities import Measure, fails, quantity
@@ -62,6 +62,8 @@ class CamLever(FreeLawCam):
     force_curve: Table | Callable[[Any], Any] = ()
 
     def __post_init__(self) -> None:
+        if not callable(self.force_curve):
+            object.__setattr__(self, "force_curve", as_table("force curve", "way", "force", self.force_curve))
         super().__post_init__()
         reaches = self.stroke < 2 * self.lever
         if fails(reaches):
@@ -75,7 +77,6 @@ class CamLever(FreeLawCam):
 
     def _refuse_force_curve(self) -> None:
         if not callable(self.force_curve):
-            refuse_table("force curve", "way", "force", self.force_curve)
             return
         ways = np.linspace(0, 1, 5) * np.ravel(self.stroke)[0]
         if not np.isfinite(ways).all():  # a population whose first member cannot be built

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..cam.loads import Table, refuse_table, tabulated
+from ..cam.loads import Table, as_table, tabulated
 from ..motion import Kinematics
 from ..quantities import Design, quantity
 from ..quantities.types import Array, Value
@@ -78,9 +78,9 @@ class SliderLoad(Design):
     name: ClassVar[str] = "slider on a lever"
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         if not callable(self.force):
-            refuse_table("force", "way", "force", self.force)
+            object.__setattr__(self, "force", as_table("force", "way", "force", self.force))
+        super().__post_init__()
 
     def _force(self, way: Any) -> Any:
         return self.force(way) if callable(self.force) else tabulated(self.force, way)

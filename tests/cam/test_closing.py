@@ -15,6 +15,8 @@ from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.contact import contact_modulus, line_contact
 from camkit.files import from_json, to_json
+from camkit.machines.cam_lever import CamLever
+from camkit.machines.high_speed_load import SliderLoad
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_train import ValveLoad
 from camkit.motion import (
@@ -91,6 +93,35 @@ def test_a_table_out_of_order_is_refused(kind):
         kind(cam_angle_table=((1.0, np.nan),))
     with pytest.raises(ValueError, match=r"^the force table's travel must grow from entry to entry; it does not$"):
         SlideLoad(force_table=((2.0, 5.0), (1.0, 6.0)))
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [(ArmLoad, "torque_table"), (ArmLoad, "cam_angle_table"), (SlideLoad, "force_table"),
+     (SlideLoad, "cam_angle_table"), (SliderLoad, "force"), (CamLever, "force_curve")],
+)  # fmt: skip
+def test_a_table_is_a_tuple_of_pairs_of_floats_however_it_is_given(kind, name):
+    """An array, as a text file is read to, is no population, and a list cannot be changed within a frozen design."""
+    pairs = ((0.0, 1.0), (0.01, 2.0), (0.02, 3.0))
+    made = kind(**{name: pairs})
+    for given in (np.array(pairs), [list(pair) for pair in pairs], [(0, 1), (0.01, 2), (0.02, 3)]):
+        again = kind(**{name: given})
+        assert getattr(again, name) == pairs
+        assert again == made
+        assert hash(again) == hash(made)
+    assert getattr(kind(**{name: np.zeros((0, 2))}), name) == getattr(kind(**{name: []}), name) == ()
+    for empty in (((),), ((), ()), np.zeros((0, 3))):
+        with pytest.raises(ValueError, match=r"^the .* is .*; it must hold pairs of numbers \("):
+            kind(**{name: empty})
+    for large in ((0.0, 1e308), (1e308, 0.0)):
+        with pytest.raises(ValueError, match=r"has the entry 1e\+308; an entry must be at most 1e\+09 in size$"):
+            kind(**{name: (large,)})
+
+
+def test_a_cam_with_an_array_for_its_table_is_one_design():
+    cam = OscillatingRollerCam(load=ArmLoad(torque_table=np.array([[0, 1.0], [0.2, 2], [0.4, 3]])))
+    assert Study(cam, ["arm_length"], (cam.measures[0],), angles=61).start == cam
+    assert from_json(to_json(cam)) == cam
 
 
 # ---------------------------------------------------------------- jump and preload
@@ -317,6 +348,15 @@ def test_a_face_on_a_circle_worked_by_hand():
     assert peak_pressure(flatter.analyse()) / MPa == pytest.approx(156.478 / 10, rel=1e-5)
     for change, times in (({"contact.width": 60 * mm}, 0.5), ({"load.preload": 1200 * N}, 2.0)):
         assert peak_pressure(with_quantities(cam, change).analyse()) / MPa == pytest.approx(times * 156.478, rel=1e-5)
+
+
+@pytest.mark.parametrize("body", ["cam", "follower"])
+def test_a_poissons_ratio_is_at_most_a_half(body):
+    assert getattr(ContactPair(**{f"{body}_poisson": 0.5}), f"{body}_poisson") == 0.5
+    with pytest.raises(
+        ValueError, match=r"^the .* is 0\.6; it must be a finite number of at least 0 and at most 0\.5$"
+    ):
+        ContactPair(**{f"{body}_poisson": 0.6})
 
 
 def test_a_knife_edge_bears_no_force():
