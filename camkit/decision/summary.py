@@ -152,7 +152,7 @@ def _differences(designs: Sequence[Any]) -> list[Line]:
 
 def _measured(measure: Measure, analyses: Sequence[Any], senses: Mapping[Measure, int], limits: Any) -> Line:
     """A measure of all designs; those that read like the best are best, unless all read alike."""
-    values = np.array([float(measure(analysis)) for analysis in analyses])
+    values = np.array([measure.one(analysis) for analysis in analyses])
     texts = tuple(measure.text(value) for value in values)
     sense, differ = senses.get(measure, 0), len(set(texts)) > 1 and np.isfinite(values).any()
     leader = texts[int(np.nanargmin(sense * values))] if sense and differ else None

@@ -344,4 +344,4 @@ def _effort(of: Any, reference: DoorHandleCam, weights: object) -> Measure:
     if len(weights) != len(parts):
         raise ValueError(f"the effort has {len(parts)} parts (angle, force, torque); there are {len(weights)} weights")
     analysis = reference.analyse(STUDY_ANGLES)
-    return weighted("effort", dict(zip(parts, weights, strict=True)), [float(m(analysis)) for m in parts])
+    return weighted("effort", dict(zip(parts, weights, strict=True)), [m.one(analysis) for m in parts])

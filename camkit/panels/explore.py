@@ -86,7 +86,7 @@ class Explorer(Panel):
         self.measures = tuple(measures)
         upper, lower = dict(at_most or {}), dict(at_least or {})
         self._limits = {m: (v, 1) for m, v in upper.items()} | {m: (v, -1) for m, v in lower.items()}
-        self._first = [float(m(self.analysis)) for m in self.measures]
+        self._first = [m.one(self.analysis) for m in self.measures]
         views = tuple(views) or default_views(self.analysis)
         self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
         self.banner, self._undercut = Banner(), Banner()
@@ -106,7 +106,7 @@ class Explorer(Panel):
         wanted = dict.fromkeys(name for view in self.picture.views for name in positions_of(view))
         positions = {name: self._position(name, first[name]) for name in wanted}
         if {"azimuth", "elevation"} <= positions.keys():
-            self._orbit = Orbit(self.picture, positions, self._show)
+            self._orbit = Orbit(self.picture, positions, self._turned)
         return positions
 
     def _fit_controls(self, design: object) -> None:
@@ -257,8 +257,14 @@ class Explorer(Panel):
         self.banner.show_message(f"This design cannot be computed and drawn, so the last one stays: {reason(error)}.")
 
     def _turned(self) -> None:
-        if not self._impossible:
+        if self._impossible:
+            return
+        try:
             self._show()
+        except IMPOSSIBLE as error:
+            for name, value in self._stands.items():
+                self.positions[name].set(value)
+            self.banner.show_message(f"This position cannot be drawn, so the last one stays: {reason(error)}.")
 
     def _fit_turn(self) -> None:
         if "turn" in self.positions:
@@ -271,6 +277,7 @@ class Explorer(Panel):
         position = {name: knob.value for name, knob in self.positions.items()}
         limits = {measure: value for measure, (value, _) in self._limits.items()}
         self.picture.show(self.analysis, limits=limits, **position)
+        self._stands = position
         self._fit_controls(self.design)
         self.numbers.value = numbers
         self._reveal()
@@ -283,7 +290,7 @@ class Explorer(Panel):
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
-        every = [(m, float(m(self.analysis)), first) for m, first in zip(self.measures, self._first, strict=True)]
+        every = [(m, m.one(self.analysis), first) for m, first in zip(self.measures, self._first, strict=True)]
         return [(m, now, first) for m, now, first in every if not (np.isinf(now) and np.isinf(first))]
 
     def _table_html(self) -> str:

@@ -119,7 +119,7 @@ class FrontsPanel(JobPanel):
     # ------------------------------------------------------------ what is shown
 
     def _objectives(self, analysis: object) -> np.ndarray:
-        return np.array([float(m(analysis)) for m in next(iter(self.fronts.values())).study.minimise])
+        return np.array([m.one(analysis) for m in next(iter(self.fronts.values())).study.minimise])
 
     def _show(self) -> None:
         self._fit_slider()

@@ -24,7 +24,7 @@ from .kit.banner import Banner
 from .kit.front_picker import FrontPanel, FrontPicker, objective_texts
 from .kit.latest_only import LatestOnly
 from .kit.layout import column, menu, wrapped
-from .kit.panel import IMPOSSIBLE
+from .kit.panel import IMPOSSIBLE, reason
 from .kit.picture import LivePicture
 
 
@@ -131,7 +131,7 @@ class LiveParetoPanel(FrontPanel):
         except ValueError as refusal:
             self._refuse(str(refusal))
         except Exception as error:  # shown to the user: a thread has no other way to speak
-            self._refuse(f"the search ended early: {error}")
+            self._refuse(f"the search ended early: {reason(error)}")
 
     def _compute_from_front(self, mode: str, study: Study) -> None:
         began = time.monotonic()
@@ -193,7 +193,7 @@ class LiveParetoPanel(FrontPanel):
         """Objectives of the design in the sliders, ``(k,)``."""
         study = self.front.study
         analysis = self.explorer.design.analyse(study.angles)
-        return np.array([float(measure(analysis)) for measure in study.minimise])
+        return np.array([measure.one(analysis) for measure in study.minimise])
 
     def _before(self) -> Front:
         """The front that the panel began with, weighed as the one that is shown."""

@@ -52,6 +52,26 @@ class Measure:
     def __call__(self, analysis: object) -> Any:
         return self.sign * self.given(analysis)
 
+    def of(self, analysis: object, p: int) -> np.ndarray:
+        """The numbers of ``p`` designs, ``(p,)``; ``ValueError`` for more or fewer."""
+        value = self(analysis)
+        try:
+            return np.broadcast_to(value, p)
+        except ValueError:
+            shape = " x ".join(map(str, np.shape(value)))
+            designs = "one design" if p == 1 else f"{p} designs"
+            raise ValueError(
+                f"the {self.name} gives {shape} numbers for {designs}; a measure gives one for each design"
+            ) from None
+
+    def one(self, analysis: object) -> float:
+        """The number of one design; ``ValueError`` for several.
+
+        >>> Measure("height", "mm", lambda analysis: analysis["height"]).one({"height": 0.05})
+        0.05
+        """
+        return float(self.of(analysis, 1)[0])
+
     def __neg__(self) -> Measure:
         return dataclasses.replace(self, sign=-self.sign)
 

@@ -162,18 +162,6 @@ def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
     return study
 
 
-def _numbers(measure: Measure, analysis: object, p: int) -> Any:
-    """A measure of ``p`` designs, ``(p,)``."""
-    value = measure(analysis)
-    try:
-        return np.broadcast_to(value, p)
-    except ValueError:
-        shape = " x ".join(map(str, np.shape(value)))
-        raise ValueError(
-            f"the {measure.name} gives {shape} numbers for {p} designs; a measure gives one for each design"
-        ) from None
-
-
 @dataclass(frozen=True)
 class Evaluation:
     """What a study says of ``p`` designs; what cannot be built has ``inf`` objectives and is infeasible."""
@@ -313,8 +301,8 @@ class Study(Generic[D]):
 
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
-        f = self._columns([_numbers(measure, analysis, len(x)) for measure in self.minimise], len(x))
-        limits = [(_numbers(m, analysis, len(x)), v, sense) for m, v, sense in self.limits]
+        f = self._columns([measure.of(analysis, len(x)) for measure in self.minimise], len(x))
+        limits = [(m.of(analysis, len(x)), v, sense) for m, v, sense in self.limits]
         g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
         return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
 

@@ -46,7 +46,7 @@ def _profile(analysis: Any) -> np.ndarray:
 def measures_overlaid(kept: Kept) -> Picture:
     """Every measure of every design, divided by that of the first: who is 10 % larger, who smaller?"""
     measures = kept.measures
-    values = {place: np.array([float(m(a)) for m in measures]) for place, a in kept.analyses.items()}
+    values = {place: np.array([m.one(a) for m in measures]) for place, a in kept.analyses.items()}
     base = next(iter(values.values()), np.ones(len(measures)))
     height = -np.arange(len(measures), dtype=float)
     marks: list[Mark] = [Line("first", [0, 0], [0.5, 0.5 - len(measures)], role="guide")]

@@ -74,7 +74,7 @@ def _cloud(tolerances: Tolerances, front: Any) -> Picture:
     ):
         marks.append(Points(key, x[where], y[where], role=role, size=2, opacity=0.6, label=label))
     goals = [_positive(m) for m in study.minimise]
-    drawn = [float(m(tolerances.nominal)) / factor(m.unit) for m in goals][:2]
+    drawn = [m.one(tolerances.nominal) / factor(m.unit) for m in goals][:2]
     here = [*drawn, 50.0][:2]
     marks.append(Points("drawn", here[:1], here[1:], mark="square", size=9, fill="paper", label="as drawn"))
     low, high = tolerances.interval

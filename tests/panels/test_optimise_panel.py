@@ -298,7 +298,7 @@ def test_an_error_in_the_thread_is_shown():
     panel = optimise_panel(app, lambda start, method: Study(start, GEOMETRY, (Measure("r", "mm", broken),)))
     panel.run()
     panel.wait(PATIENCE)
-    assert "The search ended early: out of order." in panel.runner.banner.value
+    assert "This cannot be searched: the r cannot be computed: RuntimeError: out of order." in panel.runner.banner.value
     assert not panel.runner.run_button.disabled
 
 

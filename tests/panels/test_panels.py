@@ -55,6 +55,7 @@ from camkit.units.typed import typed_number, typed_whole
 from camkit.views import contact_force, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
 from camkit.views.defaults import default_views
+from camkit.views.overlay import Kept, measures_overlaid
 from camkit.views.picture import Axes, Line, Picture
 from camkit.views.sweep import limit_sweep
 from camkit.views.tolerances import sobol_bars
@@ -249,6 +250,61 @@ def test_a_design_of_another_make_that_cannot_be_built_leaves_the_last_one():
     panel.controls["roller_radius"].slider.value -= 1
     assert (sentence(panel.banner), panel.design == start) == ("", False)
     assert_shows_its_design(panel)
+
+
+@pytest.mark.parametrize("error", [KeyError("k"), TypeError("no sum"), MemoryError(), ZeroDivisionError("by 0")])
+@pytest.mark.parametrize("where", ["measure", "view"])
+def test_what_a_measure_or_a_view_raises_brings_the_last_design_back(error, where):
+    def at(analysis, place):
+        if place == where and analysis.cam.base_radius > 31 * mm:
+            raise error
+        return 1.0
+
+    def tall(analysis):
+        at(analysis, "view")
+        return Picture.of(Axes(), Line("tall", [0, 1], [0, 1]))
+
+    number = Measure("number", "mm", lambda analysis: at(analysis, "measure"))
+    panel = explore(TranslatingRollerCam(groove=False), tall, free=["base_radius"], measures=[number])
+    good, shown = panel.design, panel.picture.widget.data
+    panel.controls["base_radius"].box.text = "35"
+    what = "the number" if where == "measure" else "the view tall"
+    kind = type(error).__name__
+    assert f"the last one stays: {what} cannot be computed: {kind}" in sentence(panel.banner)
+    assert str(error).strip("'") in sentence(panel.banner)
+    assert (panel.design, panel.picture.widget.data) == (good, shown)
+    assert_shows_its_design(panel)
+
+
+def test_a_view_that_fails_at_a_position_brings_the_last_one_back():
+    def until_right(analysis, turn):
+        return Picture.of(Axes(), Line("line", [0, 1], [0, {True: 1}[turn < 90 * deg]]))
+
+    panel = explore(TranslatingRollerCam(groove=False), until_right, free=["base_radius"])
+    panel.positions["turn"].box.text = "60"
+    shown = panel.picture.widget.data
+    panel.positions["turn"].box.text = "120"
+    assert "the view until right cannot be computed: KeyError: False" in sentence(panel.banner)
+    assert panel.positions["turn"].value == pytest.approx(60 * deg)
+    assert panel.picture.widget.data == shown
+
+
+def test_a_measure_of_several_numbers_is_refused_where_one_is_wanted():
+    def several(values):
+        return Measure("a", "mm", lambda analysis: np.array(values))
+
+    cam = TranslatingRollerCam()
+    told = r"^the a gives 3 numbers for one design; a measure gives one for each design$"
+    for use in (
+        lambda a: explore(cam, measures=[a]),
+        lambda a: side_by_side({"one": cam}, [a]),
+        lambda a: measures_overlaid(Kept({"A": cam.analyse()}, (a,))),
+        lambda a: Study(cam, ["base_radius"], [a]).evaluate([[0.03]]),
+    ):
+        with pytest.raises(ValueError, match=told):
+            use(several([1.0, 2.0, 3.0]))
+        use(several([1.0]))
+    assert explore(cam, measures=[several([0.002])]).rows()[0][1:] == (0.002, 0.002)
 
 
 def test_a_curve_beyond_all_bounds_is_not_drawn():

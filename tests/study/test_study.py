@@ -190,10 +190,11 @@ def test_measures_of_another_mechanism_are_refused() -> None:
         with pytest.raises(ValueError, match=r"^the output swing does not apply"):
             minimise(Study(joint, free, (swing,)), method)
     curve = Measure("speed", "rpm", lambda a: a.output_speed)
-    for designs, shape in (([[0.1]], "1 x 361"), ([[0.1], [0.2]], "2 x 361")):
-        with pytest.raises(
-            ValueError, match=rf"^the speed gives {shape} numbers for {len(designs)} designs; a measure"
-        ):
+    for designs, told in (
+        ([[0.1]], "1 x 361 numbers for one design"),
+        ([[0.1], [0.2]], "2 x 361 numbers for 2 designs"),
+    ):
+        with pytest.raises(ValueError, match=rf"^the speed gives {told}; a measure"):
             Study(joint, free, (curve,)).evaluate(designs)
 
 

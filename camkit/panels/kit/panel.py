@@ -10,6 +10,7 @@ from typing import Any
 import anywidget
 import ipywidgets as w
 
+from ...quantities.kinds import raised
 from .banner import Banner
 from .picture import LivePicture
 
@@ -22,9 +23,12 @@ def reason(error: Exception) -> str:
 
     >>> reason(ValueError("the arm is too short")), reason(OverflowError(34, "Numerical result out of range"))
     ('the arm is too short', 'a number in it becomes too large')
+    >>> reason(MemoryError())
+    'MemoryError'
     """
-    worded = isinstance(error, ValueError) or (len(error.args) == 1 and " " in str(error))
-    return str(error) if worded else "a number in it becomes too large"
+    if isinstance(error, ValueError) or (len(error.args) == 1 and " " in str(error)):
+        return str(error)
+    return "a number in it becomes too large" if isinstance(error, ArithmeticError) else raised(error)
 
 
 class PanelStyle(anywidget.AnyWidget):

@@ -16,7 +16,7 @@ from ...search.protocol import Step
 from ...study.study import Study
 from .banner import Banner
 from .layout import button, column, wrapped
-from .panel import IMPOSSIBLE, Panel
+from .panel import IMPOSSIBLE, Panel, reason
 from .running import Job, here, left_behind
 
 MakeStudy = Callable[..., Study]
@@ -101,7 +101,7 @@ class Runner:
         try:
             steps = prepare()
         except IMPOSSIBLE as refusal:
-            self.banner.show_message(f"{refused}: {refusal}.")
+            self.banner.show_message(f"{refused}: {reason(refusal)}.")
             return
         self.banner.show_message("")
         self.adopt(Job(self.kind, self.place, steps, self))
@@ -123,7 +123,7 @@ class Runner:
         if error:
             began = (self.job and self.job.step) or not isinstance(error, IMPOSSIBLE)
             early = "The search ended early" if began else "This cannot be searched"
-            self.banner.show_message(f"{early}: {error}.")
+            self.banner.show_message(f"{early}: {reason(error)}.")
         self._show_buttons(running=False)
 
     def _show_buttons(self, running: bool) -> None:
