@@ -24,6 +24,7 @@ from camkit import (
     mm,
     quick_front,
 )
+from camkit.cam import ConjugatePair, ContactPair
 from camkit.cam.follower_measures import FLAT_CURVE
 from camkit.files import Session, from_json, to_json
 from camkit.linkage import DoubleUniversalJoint, UniversalJoint
@@ -162,6 +163,41 @@ def test_what_is_chosen_has_quantities_of_its_own():
     shaped = {"motion.rise.law": "shaped", "motion.rise.law.c1": 0.1}
     law = with_quantities(OscillatingRollerCam(), shaped).motion.segments[0].law
     assert law == ShapedLaw(Poly345(), (0.0, 0.1, 0.0, 0.0))
+
+
+PAIR, STEEL = ConjugatePair(), TranslatingRollerCam(contact=ContactPair(cam_material="42CrMo"))
+
+
+@pytest.mark.parametrize(("design", "choice", "beside"), [
+    (PAIR, {"cam": "rocking face"}, {"spread": 1.4, "face_offset": 2 * mm}),
+    (STEEL, {"contact.cam_material": "own numbers"}, {"contact.cam_modulus": 1e11, "contact.width": 9 * mm}),
+    (TranslatingRollerCam(), {"contact": "along a line", "contact.cam_material": "own numbers"},
+     {"contact.cam_modulus": 1e11, "base_radius": 31 * mm}),
+])  # fmt: skip
+def test_a_choice_and_what_it_brings_beside_itself_are_set_at_once(design, choice, beside):
+    for values in (choice | beside, beside | choice):
+        changed = with_quantities(design, values)
+        assert [value_of(changed, path) for path in beside] == list(beside.values())
+        assert changed == with_quantities(with_quantities(design, choice), beside)
+
+
+@pytest.mark.parametrize(("design", "values", "sentence"), [
+    (PAIR, {"cam": "rocking face", "distance": 0.2}, "'distance' .*: the second cam of a rocking face has none"),
+    (STEEL.replace(contact=ContactPair()), {"contact.cam_modulus": 1e11, "contact.cam_material": "42CrMo"},
+     "'contact.cam_modulus' is no path of TranslatingRollerCam: it is that of the cam_material"),
+    (STEEL, {"contact": "not given", "contact.width": 9 * mm}, "'contact.width' is no path of .*; near it are contact"),
+])  # fmt: skip
+def test_what_the_chosen_design_does_not_have_is_refused_beside_the_choice(design, values, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        with_quantities(design, values)
+
+
+def test_a_design_that_has_not_what_a_study_frees_is_none_of_it():
+    study = Study(PAIR, ["distance"], PAIR.measures[:1])
+    rocking = with_quantities(PAIR, {"cam": "rocking face"})
+    for refused in (study.x_of, study.around, lambda design: Session(study, design)):
+        with pytest.raises(ValueError, match=r"^'distance' is no path of this ConjugatePair: the second cam of a rock"):
+            refused(rocking)
 
 
 # ---------------------------------------------------------------- a turn stays closed

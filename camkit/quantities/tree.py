@@ -116,7 +116,8 @@ def value_of(design: object, path: str) -> Any:
 def with_quantities(design: object, values: Mapping[str, Any]) -> Any:
     """The design with other values by path: numbers, columns ``(p, 1)``, and options of choices or their names.
 
-    All that changes in one part changes at once, and what its constructor refuses is refused.
+    All that changes in one part changes at once, and what its constructor refuses is refused.  Choices come first where
+    they bring quantities; one that the changed design does not have is refused too.
 
     >>> from camkit import TranslatingRollerCam
     >>> from camkit.quantities import value_of
@@ -131,10 +132,16 @@ motion.rise.angle
     """
     if not isinstance(values, Mapping):
         raise ValueError(f"the values are {shown(values)}; they must be a mapping from paths to values")
-    if first := {p: v for p, v in values.items() if any(str(other).startswith(f"{p}.") for other in values)}:
-        design = Paths(design, first).put(design, list(first.values()))  # what is chosen has quantities of its own
-    rest = {p: v for p, v in values.items() if p not in first}
-    return Paths(design, rest).put(design, list(rest.values()))
+    declared = declared_in(design)
+    above = [p for p in values if any(str(other).startswith(f"{p}.") for other in values)]
+    chosen = {p: v for p, v in values.items() if isinstance(declared.get(p), Choice)}
+    if chosen and (above or not declared.keys() >= values.keys()):
+        first = {p: v for p, v in chosen.items() if not any(p.startswith(f"{other}.") for other in above)}
+        changed = Paths(design, first).put(design, list(first.values()))
+        return with_quantities(changed, {p: v for p, v in values.items() if p not in first})
+    changed = Paths(design, values).put(design, list(values.values()))
+    Paths(changed, values if chosen else ())  # a choice may have taken away one that was there
+    return changed
 
 
 @dataclass(frozen=True)
@@ -193,6 +200,9 @@ class Paths:
         """The values that ``design`` has; ``ValueError`` for one of another kind, or one that lacks a path."""
         if not isinstance(design, self._kind):
             raise ValueError(f"the design is {shown(design)}; it must be a {self._kind.__name__}")
+        for path, why in ((path, _followed(design, path)) for path in self.declared):
+            if why:
+                raise ValueError(f"{shown(path)} is no path of this {type(design).__name__}: {why}")
         try:
             return [leaf.value(_part(design, way)) for way, leaf in self._leaves]
         except (AttributeError, LookupError):
