@@ -96,7 +96,9 @@ class RollerAnalysis(CamAnalysis):
 
     def contact_point(self, flank: Any = 1) -> np.ndarray:
         """Where the roller touches the inner flank (+1) or the outer one (-1), machine's frame, m."""
-        return self.roller_centre - flank * self.cam.roller_radius * self.normal
+        away = flank * self.cam.roller_radius
+        (x, y), (across, along) = self.roller_centre, self.normal
+        return np.stack(np.broadcast_arrays(x - away * across, y - away * along))
 
     @property
     def groove(self) -> bool:
