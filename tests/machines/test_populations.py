@@ -1,0 +1,80 @@
+"""Every number of every machine as a column of two and of three designs gives what each design has by itself."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
+from camkit.cam.force_closure import ContactPair
+from camkit.cam.pair import ConjugatePair
+from camkit.machines import CabinDoorLinkage, CamLever, DoorHandleCam, HighSpeedCam, UniversalJointShaft, ValveCam
+from camkit.quantities import measures_of, quantities_of, value_of, with_quantities
+
+PAIR = {"contact": ContactPair()}
+MACHINES = {
+    "roller": TranslatingRollerCam(**PAIR),
+    "roller in a groove": TranslatingRollerCam(groove=True, **PAIR),
+    "face": TranslatingFlatCam(**PAIR),
+    "roller on an arm": OscillatingRollerCam(**PAIR),
+    "roller on an arm in a groove": OscillatingRollerCam(groove=True, **PAIR),
+    "face on an arm": OscillatingFlatCam(**PAIR),
+    "pair of cams": ConjugatePair(),
+    "pair of cams on arms": ConjugatePair(OscillatingRollerCam(groove=False)),
+    "high speed": HighSpeedCam(),
+    "lever": CamLever(),
+    "door handle": DoorHandleCam(),
+    "valve": ValveCam(),
+    "cabin door": CabinDoorLinkage(),
+    "shaft": UniversalJointShaft(),
+}
+ANGLES, STEP = 31, 0.01
+CURVES = ("contact_force", "cam_torque", "contact_pressure", "efficiency", "rubbing")
+every_machine = pytest.mark.parametrize("design", MACHINES.values(), ids=MACHINES)
+
+
+def results(design):
+    """All measures of a design or of a population, and the curves of its forces, by name."""
+    analysis = design.analyse(ANGLES)
+    found = {measure.name: np.asarray(measure(analysis))[..., None] for measure in measures_of(design)}
+    for name, curve in getattr(analysis, "curves", {}).items():
+        forces = {f"{name}.{of}": getattr(curve, of) for of in CURVES}
+        pushed = forces.pop(f"{name}.rubbing")
+        found |= forces | {f"{name}.rubbing.{of}": getattr(pushed, of) for of in pushed._fields}
+    return found
+
+
+def steps(design, path):
+    """Three values of a quantity, the first that of the design; on the side on which all can be built."""
+    declared, value = quantities_of(design)[path], float(value_of(design, path))
+    step = STEP * (declared.high - declared.low) * declared.factor
+    return value + np.arange(3) * (step if declared.allows(value + 2 * step) else -step)
+
+
+def check(design, columns):
+    """Columns of two and of three against each design alone, to 1e-12 of the largest value."""
+    alone = [results(with_quantities(design, {p: float(v[i]) for p, v in columns.items()})) for i in range(3)]
+    for count in (2, 3):
+        many = results(with_quantities(design, {path: values[:count, None] for path, values in columns.items()}))
+        for name, values in many.items():
+            expected = np.stack([single[name] for single in alone[:count]])
+            found = np.broadcast_to(values, expected.shape)
+            size = np.max(abs(expected), initial=0, where=np.isfinite(expected))
+            assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * size, err_msg=f"{name}, {[*columns]} of {count}")
+
+
+@pytest.mark.slow
+@every_machine
+def test_each_quantity_alone_as_a_column(design):
+    for path in quantities_of(design):
+        check(design, {path: steps(design, path)})
+
+
+@pytest.mark.slow
+@every_machine
+def test_two_numbers_of_load_friction_and_contact_as_columns(design):
+    """The geometry is then one for all, and the forces are of each."""
+    paths = [path for path in quantities_of(design) if {"load", "friction", "contact"} & set(path.split("."))]
+    for pair in pairwise(paths):
+        check(design, {path: steps(design, path) for path in pair})
