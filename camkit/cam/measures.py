@@ -14,6 +14,9 @@ import numpy as np
 from ..quantities import Measure
 from ..quantities.types import Value
 
+STILL = 1e-8
+"""A follower slower than this share of its largest speed rests: what is left is rounding."""
+
 
 def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """A function of an analysis: the largest value of ``f`` over the cam."""
@@ -59,12 +62,20 @@ def mean_over(analysis: Any, name: str) -> Value:
 
 
 def work_ratio(analysis: Any) -> Value:
-    """Work out over work in of a constant resisting torque: the power-weighted mean efficiency."""
-    shown = analysis.resolved
-    v, eta = abs(shown.velocity), shown.efficiency
-    moving = (v > 0) & (eta > 0)
-    power_in = np.divide(v, eta, out=np.zeros_like(v * eta), where=moving)
-    jammed = ((v > 0) & (eta <= 0)).any(-1)
+    """Work out over work in of a constant resisting torque: the power-weighted mean efficiency.
+
+    Where a stroke begins or ends, the work in for a step of cam angle is that towards which it goes there: against
+    the friction of the cam's bearing it is not 0, though the follower and with it the efficiency is at rest.
+    """
+    shown, pieces = analysis.resolved, analysis.resolution
+    v, eta = np.broadcast_arrays(abs(shown.velocity), shown.efficiency)
+    moving = v > STILL * v.max(-1, keepdims=True)
+    jammed = (moving & (eta <= 0)).any(-1)
+    power_in = np.divide(v, eta, out=np.zeros(v.shape), where=moving & (eta > 0))
+    for ends, inward in ((pieces.first, 1), (pieces.last, -1)):
+        end = ends[pieces.moves[ends]]
+        near, far, farther = (power_in[..., end + k * inward] for k in (1, 2, 3))
+        power_in[..., end] = np.where(moving[..., end], power_in[..., end], 3 * (near - far) + farther)
     work_out, work_in = (np.trapezoid(power, shown.cam_angle, axis=-1) for power in (v, power_in))
     ratio = np.divide(work_out, work_in, out=np.zeros_like(1.0 * work_in), where=work_in > 0)
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))

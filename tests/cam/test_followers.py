@@ -14,7 +14,7 @@ from camkit import OscillatingRollerCam, Study, views
 from camkit.cam.conjugate import opposite, pair_forces
 from camkit.cam.flat_analysis import FlatAnalysis
 from camkit.cam.loads import ArmLoad, Friction
-from camkit.cam.measures import max_pressure_angle, mean_efficiency, peak_force
+from camkit.cam.measures import max_pressure_angle, mean_efficiency, peak_force, work_efficiency
 from camkit.cam.oscillating_flat import OscillatingFlatCam
 from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
@@ -617,6 +617,23 @@ def test_the_mean_efficiency_of_a_plate_cam_on_an_arm():
         moving = fine.velocity != 0
         assert mean_efficiency(cam.analyse(31)) == pytest.approx(fine.efficiency[moving].mean(), abs=2e-4)
         assert mean_efficiency(cam.analyse()) * 100 == pytest.approx(percent, abs=0.02)
+
+
+@pytest.mark.parametrize("kind", [TranslatingRollerCam, OscillatingRollerCam])
+@pytest.mark.parametrize("axis", [0.0, 1.5 * mm])
+def test_work_out_over_work_in_is_that_of_fine_steps(kind, axis):
+    """Against the friction of the cam's bearing a stroke takes work where it begins; one design and a column agree."""
+    cam = kind(groove=True)
+    cam = cam.replace(friction=cam.friction.replace(cam_axis=axis))
+    fine = cam.analyse(200_001)
+    moving = abs(fine.velocity) > 1e-9
+    taken = np.sum(abs(fine.velocity[moving]) / fine.efficiency[moving])
+    starts = np.array([[0.0], [0.01]])
+    for angles in (91, 721, 20_001):
+        assert work_efficiency(cam.analyse(angles)) == pytest.approx(abs(fine.velocity).sum() / taken, rel=1e-4)
+    both = work_efficiency(cam.replace(motion=cam.motion.replace(start=starts)).analyse(91))
+    alone = [work_efficiency(cam.replace(motion=cam.motion.replace(start=s)).analyse(91)) for s in starts[:, 0]]
+    assert_allclose(both, alone, rtol=1e-12)
 
 
 def test_the_mean_efficiency_is_over_the_strokes_alone():
