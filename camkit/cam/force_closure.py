@@ -113,12 +113,13 @@ def torque_balance(cam_angle: Value, torque: Value) -> TorqueBalance:
     cam_angle, torque = numbers(cam_angle, "the cam angles"), numbers(torque, "the torque")
     if cam_angle.shape[-1:] != torque.shape[-1:] or cam_angle.ndim > torque.ndim or not torque.size:
         raise ValueError(f"the torque is {shown(torque)}, the cam angles are {shown(cam_angle)}; each needs the other")
-    step, middle = np.diff(cam_angle, axis=-1), (torque[..., 1:] + torque[..., :-1]) / 2
-    span = step.sum(-1)
-    mean = (middle * step).sum(-1) / span
-    gained = np.cumsum((middle - np.expand_dims(mean, -1)) * step, axis=-1)
-    surplus = np.concatenate([0.0 * gained[..., :1], gained], axis=-1)
-    return TorqueBalance(mean, surplus, surplus.max(-1) - surplus.min(-1))
+    step = np.diff(cam_angle, axis=-1)
+    with np.errstate(invalid="ignore"):  # the torque is infinite where friction jams the follower
+        middle = (torque[..., 1:] + torque[..., :-1]) / 2
+        mean = (middle * step).sum(-1) / step.sum(-1)
+        gained = np.cumsum((middle - np.expand_dims(mean, -1)) * step, axis=-1)
+        surplus = np.concatenate([0.0 * gained[..., :1], gained], axis=-1)
+        return TorqueBalance(mean, surplus, surplus.max(-1) - surplus.min(-1))
 
 
 OWN = "own numbers"

@@ -53,6 +53,11 @@ CAMS = [
 every_cam = pytest.mark.parametrize("cam", CAMS, ids=lambda cam: type(cam).__name__)
 
 
+def rise_in(angle):
+    law = Cycloidal()
+    return MotionProgram((Rise(angle, 20 * mm, law), Dwell(40 * deg), Return(120 * deg, 20 * mm, law), Dwell(90 * deg)))
+
+
 def at_speed(cam, speed, **load):
     return cam.replace(load=cam.load.replace(speed=speed, **load)).analyse(20001)
 
@@ -265,6 +270,14 @@ def test_friction_alone_takes_the_mean_torque_of_an_idle_cam():
     slides = np.arctan(0.1)
     expected = 100 / np.cos(slides) * (30 * mm * np.sin(slides) + 2 * mm)
     assert mean_torque(cam.analyse()) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_mean_torque_of_a_follower_that_jams_is_infinite():
+    """Without a warning, which the tests take for an error; beside one that runs freely the free one has its own."""
+    jammed, free = (TranslatingRollerCam(rise_in(a)) for a in (10 * deg, 100 * deg))
+    assert np.isinf(mean_torque(jammed.analyse()))
+    both = free.replace(motion=rise_in(np.array([[10.0], [100.0]]) * deg))
+    assert_array_equal(mean_torque(both.analyse(91)), [np.inf, mean_torque(free.analyse(91))])
 
 
 # ---------------------------------------------------------------- Hertz
