@@ -26,6 +26,7 @@ from camkit.motion import (
     SplineLaw,
     TableLaw,
 )
+from camkit.motion.families.shaped import SPLINE, ShapedLaw
 
 ROWS = np.linspace(0, 1, 41)
 DWELL_LAWS = [
@@ -323,6 +324,34 @@ def test_a_population_has_nan_where_a_member_cannot_be():
         (
             lambda: Degree9((1, 2, 3, np.nan)),
             "the coefficient c3 of the degree 9 law is nan; it must be a finite number",
+        ),
+        (
+            lambda: Degree9((1, 2, 3, 1e300)),
+            "the coefficient c3 of the degree 9 law is 1e+300; it must be a finite number of a size of at most 600",
+        ),
+        (
+            lambda: ShapedLaw(Poly345(), (0, 1e150, 0, 0)),
+            "the coefficient c1 of the shaped law is 1e+150; it must be a finite number of a size of at most 600",
+        ),
+        (
+            lambda: ShapedLaw(Poly345(), (0, 0, "x", 0), SPLINE),
+            "the coefficient c2 of the shaped law is 'x'; it must be a finite number",
+        ),
+        (
+            lambda: FreePolynomial((0, 1e150), (1, 0)),
+            "v at the start of the free polynomial is 1e+150; it must be a finite number of a size of at most 4000",
+        ),
+        (
+            lambda: SplineLaw((0.4,), (1e150,)),
+            "a value of the spline is 1e+150; it must be a finite number of a size of at most 1500",
+        ),
+        (
+            lambda: SplineLaw((0.4,), (0.5,), (0, 1e150), (0, 0)),
+            "a value of the spline is 1e+150; it must be a finite number of a size of at most 20000",
+        ),
+        (
+            lambda: TableLaw((0, 0.5, 1), (0, -1e150, 1)),
+            "the table has the s -1e+150; it must be a finite number of a size of at most 1500",
         ),
         (
             lambda: SplineLaw((0.6, 0.4), (0.5, 0.5)),

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
 from ...quantities import Quantity, numbered, row
-from ...quantities.kinds import a_number, listed, refuse_lengths
+from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .polynomial import Poly345
@@ -37,6 +37,13 @@ def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
         )
 
     return cache(declared)
+
+
+def sized(value: object, what: str, declared: Quantity) -> Any:
+    """``value`` as a number or a column of the size that its declaration allows (see `a_number`)."""
+    known = number(value)
+    must = declared.possible if known is None or np.ndim(known) else declared.possible_for(known)
+    return a_number(value, what, f"be {must}", declared.allows)
 
 
 @dataclass(frozen=True)
@@ -114,12 +121,20 @@ def _values(word: str, given: Any) -> tuple[Any, ...]:
     if len(values) > 4:
         raise ValueError(f"the {word} of the free polynomial has {len(values)} values; it can have s, v, a, j at most")
     return tuple(
-        value if value is None else a_number(value, f"{letter} at the {word} of the free polynomial")
-        for letter, value in zip(LETTERS, values, strict=False)
+        value if value is None else sized(value, f"{letter} at the {word} of the free polynomial", given_at(word)(i)[1])
+        for i, (letter, value) in enumerate(zip(LETTERS, values, strict=False))
     )
 
 
 COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None)
+
+
+def coefficients(given: object, law: str) -> tuple[Any, ...]:
+    """The four coefficients of a law; ``ValueError`` for anything else."""
+    c = listed(given, f"the c of the {law} law", "coefficient")
+    if len(c) != 4:
+        raise ValueError(f"the {law} law has {len(c)} coefficients c; it must have four")
+    return tuple(sized(value, f"the coefficient c{i} of the {law} law", COEFFICIENT) for i, value in enumerate(c))
 
 
 @dataclass(frozen=True)
@@ -141,11 +156,7 @@ class Degree9(Law):
     continuity = 2
 
     def __post_init__(self) -> None:
-        c = listed(self.c, "the c of the degree 9 law", "coefficient")
-        if len(c) != 4:
-            raise ValueError(f"the degree 9 law has {len(c)} coefficients c; it must have four")
-        c = tuple(a_number(value, f"the coefficient c{i} of the degree 9 law") for i, value in enumerate(c))
-        object.__setattr__(self, "c", c)
+        object.__setattr__(self, "c", coefficients(self.c, self.name))
         refuse_lengths(self)
 
     def at(self, u: Value) -> Kinematics:

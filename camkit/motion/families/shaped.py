@@ -15,7 +15,7 @@ from ...quantities import choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
 from ...quantities.types import Value
 from ..law import Kinematics, Law, Peaks, law_peaks
-from .free import COEFFICIENT, Degree9
+from .free import COEFFICIENT, Degree9, coefficients
 from .plain import LAWS
 from .polynomial import Poly345
 from .spline import SplineLaw
@@ -67,7 +67,7 @@ class ShapedLaw(Law):
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
-        Degree9(self.c)  # refuses what are not four numbers
+        object.__setattr__(self, "c", coefficients(self.c, self.name))
         refuse_lengths(self)
 
     def declares(self) -> dict[str, Any]:

@@ -6,6 +6,7 @@ Splines (interpolation, smoothing).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
@@ -19,7 +20,7 @@ from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
-from .free import given_at
+from .free import given_at, sized
 
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
@@ -27,6 +28,11 @@ KNOTS_IN_ALL = 1200
 """Of all splines of a design in a file."""
 ROWS_IN_ALL = 4000
 """Of all tables of motion of a design in a file: a row for every 0.1 deg of a turn; analysis looks between any two."""
+
+
+POSITION = Quantity("s", 0.5, -0.5, 1.5, "", "position at the knot", above=None)
+POSITIONS = numbered("s", POSITION)
+Declarations = Callable[[int], tuple[str, Quantity]]
 
 
 @dataclass(frozen=True)
@@ -49,7 +55,7 @@ class SplineLaw(Law):
     """
 
     u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS, "in_all": ("knots of splines", KNOTS_IN_ALL)})
-    s: tuple[Any, ...] = row(numbered("s", Quantity("s", 0.5, -0.5, 1.5, "", "position at the knot", above=None)))
+    s: tuple[Any, ...] = row(POSITIONS)
     start: tuple[Any, ...] = row(given_at("start", 1), default=(0.0, 0.0))
     end: tuple[Any, ...] = row(given_at("end", 1), default=(0.0, 0.0))
 
@@ -57,9 +63,8 @@ class SplineLaw(Law):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "u", _row(self.u, "the knots u of the spline"))
-        for name in ("s", "start", "end"):
-            values = listed(getattr(self, name), f"the {name} of the spline", "value")
-            object.__setattr__(self, name, tuple(a_number(value, "a value of the spline") for value in values))
+        for name, declared in (("s", POSITIONS), ("start", given_at("start", 1)), ("end", given_at("end", 1))):
+            object.__setattr__(self, name, _values(getattr(self, name), name, declared))
         refuse_lengths(self)
         if not np.all(np.diff((0.0, *self.u, 1.0)) > 0):
             shown = ", ".join(f"{u:g}" for u in self.u)
@@ -98,6 +103,12 @@ class SplineLaw(Law):
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
+
+
+def _values(given: object, name: str, declared: Declarations) -> tuple[Any, ...]:
+    """Positions of a spline, or what is given at one of its ends; a fourth of these is refused by their number."""
+    values = listed(given, f"the {name} of the spline", "value")
+    return tuple(sized(value, "a value of the spline", declared(min(i, 2))[1]) for i, value in enumerate(values))
 
 
 def _row(values: object, what: str) -> tuple[float, ...]:
@@ -178,6 +189,8 @@ def _refuse_table(table: TableLaw) -> None:
         raise ValueError(f"the table has {len(u)} u and {len(s)} s; it needs as many of each, and two at least")
     if not (np.isfinite(u).all() and np.isfinite(s).all()):
         raise ValueError("the table holds a value that is not finite; every u and s must be a finite number")
+    if not (possible := POSITION.allows(s[:, None])).all():
+        raise ValueError(f"the table has the s {s[np.argmin(possible)]:g}; it must be {POSITION.possible_for(1e300)}")
     if not (np.diff(u) > 0).all():
         row = int(np.argmin(np.diff(u) > 0)) + 2
         shown = f"at row {row} ({u[row - 1]:g} after {u[row - 2]:g})"
