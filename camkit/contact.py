@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .quantities.kinds import numbers
+from .quantities.kinds import numbers, refuse_shapes
 from .quantities.types import Value
 
 GOLDEN = (np.sqrt(5) - 1) / 2
@@ -35,10 +35,13 @@ def contact_modulus(first: Value, second: Value, first_poisson: Value = 0.3, sec
     >>> print(f"{contact_modulus(210e9, 210e9) / 1e9:.3f} GPa")
     115.385 GPa
 
-    Raises ``ValueError`` for a modulus that is not above 0 or a Poisson's ratio outside 0 to 0.5; in an array
-    such a member is ``nan``.
+    Raises ``ValueError`` for what are no numbers, a modulus that is not above 0 or a Poisson's ratio outside 0 to
+    0.5; in an array such a member is ``nan``.
     """
-    moduli, ratios = (first, second), (first_poisson, second_poisson)
+    moduli = [numbers(E, "the elastic moduli") for E in (first, second)]
+    ratios = [numbers(nu, "Poisson's ratios") for nu in (first_poisson, second_poisson)]
+    names = ("moduli", "other moduli", "Poisson's ratios", "other ratios")
+    refuse_shapes(dict(zip(names, (*moduli, *ratios), strict=True)))
     for modulus in moduli:
         if np.ndim(modulus) == 0 and not (np.isfinite(modulus) and modulus > 0):
             raise ValueError(f"the elastic modulus is {modulus / 1e9:.6g} GPa; it must be a finite number above 0 GPa")
@@ -71,6 +74,7 @@ def line_contact(force_per_length: Value, curvature: Value, modulus: Value) -> L
     """
     w = numbers(force_per_length, "the forces per length")
     kappa, E = numbers(curvature, "the curvatures"), numbers(modulus, "the moduli")
+    refuse_shapes({"forces per length": w, "curvatures": kappa, "moduli": E})
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         fitting = np.where((w >= 0) & (kappa > 0), kappa, np.nan)
         p0 = np.sqrt(w * E * fitting / np.pi)[()]

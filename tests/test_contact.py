@@ -69,6 +69,22 @@ def test_refusals():
         contact_modulus(210 * GPa, 210 * GPa, 0.7)
 
 
+@pytest.mark.parametrize("wrong", [("a", 1), None, 1j, 10**400, "x", True, [[1, 2], [3]]])
+def test_what_are_no_numbers_is_refused_in_a_sentence(wrong):
+    for given in ((wrong, 210e9), (210e9, wrong), (210e9, 210e9, wrong), (210e9, 210e9, 0.3, wrong)):
+        with pytest.raises(ValueError, match=r"^(the elastic moduli|Poisson's ratios) must be numbers; given is "):
+            contact_modulus(*given)
+
+
+def test_arrays_that_do_not_fit_one_another_are_refused_in_a_sentence():
+    sentence = r"\(3,\) and .* of the shape \(2,\) and .*; each must fit the others, or be one number$"
+    with pytest.raises(ValueError, match=rf"^there are forces per length of the shape {sentence}"):
+        line_contact(np.ones(3), np.ones(2), 1)
+    with pytest.raises(ValueError, match=rf"^there are moduli of the shape {sentence}"):
+        contact_modulus(np.ones(3), np.ones(2))
+    assert_allclose(contact_modulus([210e9, 70e9], 210e9), [contact_modulus(E, 210e9) for E in (210e9, 70e9)])
+
+
 def test_a_population_is_its_members_and_a_bad_one_disturbs_nobody():
     moduli = np.array([210 * GPa, -1.0, 70 * GPa])[:, None]
     together = contact_modulus(moduli, 210 * GPa)

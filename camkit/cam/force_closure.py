@@ -18,7 +18,7 @@ import numpy as np
 from ..contact import LineContact, contact_modulus, line_contact
 from ..data.materials import MATERIALS
 from ..quantities import Design, choice, quantity
-from ..quantities.kinds import a_number, applied, numbers, refuse_arguments, shown
+from ..quantities.kinds import a_number, applied, numbers, refuse_arguments, refuse_shapes, shown
 from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:
@@ -110,9 +110,13 @@ def torque_balance(cam_angle: Value, torque: Value) -> TorqueBalance:
     >>> print(f"{balance.mean:.4f} N m, {balance.swing:.4f} J")
     5.0000 N m, 4.0000 J
     """
+    given = f"the torque is {shown(torque)}, the cam angles are {shown(cam_angle)}"
     cam_angle, torque = numbers(cam_angle, "the cam angles"), numbers(torque, "the torque")
     if cam_angle.shape[-1:] != torque.shape[-1:] or cam_angle.ndim > torque.ndim or not torque.size:
-        raise ValueError(f"the torque is {shown(torque)}, the cam angles are {shown(cam_angle)}; each needs the other")
+        raise ValueError(f"{given}; each needs the other")
+    if cam_angle.shape[-1:] < (2,):
+        raise ValueError(f"{given}; they must be arrays of two or more")
+    refuse_shapes({"torques": torque, "cam angles": cam_angle})
     step = np.diff(cam_angle, axis=-1)
     with np.errstate(invalid="ignore"):  # the torque is infinite where friction jams the follower
         middle = (torque[..., 1:] + torque[..., :-1]) / 2

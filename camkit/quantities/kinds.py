@@ -274,6 +274,15 @@ def refuse_empty(given: Sized, what: str) -> None:
         raise ValueError(f"there are no {what}; name one or more")
 
 
+def refuse_shapes(arrays: Mapping[str, np.ndarray]) -> None:
+    """``ValueError`` in a sentence if arrays, by what they are, have shapes that numpy cannot bring together."""
+    try:
+        np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        told = " and ".join(f"{what} of the shape {array.shape}" for what, array in arrays.items())
+        raise ValueError(f"there are {told}; each must fit the others, or be one number") from None
+
+
 def refuse_lengths(thing: Any) -> None:
     """``ValueError`` in a sentence if columns in the dataclass ``thing``, or in what it holds, differ in length.
 

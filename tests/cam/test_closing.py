@@ -233,6 +233,12 @@ def test_balance_of_a_torque():
     assert balance.swing == pytest.approx(5, rel=1e-5)
 
 
+@pytest.mark.parametrize("given", [(-1, -1), ([1], [2]), (np.ones((2, 5)), np.ones((3, 5)))])
+def test_a_torque_without_a_way_is_refused_in_a_sentence(given):
+    with pytest.raises(ValueError, match=r"(; they must be arrays of two or more|fit the others, or be one number)$"):
+        torque_balance(*given)
+
+
 def test_a_flywheel_evens_the_speed_out():
     """The kinetic energy between slowest and fastest is the swing: ``J (w_1^2 - w_2^2) / 2``."""
     phi = np.linspace(0, 2 * np.pi, 721)
