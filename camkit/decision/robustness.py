@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import counted
+from ..quantities.kinds import shown
 from .ahp import SAATY_SCALE, ahp, judged_weights
 from .choosers import objectives_of, weighted_sum
 
@@ -43,7 +44,7 @@ class JudgementRange:
 def _refuse_no_rule(choose: object) -> None:
     if not callable(choose):
         raise ValueError(
-            f"the rule is {choose!r}; it must be weighted_sum, topsis, knee, most_isolated or one like them"
+            f"the rule is {shown(choose)}; it must be weighted_sum, topsis, knee, most_isolated or one like them"
         )
 
 

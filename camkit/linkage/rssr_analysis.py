@@ -78,9 +78,10 @@ class RSSRAnalysis:
         ranges = " and ".join(f"{low / deg:.5g} to {high / deg:.5g}" for low, high in possible)
         if self.through:
             start, end = self.crank_angle[[0, -1]] / deg
+            part = "; give it other sizes for a whole turn, or analyse a part of the turn" if end - start >= 360 else ""
             raise ValueError(
                 f"the crank cannot sweep from {start:.5g} to {end:.5g} deg: "
-                f"the linkage can be assembled from {ranges} deg only"
+                f"the linkage can be assembled from {ranges} deg only{part}"
             )
         first = self.crank_angle[~limits.reaches(*self._closure)][0]
         raise ValueError(

@@ -16,7 +16,7 @@ from .explore import Explorer
 from .kit.banner import Banner
 from .kit.controls import Download, bar_html, tables_html
 from .kit.layout import button, wrapped
-from .kit.panel import Panel
+from .kit.panel import IMPOSSIBLE, Panel, reason
 from .kit.picture import LivePicture
 
 TITLE = "Designs side by side"
@@ -39,7 +39,10 @@ class Shortlist(Panel):
         self._analyses: dict[str, Any] = {}
         self.banner, self.numbers, self._places = Banner(), w.HTML(), w.VBox()
         views = (profiles_overlaid, measures_overlaid) if self._has_profile(explorer.analysis) else (measures_overlaid,)
-        self._measures = _measures(explorer, study)[:MOST_MEASURES]
+        every = _measures(explorer, study)
+        for measure in every:  # refuses a study of another mechanism
+            measure.one(explorer.analysis)
+        self._measures = every[:MOST_MEASURES]
         self.picture = LivePicture(views, "Kept designs", width=12.6, height=4.8)
         keep = button("Keep this design", self.keep, "plus", button_style="primary")
         files = [
@@ -74,9 +77,15 @@ class Shortlist(Panel):
         self.explorer.load(self.designs[place])
 
     def _put(self, designs: dict[str, Any], analyses: dict[str, Any]) -> None:
+        last = self.designs, self._analyses
         self.designs, self._analyses = ({p: d[p] for p in PLACES if p in d} for d in (designs, analyses))
-        self.banner.show_message("")
-        self._show()
+        try:
+            self._show()
+            self.banner.show_message("")
+        except IMPOSSIBLE as error:
+            self.designs, self._analyses = last
+            self._show()
+            self.banner.show_message(f"This design is not kept: {reason(error)}.")
 
     @property
     def table(self) -> SideBySide:

@@ -72,22 +72,27 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     reference = listed(reference, "the reference", "measure")
     if not weights or len(weights) != len(reference):
         raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
-    for measure, value in zip(weights, reference, strict=True):
+    for measure in weights:
         if not isinstance(measure, Measure):
             raise ValueError(f"the weighted sum has {shown(measure)} where a Measure belongs")
-        value = one_number(value, f"the {measure.name} at the reference design", "be finite and not 0")
-        if not np.isfinite(value) or value == 0:
-            raise ValueError(f"the {measure.name} at the reference design is {value:g}; it must be finite and not 0")
-    for measure, weight in weights.items():
-        if not one_number(weight, f"the weight of the {measure.name}", "be 0 or more") >= 0:
-            raise ValueError(f"the weight of the {measure.name} is {weight:g}; it must be 0 or more")
+    parts, shares = tuple(weights), tuple(_weight(w, f"the {m.name}") for m, w in weights.items())
+    if not any(shares):
+        raise ValueError(f"every weight of the {name} is 0; one or more must be above 0")
+    divisors = tuple(
+        one_number(
+            value, f"the {m.name} at the reference design", "be finite and not 0", lambda v: v != 0 and finite(v)
+        )
+        for m, value in zip(parts, reference, strict=True)
+    )
 
     def total(analysis: object) -> Any:
-        return sum(w * part(analysis) / r for (part, w), r in zip(weights.items(), reference, strict=True))
+        return sum(w * part(analysis) / r for part, w, r in zip(parts, shares, divisors, strict=True))
 
-    return WeightedSum(
-        name, "", total, 1, tuple(weights), tuple(map(float, weights.values())), tuple(map(float, reference))
-    )
+    return WeightedSum(name, "", total, 1, parts, shares, divisors)
+
+
+def _weight(value: object, of: str) -> float:
+    return one_number(value, f"the weight of {of}", "be a finite number of at least 0", lambda w: w >= 0 and finite(w))
 
 
 KEPT = 1e-9
@@ -135,10 +140,17 @@ def refuse_limits(at_most: Mapping[Any, Any], at_least: Mapping[Any, Any]) -> No
             raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
         if not _number(limit) or not finite(limit):
             raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
-    for measure in at_most.keys() & at_least.keys():
-        if not keeps(at_least[measure], at_most[measure], 1):
-            low, high = measure.text(at_least[measure]), measure.text(at_most[measure])
-            raise ValueError(f"the {measure.name} is to be at least {low} and at most {high}; no design can be both")
+    told = [*_sides(at_most, 1), *_sides(at_least, -1)]
+    ranges = ((m, low, high) for m, low, side in told if side < 0 for n, high, other in told if other > 0 and m == n)
+    for measure, low, high in ranges:
+        if not keeps(low, high, 1):
+            both = f"at least {measure.text(low)} and at most {measure.text(high)}"
+            raise ValueError(f"the {measure.name} is to be {both}; no design can be both")
+
+
+def _sides(limits: Mapping[Measure, float], sense: int) -> list[tuple[Measure, float, int]]:
+    """Limits as measure without its sign, value, and +1 for at most, -1 for at least."""
+    return [(m if m.sign > 0 else -m, m.sign * limit, m.sign * sense) for m, limit in limits.items()]
 
 
 def named_studies(studies: Study | Mapping[str, Study]) -> dict[str, Study]:
@@ -225,6 +237,7 @@ class Study(Generic[D]):
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
         refuse_bounds(self.declared, self.free)
+        object.__setattr__(self, "free", {name: (float(low), float(high)) for name, (low, high) in self.free.items()})
         for measure in self.minimise:
             if not isinstance(measure, Measure):
                 raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
@@ -354,8 +367,11 @@ class Study(Generic[D]):
 
     def with_weights(self, weights: ArrayLike) -> Self:
         """The same study with other weights in the objectives that are weighted sums."""
-        changed = (m.with_weights(weights) if isinstance(m, WeightedSum) else m for m in self.minimise)
-        return replace(self, minimise=tuple(changed))
+        given = listed(weights, "the tuple of weights", "measure")
+        changed = tuple(m.with_weights(given) if isinstance(m, WeightedSum) else m for m in self.minimise)
+        for i, weight in enumerate(given, 1):
+            _weight(weight, f"measure {i}")
+        return replace(self, minimise=changed)
 
     def replace(self, **changes: Any) -> Self:
         """The same study with some fields changed."""

@@ -11,7 +11,16 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from camkit import DoorHandleCam, Measure, UniversalJointShaft, explore, shaft_study
+from camkit import (
+    DoorHandleCam,
+    Measure,
+    Study,
+    TranslatingRollerCam,
+    UniversalJointShaft,
+    door_handle_study,
+    explore,
+    shaft_study,
+)
 from camkit.decision import side_by_side
 from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import CURVE_TABLE, stroke_radius
@@ -20,7 +29,7 @@ from camkit.panels.kit.controls import Download
 from camkit.panels.shortlist import shortlist
 from camkit.render.picture import draw, layout
 from camkit.units import mm
-from camkit.views import pressure_angle
+from camkit.views import mechanism, pressure_angle
 from camkit.views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
 from camkit.views.picture import Axes, Picture
 
@@ -284,3 +293,20 @@ def test_designs_without_a_profile_are_compared_in_numbers():
     press(panel, "Keep this design")
     assert panel.picture.views == (measures_overlaid,)
     assert line_of(panel.table, "outer diameter").texts == ("128.64 mm", "120 mm")
+
+
+def test_a_study_of_another_mechanism_is_refused_at_once():
+    with pytest.raises(ValueError, match=r" does not apply to a TranslatingRollerAnalysis, which has no "):
+        shortlist(explore(TranslatingRollerCam(), mechanism, free=["base_radius"]), door_handle_study())
+
+
+def test_a_measure_that_fails_for_one_design_keeps_the_others():
+    radius = Measure("radius", "mm", lambda a: {True: a.cam.base_radius}[a.cam.base_radius < 32 * mm])
+    app = explore(TranslatingRollerCam(groove=False), mechanism, free=["base_radius"])
+    kept = shortlist(app, Study(app.design, ["base_radius"], [radius]))
+    kept.keep()
+    before = kept.summary()
+    app.controls["base_radius"].box.text = "35"
+    kept.keep()
+    assert "This design is not kept: the radius cannot be computed: KeyError: False." in kept.banner.value
+    assert (list(kept.designs), kept.summary()) == (["A"], before)

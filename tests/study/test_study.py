@@ -281,3 +281,10 @@ def test_what_changes_nothing_that_is_judged_may_not_be_free():
     thick = Measure("thick", "mm", lambda a: np.maximum(a["r"], 95 * mm)[..., 0])
     assert can_study(minimise=(thick,), at_most={}, at_least={}).freeing(["radius"])  # where it is large
     assert can_study().freeing({"height": (1.1, 1.2)})  # of what cannot be built nothing is known
+
+
+def test_bounds_are_kept_as_numbers_however_they_are_given() -> None:
+    cam, goal = TranslatingRollerCam(), (Measure("radius", "mm", lambda a: a.cam.base_radius),)
+    pair = (30 * mm, 40 * mm)
+    given = [Study(cam, {"base_radius": bounds}, goal) for bounds in (pair, list(pair), np.array(pair))]
+    assert given[0] == given[1] == given[2]
