@@ -1,5 +1,6 @@
 """Units against the SI brochure's prefixes and the definitions of degree, turn and minute."""
 
+import re
 from fractions import Fraction
 from math import pi
 
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 
 import camkit
 from camkit.units import convert, factor, in_unit
-from camkit.units.typed import typed_number
+from camkit.units.typed import typed_number, typed_whole
 
 PREFIX = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1, "k": 1e3, "M": 1e6, "G": 1e9}
 SI = {"m": 1, "g": 1e-3, "s": 1, "rad": 1, "N": 1, "Pa": 1, "W": 1, "J": 1, "Hz": 1, "1": 1}
@@ -62,6 +63,7 @@ def test_one_unit_may_be_written_in_several_ways(same, other):
 @pytest.mark.parametrize("unit", [
     "furlong", "J/kg m", "m/s/s", "N**2", "m^", "m^99", "m^1e9", "2 mm", "/s", "/", "N/", "(N m", "N/(", "N/()",
     "kdeg", "mpsi",
+    "mm\n", "N\nm", "\nmm", "mm\r",
     " ", "mm ^2", "m" * 99, "<b>", "kN m " * 50, "^2", "m^2^2", "mm]", "1 mm",
 ])  # fmt: skip
 def test_what_is_no_product_of_powers_is_refused_in_a_sentence(unit):
@@ -76,6 +78,43 @@ def test_what_is_no_product_of_powers_is_refused_in_a_sentence(unit):
 def test_what_measures_something_else_is_not_converted(unit, into):
     with pytest.raises(ValueError, match=f"^{unit} cannot be converted into {into or 'a plain number'}$"):
         convert(1.0, unit, into)
+
+
+@pytest.mark.parametrize("unit", ["nm^9 nm^9 nm^9 nm^9 nm^9", "Gm^9 Gm^9 Gm^9 Gm^9 Gm^9 Gm^9", "1/(nm^9 nm^9 Gm^-9)"])
+def test_a_unit_that_a_computer_cannot_hold_is_refused(unit):
+    with pytest.raises(
+        ValueError, match=rf"^the unit {re.escape(repr(unit))} is too large or too small for a computer"
+    ):
+        factor(unit)
+
+
+@pytest.mark.parametrize(("value", "said"), [
+    (None, "what is given in m is None; it must be a number"),
+    (True, "what is given in m is True; it must be a number"),
+    ("1", "what is given in m is '1'; it must be a number"),
+    (1j, "what is given in m is 1j; it must be a number"),
+    (np.array([1.0]), r"what is given in m is array\(\[1.\]\); it must be a number"),
+    (10**400, "inf m is too large for a computer"),
+    (1e307, r"1e\+307 m is too large for a computer"),
+    (-5e-324, r"-4.94065645841247e-324 m is too small for a computer"),
+])  # fmt: skip
+def test_what_is_no_number_is_not_converted(value, said):
+    with pytest.raises(ValueError, match=f"^{said}$"):
+        convert(value, "m", "mm")
+
+
+def test_numbers_of_every_type_are_converted():
+    for one in (1, 1.0, np.float32(1), np.int64(1), Fraction(1)):
+        assert convert(one, "m", "mm") == 1000
+    assert convert(0, "m", "mm") == 0
+    assert np.isnan(convert(np.nan, "m", "mm"))
+
+
+@pytest.mark.parametrize("text", [None, 1.0, b"1"])
+def test_what_is_no_text_was_not_typed(text):
+    for read in (typed_number, lambda given: typed_whole(given, 1, 9)):
+        with pytest.raises(ValueError, match=f"^what is typed is {re.escape(repr(text))}; it must be a text$"):
+            read(text)
 
 
 def test_a_measure_and_a_quantity_may_have_any_unit():
@@ -105,7 +144,11 @@ def test_a_number_may_be_typed_with_its_unit(text, unit, meant):
     ("1,234 mm", "'1,234 mm' may be 1.234 or 1234; write"),
     ("in", "'in' is no number"),
     ("1e999 in", "'1e999 in' is too large"),
-    ("1e308 km", "'1e308 km' is too large"),
+    ("1e308 km", r"1e\+308 km is too large"),
+    ("1e-320 um", "'1e-320 um' is too small"),
+    ("5e-324 mm", "'5e-324 mm' is too small"),
+    ("1e-307 um", "1e-307 um is too small"),
+    ("3e-308 um", "3e-308 um is too small"),
     ("5 %", "% cannot be converted into mm"),
 ])  # fmt: skip
 def test_a_number_with_another_unit_is_refused(text, said):

@@ -11,7 +11,9 @@ number, and where a number is shown.  There its name may be any product of power
 
 import re
 from functools import lru_cache
-from math import pi
+from math import inf, pi
+from numbers import Real
+from sys import float_info
 from typing import Any, NamedTuple
 
 m = 1.0
@@ -71,6 +73,8 @@ _OTHERS = {
 _NAMES = ", ".join((*_SI, *(name for name in _OTHERS if name not in ("in", "°"))))
 
 _LONGEST = 40
+_LEAST = 1e-150
+"""A unit is worth more than this in SI, and less than its reciprocal: two of them still have a product."""
 _POWER = re.compile(r"([A-Za-zµμ%°]+)(?:\^([+-]?[0-9](?:\.[0-9]{1,2})?))?")
 _BETWEEN = re.compile(r"\s*[*·]\s*|\s+")
 
@@ -96,19 +100,33 @@ def in_unit(value: Any, unit: str) -> Any:
 def convert(value: float, unit: str, into: str) -> float:
     """``value``, which is given in ``unit``, expressed in ``into``.
 
-    Raises ``ValueError`` in a sentence where the two measure different things.  An angle is a thing of its own: ``rpm``
+    Raises ``ValueError`` in a sentence where the two measure different things, for what is no real number, and where a
+    computer cannot hold the result with all its digits.  An angle is a thing of its own: ``rpm``
     goes into ``deg/s``, not into ``Hz``.
     """
     given, wanted = _unit(unit), _unit(into)
     if given.dimension != wanted.dimension:
         raise ValueError(f"{unit} cannot be converted into {into or 'a plain number'}")
-    return in_unit(float(value) * given.factor, into)
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise ValueError(f"what is given in {unit or 'plain numbers'} is {repr(value)[:_LONGEST]}; it must be a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = inf if value > 0 else -inf
+    si = number * given.factor
+    converted = in_unit(si, into)
+    if 0 < abs(value) < inf and not all(float_info.min <= abs(held) < inf for held in (si, converted)):
+        told = "large" if inf in (abs(si), abs(converted)) else "small"
+        raise ValueError(f"{number:.15g} {unit}".rstrip() + f" is too {told} for a computer")
+    return converted
 
 
 def _unit(unit: str) -> _Unit:
     if not isinstance(unit, str):
         raise ValueError(f"the unit must be a text, a product of powers of {_NAMES}")
     found = _parsed(unit) if len(unit) <= _LONGEST else None
+    if found is not None and not _LEAST < found.factor < 1 / _LEAST:
+        raise ValueError(f"the unit {unit!r} is too large or too small for a computer in SI")
     if found is None:
         told = unit if len(unit) <= _LONGEST else f"{unit[:_LONGEST]}..."
         raise ValueError(f"the unit {told!r} is not known; it must be a product of powers, as in N/mm^2, of {_NAMES}")
@@ -118,6 +136,8 @@ def _unit(unit: str) -> _Unit:
 @lru_cache(512)
 def _parsed(unit: str) -> _Unit | None:
     """What ``unit`` is; ``None`` for what is no product of powers, or ambiguous as ``J/kg m`` is."""
+    if len(f"{unit}.".splitlines()) > 1:
+        return None
     above, divided, below = unit.partition("/")
     first = [] if unit == "" or above.strip() == "1" else _powers(above)
     second = _powers(below[1:-1]) if below[:1] + below[-1:] == "()" else _powers(below) if divided else []

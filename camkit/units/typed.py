@@ -11,6 +11,7 @@ ValueError: '1,234' may be 1.234 or 1234; write 1.234 or 1234
 from __future__ import annotations
 
 import re
+from sys import float_info
 
 from . import convert
 
@@ -29,13 +30,13 @@ def typed_number(text: str, unit: str | None = None) -> float:
     Raises ``ValueError`` in a sentence for everything else: fractions, separated thousands, nothing at all, units that
     are not known or measure something else.
     """
-    plain = text.strip().translate(_MINUS)
+    plain = _plain(text)
     if not plain:
         raise ValueError("an empty box is no number")
     if unit is not None and len(plain) <= LONGEST and not _NUMBER.fullmatch(plain):
         with_unit = _WITH_UNIT.fullmatch(plain)
         if with_unit:
-            return _sized(convert(_plain_number(with_unit[1], text), with_unit["unit"], unit), text)
+            return convert(_plain_number(with_unit[1], text), with_unit["unit"], unit)
     return _plain_number(plain, text)
 
 
@@ -49,15 +50,18 @@ def _plain_number(plain: str, text: str) -> float:
             f"write {plain.replace(',', '.')} or {plain.replace(',', '')}"
         )
     value = float(plain.replace(",", "."))
-    if not value and re.search("[1-9]", plain.lower().partition("e")[0]):
+    if abs(value) < float_info.min and re.search("[1-9]", plain.lower().partition("e")[0]):
         raise ValueError(f"{_short(text)} is too small for a computer")
-    return _sized(value, text)
-
-
-def _sized(value: float, text: str) -> float:
     if abs(value) == float("inf"):
         raise ValueError(f"{_short(text)} is too large for a computer")
     return value
+
+
+def _plain(text: str) -> str:
+    """What was typed, without spaces around it and with a minus that a computer knows."""
+    if not isinstance(text, str):
+        raise ValueError(f"what is typed is {repr(text)[:LONGEST]}; it must be a text")
+    return text.strip().translate(_MINUS)
 
 
 def typed_whole(text: str, low: float, high: float) -> int:
@@ -66,7 +70,7 @@ def typed_whole(text: str, low: float, high: float) -> int:
     >>> typed_whole("200", 1, 1000)
     200
     """
-    plain = text.strip().translate(_MINUS)
+    plain = _plain(text)
     wanted = f"a whole number from {low:.0f} to {high:.0f} is wanted"
     if len(plain) > LONGEST or not re.fullmatch("[+-]?[0-9]+", plain):
         raise ValueError(
