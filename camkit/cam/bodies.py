@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Body, Disc, Outline, polar_angle
+from ..quantities import refuse_population
 from ..quantities.types import Value
 
 PIN = np.zeros((2, 1))
@@ -15,6 +16,7 @@ PIN = np.zeros((2, 1))
 
 def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
     """The cam: solid or groove, pitch curve, inner flank and, of a ``groove``, outer flank, with its axis."""
+    refuse_population(analysis, "what is drawn")
     inner, outer = analysis.profile, analysis.outer_profile
     solid = np.concatenate([inner, outer[:, ::-1]], axis=1) if groove else inner
     turned = {"angle": analysis.turn}

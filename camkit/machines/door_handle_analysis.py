@@ -59,9 +59,9 @@ class DoorHandleAnalysis:
     @property
     def bodies(self) -> tuple[Body, ...]:
         """What is drawn of one design: the cam with its groove, and both cranks with their rollers."""
-        radius, cranks = self.cam.roller_radius, self.cranks.items()
+        disk, radius, cranks = bodies.disk(self, True), self.cam.roller_radius, self.cranks.items()
         arms = [(*bodies.rocker(name, pivot, end), bodies.roller(name, end, radius)) for name, (pivot, end) in cranks]
-        return (*bodies.disk(self, True), *(body for arm in arms for body in arm))
+        return (*disk, *(body for arm in arms for body in arm))
 
     @property
     def max_curvature(self) -> Value:

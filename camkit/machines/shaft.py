@@ -15,7 +15,7 @@ import numpy as np
 
 from ..data.materials import MATERIALS
 from ..data.tubes import TUBE_FILES, standard_tubes
-from ..quantities import Design, Measure, fails, quantities_of, quantity, value_of, words
+from ..quantities import Design, Measure, fails, quantities_of, quantity, refuse_population, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
 from ..study.design_map import DesignMap
@@ -128,7 +128,9 @@ class UniversalJointShaft(Design):
     @property
     def sizes(self) -> TubeSizes:
         """Which diameters the shaft's other data allow, found once for all tubes that differ in these alone."""
-        return _sizes(self.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()}))
+        others = self.replace(**{name: float(np.mean(ends)) for name, ends in PAPER_SPACE.items()})
+        refuse_population(others, "the shaft whose sizes are wanted")
+        return _sizes(others)
 
     def analyse(self, n: int = 1) -> ShaftAnalysis:
         """Stresses, twist and speeds; ``n`` is there so that every design is analysed alike (a tube has no angle)."""

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..quantities import declarations
+from ..quantities import declarations, refuse_population
 from ..quantities.types import Array
 
 
@@ -113,6 +113,7 @@ class ShaftAnalysis:
     @property
     def here(self) -> np.ndarray:
         """Where the tube is on the plane of its sizes, ``(2,)`` m."""
+        refuse_population(self.shaft, "the shaft whose place is wanted")
         return np.array([self.shaft.outer_diameter, self.shaft.inner_diameter])
 
     @property
