@@ -325,3 +325,23 @@ def test_a_measures_words():
     assert Measure("margin", "", lambda a: a).label == "margin"
     assert Measure("margin", "", lambda a: a).text(np.float64(0.5)) == "0.5"
     assert height.text(np.inf) == "inf mm"
+
+
+@pytest.mark.parametrize(("wrong", "said"), [
+    ({"low": 2.0, "high": 1.0}, "the range of x goes from 2 to 1; the first must be below the second"),
+    ({"low": -np.inf}, "the low is -inf; it must be a finite number"),
+    ({"default": -1.0}, "the default of x is -1 mm; it must be a finite number above 0 mm"),
+])  # fmt: skip
+def test_a_declaration_that_contradicts_itself_is_refused(wrong, said):
+    with pytest.raises(ValueError, match=f"^{said}$"):
+        quantity(**{"symbol": "x", "default": 1.0, "low": 0.1, "high": 2.0, "unit": "mm", "meaning": "m"} | wrong)
+
+
+def test_the_options_of_a_choice_are_listed():
+    for options in (None, 3, "abc"):
+        with pytest.raises(ValueError, match=r"^the tuple of options is .*; it must be a tuple"):
+            choice("x", 1, options, "m")
+
+
+def test_nothing_public_changes_a_design_in_place():
+    assert not hasattr(TranslatingRollerCam(), "keep")

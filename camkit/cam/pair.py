@@ -16,7 +16,7 @@ import numpy as np
 from ..extrema import Extreme
 from ..geometry import Body, Outline
 from ..motion.resolution import Resolution
-from ..quantities import Design, choice, counted, quantity
+from ..quantities import Design, choice, counted, quantities_of, quantity, words
 from ..units import rpm
 from .analysis import CamAnalysis
 from .conjugate import PairForces, pair_forces
@@ -102,8 +102,13 @@ class ConjugatePair(Design):
         """Geometry and forces of both cams at ``n`` cam angles over the motion's whole span."""
         turn = np.linspace(0, 1, counted(n, "cam angles")) * self.cam.motion.span
         analysis = ConjugatePairAnalysis(self, turn)
-        for curve in analysis.curves.values():
-            curve.refuse_impossible()
+        analysis.first.refuse_impossible()
+        try:
+            analysis.second.refuse_impossible()
+        except ValueError as refusal:
+            own = quantities_of(self)
+            sizes = ", ".join(f"the {words(name)} is {own[name].text(getattr(self, name))}" for name in self._given)
+            raise ValueError(f"the second cam cannot be built; {sizes}: {refusal}") from None
         return analysis
 
 

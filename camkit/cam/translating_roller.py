@@ -76,7 +76,7 @@ class TranslatingRollerCam(Design):
                 f"the offset of the follower is {self.offset / mm:.4g} mm; base circle and roller make "
                 f"{self.prime_radius / mm:.4g} mm, and it must stay below that"
             )
-        self.keep(abs(self.offset) < self.prime_radius)
+        self._keep(abs(self.offset) < self.prime_radius)
 
     @property
     def prime_radius(self) -> Value:

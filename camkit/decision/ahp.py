@@ -76,6 +76,8 @@ class Judgements:
         wrong = [name for name in names if not isinstance(name, str) or not name.strip()]
         if wrong:
             raise ValueError(f"the name of a criterion is {shown(wrong[0])}; it must be a text")
+        if twice := [name for i, name in enumerate(names) if name in names[:i]]:
+            raise ValueError(f"two criteria have the name {shown(twice[0])}; each must have a name of its own")
         if names and len(names) != len(matrix):
             raise ValueError(f"there are {len(matrix)} rows of judgements for {len(names)} criteria")
         refuse_method(self.method)

@@ -71,7 +71,7 @@ class CamLever(FreeLawCam):
                 f"the stroke is {self.stroke / mm:.4g} mm; a lever of {self.lever / mm:.4g} mm "
                 f"gives less than {2 * self.lever / mm:.4g} mm"
             )
-        self.keep(reaches)
+        self._keep(reaches)
         self._refuse_force_curve()
         self.cam  # noqa: B018 - refuses what cannot be built
 

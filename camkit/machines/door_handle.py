@@ -101,7 +101,7 @@ class DoorHandleCam(Design):
                 f"an arm of {self.relief_arm / mm:.4g} mm at {self.relief_centre_distance / mm:.4g} mm reaches "
                 f"{low:.4g} to {high:.4g} mm"
             )
-        self.keep(shares & fits & reaches)
+        self._keep(shares & fits & reaches)
 
     @property
     def lift_cam_angle(self) -> Any:

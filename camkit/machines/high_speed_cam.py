@@ -104,7 +104,7 @@ class HighSpeedCam(FreeLawCam):
                 f"the arm swings over {moving / deg:.4g} deg of the cam; there are 360 deg, and two dwells "
                 "need some of them"
             )
-        self.keep(fits)
+        self._keep(fits)
 
     def _refuse_sizes(self) -> None:
         L, l, psi = self.centre_distance, self.arm_length, self.end_angle
@@ -125,7 +125,7 @@ class HighSpeedCam(FreeLawCam):
                 f"the smallest radius r_k1 of the profile is {self.min_radius / mm:.4g} mm; it must be above 0 mm: "
                 f"the roller of {self.roller_radius / mm:.4g} mm covers the cam axis"
             )
-        self.keep(reaches & starts & clear)
+        self._keep(reaches & starts & clear)
 
     @property
     def end_angle(self) -> Value:

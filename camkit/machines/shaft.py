@@ -72,7 +72,7 @@ class UniversalJointShaft(Design):
                 f"the joint angle beta is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
             )
         in_order = (self.inner_diameter < self.outer_diameter) & (self.speed <= self.max_speed)
-        self.keep(in_order & (self.joint_angle < np.pi / 2))
+        self._keep(in_order & (self.joint_angle < np.pi / 2))
 
     def made_of(self, name: str) -> UniversalJointShaft:
         """The same shaft of another of `MATERIALS`: moduli, density and allowable shear stress change.

@@ -88,7 +88,7 @@ class ValveCam(Design):
                 f"the base radius is {self.base_radius / mm:.4g} mm and the ramp {self.ramp_height / mm:.4g} mm high; "
                 "the base circle must keep some radius"
             )
-        self.keep(self._exponents_differ & self._fits_the_turn & (self.base_radius > self.ramp_height))
+        self._keep(self._exponents_differ & self._fits_the_turn & (self.base_radius > self.ramp_height))
 
     @property
     def _exponents(self) -> tuple[Value, ...]:

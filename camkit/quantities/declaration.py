@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 
 from ..units import factor, in_unit
-from .kinds import columns, number, one_number, refuse_fields, refuse_kinds, shown, whole
+from .kinds import columns, listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
 from .types import Value
 
 OURS = __name__.partition(".")[0]
@@ -74,6 +74,12 @@ class Quantity:
     def __post_init__(self) -> None:
         refuse_kinds(self)
         self.factor  # noqa: B018  refuses what is no unit
+        if not self.low < self.high:
+            told = f"from {self.low:g} to {self.high:g}"
+            raise ValueError(f"the range of {self.symbol} goes {told}; the first must be below the second")
+        if not self.allows(self.default * self.factor):
+            told = f"{self.default:g} {self.unit}".rstrip()
+            raise ValueError(f"the default of {self.symbol} is {told}; it must be {self.possible}")
 
     @cached_property
     def factor(self) -> float:
@@ -257,7 +263,7 @@ def choice(symbol: str, default: object, options: Sequence[Any] | Mapping[str, A
 
     ``says`` what the options leave to their owner, such as the letter of numbers in a row, by the name of their field.
     """
-    options = options if isinstance(options, Mapping) else tuple(options)
+    options = options if isinstance(options, Mapping) else listed(options, "the tuple of options", "option")
     return field(default=default, metadata={"declared": Choice(symbol, default, options, meaning), "says": says})
 
 
@@ -369,9 +375,9 @@ class Declared:
         if type(value) is float:
             declared.remark(name, value)
         else:
-            self.keep(ok)
+            self._keep(ok)
 
-    def keep(self, ok: Any) -> None:
+    def _keep(self, ok: Any) -> None:
         """Members of a population for which ``ok`` does not hold become ``nan`` in every number that is a column.
 
         A number that all members share stays one, so that what follows from it is worked out once.

@@ -112,3 +112,6 @@ def test_the_sizes_of_the_second_cam_are_those_that_its_follower_has():
         with_quantities(pair, {"cam.groove": "groove"})
     with pytest.raises(ValueError, match=r"^the rollers' centres are 20 mm apart; the first stands 38 mm above"):
         ConjugatePair(distance=20 * mm)
+    low = r"^the second cam cannot be built; the distance is 50 mm, the roller radius is 8 mm: the roller's centre "
+    with pytest.raises(ValueError, match=low):
+        ConjugatePair(distance=50 * mm).analyse()

@@ -91,6 +91,7 @@ def test_a_chooser_takes_judgements_for_weights(rule):
         (["a", "b"], [1, 2, 3], "eigenvector", "there are 3 rows of judgements for 2 criteria"),
         ("ab", [1], "eigenvector", "the list of names is 'ab'; it must be a tuple, with a place for each criterion"),
         (["a", 5], [1], "eigenvector", "the name of a criterion is 5; it must be a text"),
+        (["<b>"] * 2, [3], "eigenvector", "two criteria have the name '<b>'; each must have a name of its own"),
         (["a", "b"], ["x"], "eigenvector", "'x' is no number above 0; 3, 1/5 or 0.4 are"),
         (["a", "b"], [3], "mean", "the method is 'mean'; there are 'eigenvector' and 'geometric'"),
     ],
