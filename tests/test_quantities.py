@@ -20,6 +20,7 @@ from camkit import (
     Study,
     TranslatingRollerCam,
     UniversalJointShaft,
+    rssr_study,
 )
 from camkit.cam import ContactPair
 from camkit.motion import LAWS, Cycloidal, Poly345
@@ -98,10 +99,22 @@ def test_what_is_possible_is_said_and_checked_alike(limits, words, allowed, refu
     assert declared.allows(column).ravel().tolist() == [True] * len(allowed) + [False] * len(refused)
 
 
+@pytest.mark.parametrize(
+    "build",
+    [lambda x: HighSpeedCam(arm_length=x, centre_distance=x), lambda x: OscillatingRollerCam(arm_length=x),
+     lambda x: rssr_study().start.replace(rocker=x), lambda x: TranslatingRollerCam(base_radius=x)],
+)  # fmt: skip
+@pytest.mark.parametrize("size", [5e-324, 1e-300, 1e-200, 1e-20])
+def test_a_number_above_0_of_an_absurdly_small_size_is_refused(build, size):
+    """Before anything is divided by it, which would overflow."""
+    with pytest.raises(ValueError, match=r"it must be a finite number above 0 mm and at least [0-9.e-]+ mm$"):
+        build(size)
+
+
 @given(st.floats(allow_nan=True, allow_infinity=True))
 @settings(deadline=None)
 def test_one_number_is_kept_or_refused(value):
-    possible = 0 < value <= 900  # a thousand times the 900 mm that a slider offers
+    possible = 9e-13 <= value <= 900  # a thousand times the 900 mm that a slider offers, or a million-millionth of it
     if possible:
         assert Crowbar(length=value).length == value
     else:

@@ -22,6 +22,8 @@ from .types import Value
 OURS = __name__.partition(".")[0]
 BEYOND = 1000
 """How many times larger than all that a slider offers a number may be, unless its declaration says ``at_most``."""
+BELOW = 1e-12
+"""Such a share of the largest that a slider offers is the least size of a number that must be above 0."""
 MANY = 8
 """So many options of a choice are named in a sentence."""
 FAR = 4
@@ -59,6 +61,7 @@ class Quantity:
 
     ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the largest of
     ``low, high, default`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
+    What must be above 0 is at least `BELOW` times that largest, so that nothing overflows when one divides by it.
     """
 
     symbol: str
@@ -100,14 +103,21 @@ class Quantity:
         """The largest size in SI."""
         return self.most * self.factor
 
+    @cached_property
+    def _least(self) -> float:
+        """What a number above 0 must be at least, SI."""
+        return self._top * BELOW * self.factor if self.above == 0 else -np.inf
+
     @property
     def possible(self) -> str:
         """The hard limit in words; the largest size is named where the declaration gives it."""
         return self._possible(self.at_most is not None)
 
     def possible_for(self, value: Any) -> str:
-        """The hard limit in words for somebody who wanted ``value`` (SI): the largest size too, if that is missed."""
-        return self._possible(np.isfinite(value) and abs(value) > self._most)
+        """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
+        said = self._possible(np.isfinite(value) and abs(value) > self._most)
+        small = self.at_least is None and 0 < value < self._least
+        return f"{said} and at least {self._top * BELOW:.6g} {self.unit}".rstrip() if small else said
 
     def _possible(self, most: object) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -126,7 +136,7 @@ class Quantity:
         if self.at_least is not None:
             return ok & (value >= self.at_least * self.factor)
         if self.above is not None:
-            return ok & (value > self.above * self.factor)
+            return ok & (value > self.above * self.factor) & (value >= self._least)
         return ok
 
     def text(self, value: float) -> str:

@@ -127,7 +127,7 @@ def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> Non
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"{told}; they must be finite, the first below the second")
     if not (declared.allows(low) and declared.allows(high)):
-        possible = declared.possible if declared.allows(high) else declared.possible_for(high)
+        possible = declared.possible_for(low if declared.allows(high) else high)
         raise ValueError(f"{told}; each must be {possible}")
     declared.remark(name, float(low))
     declared.remark(name, float(high))
