@@ -19,7 +19,7 @@ FILE, FUNCTION, MEDIAN, STEPS = 400, 40, 4, 3
 """The most lines of a file and of a function, the most of the median function, the most steps up to a class's last
 base of the package."""
 
-LARGER = {"quantities/declaration.py": 410}
+LARGER: dict[str, int] = {}
 """Files that are still larger, with the lines that they have; none of them may grow."""
 DEEPER = {"HighSpeedAnalysis": 4, "Glimpse": 4, "Interval": 4, "CamLeverAnalysis": 5}
 """Classes that still stand deeper, with their steps."""

@@ -32,9 +32,7 @@ A design is a tree: it holds a motion, loads, materials, and these hold laws.  E
 from dataclasses import dataclass  # noqa: F401 - for the example above
 
 from .declaration import (
-    Analysable,
     Choice,
-    D,
     Declared,
     Quantity,
     UnitRemark,
@@ -44,13 +42,11 @@ from .declaration import (
     fails,
     numbered,
     quantity,
-    refuse_design,
-    refuse_population,
     row,
     unremarked,
     words,
 )
-from .design import Design, measures_of, refuse_unmeasured
+from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
 from .measure import Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 

@@ -11,12 +11,12 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
+from typing import Any
 
 import numpy as np
 
 from ..units import factor, in_unit
-from .kinds import columns, listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
+from .kinds import listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
 from .types import Value
 
 OURS = __name__.partition(".")[0]
@@ -302,35 +302,6 @@ def declarations(design: object) -> dict[str, Quantity | Choice]:
 @cache
 def _declared(kind: type) -> dict[str, Quantity | Choice]:
     return {f.name: f.metadata["declared"] for f in dataclasses.fields(kind) if "declared" in f.metadata}
-
-
-@runtime_checkable
-class Analysable(Protocol):
-    """A design that can be analysed, such as a cam."""
-
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-
-    def analyse(self, at: Any = ..., /) -> Any:
-        """Everything that follows from the design, at so many positions or at these."""
-        ...
-
-
-D = TypeVar("D", bound=Analysable)
-"""The kind of design that a study is of, and so its front and its minimum."""
-
-
-def refuse_design(design: object, what: str) -> None:
-    """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
-    if not isinstance(design, Analysable) or isinstance(design, type):
-        raise ValueError(f"{what} is {shown(design)}; it must be a design that can be analysed, such as a cam")
-    refuse_population(design, what)
-
-
-def refuse_population(thing: object, what: str) -> None:
-    """``ValueError`` in a sentence for a population of designs, or what holds one, such as its analysis."""
-    for part in (thing, *getattr(thing, "__dict__", {}).values()):
-        if isinstance(part, Declared) and columns(part):
-            raise ValueError(f"{what} is a population, a {type(part).__name__} with columns; it must be one design")
 
 
 def fails(ok: Any) -> bool:

@@ -3,15 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
 from .declaration import Choice, Declared, Quantity, declarations, words
-from .kinds import refuse_kinds, refuse_lengths
+from .kinds import columns, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, table
 from .measure import Measure
 from .tree import choices_of, declared_in, refuse_no_design, value_of
+
+
+@runtime_checkable
+class Analysable(Protocol):
+    """A design that can be analysed, such as a cam."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def analyse(self, at: Any = ..., /) -> Any:
+        """Everything that follows from the design, at so many positions or at these."""
+        ...
+
+
+D = TypeVar("D", bound=Analysable)
+"""The kind of design that a study is of, and so its front and its minimum."""
+
+
+def refuse_design(design: object, what: str) -> None:
+    """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
+    if not isinstance(design, Analysable) or isinstance(design, type):
+        raise ValueError(f"{what} is {shown(design)}; it must be a design that can be analysed, such as a cam")
+    refuse_population(design, what)
+
+
+def refuse_population(thing: object, what: str) -> None:
+    """``ValueError`` in a sentence for a population of designs, or what holds one, such as its analysis."""
+    for part in (thing, *getattr(thing, "__dict__", {}).values()):
+        if isinstance(part, Declared) and columns(part):
+            raise ValueError(f"{what} is a population, a {type(part).__name__} with columns; it must be one design")
 
 
 class Design(Declared):
@@ -29,8 +58,8 @@ class Design(Declared):
 
     def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
-        shown = (f"{words(path)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
-        return {"text/plain": f"{type(self).__name__}: {', '.join(shown)}", "text/html": self._repr_html_()}
+        told = (f"{words(path)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
+        return {"text/plain": f"{type(self).__name__}: {', '.join(told)}", "text/html": self._repr_html_()}
 
     def _repr_html_(self) -> str:
         rows = [
