@@ -18,7 +18,8 @@ import numpy as np
 from ..contact import LineContact, contact_modulus, line_contact
 from ..data.materials import MATERIALS
 from ..quantities import Design, choice, quantity
-from ..quantities.kinds import a_number, applied, numbers, refuse_arguments, refuse_shapes, shown
+from ..quantities.applied import applied
+from ..quantities.kinds import a_number, numbers, refuse_arguments, refuse_shapes, shown
 from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:

@@ -11,8 +11,7 @@ import inspect
 import re
 import types
 import typing
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence, Sized
-from contextlib import contextmanager
+from collections.abc import Callable, Container, Mapping, Sequence, Sized
 from functools import cache
 from typing import Any, Generic, NamedTuple
 
@@ -243,29 +242,6 @@ def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[inspect.Paramet
     parameters = inspect.signature(function).parameters.values()
     kinds = ((p, _kind(hints[p.name])) for p in parameters if p.name in hints)
     return tuple((parameter, kind) for parameter, kind in kinds if kind is not None)
-
-
-@contextmanager
-def applied(what: str, thing: object) -> Iterator[None]:
-    """A context in which ``what`` asks ``thing`` for its parts: ``ValueError`` in a sentence where it cannot."""
-    try:
-        yield
-    except AttributeError as lacking:
-        why = f", which has no {lacking.name.replace('_', ' ')}" if lacking.name else ""
-        raise ValueError(f"{what} does not apply to {shown(thing)}{why}") from lacking
-    except ValueError:
-        raise
-    except Exception as error:
-        raise ValueError(f"{what} cannot be computed: {raised(error)}") from error
-
-
-def raised(error: Exception) -> str:
-    """The kind of an error of Python and what it says.
-
-    >>> raised(KeyError("k")), raised(MemoryError())
-    ("KeyError: 'k'", 'MemoryError')
-    """
-    return f"{type(error).__name__}: {error}".removesuffix(": ")
 
 
 def refuse_empty(given: Sized, what: str) -> None:

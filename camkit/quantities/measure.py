@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..units import factor, in_unit
-from .kinds import applied, one_number, plain, refuse_kinds, shown
+from .applied import applied
+from .kinds import one_number, plain, refuse_kinds, shown
 
 
 @dataclass(frozen=True)

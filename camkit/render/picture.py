@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ..quantities import Analysable, refuse_design, refuse_population
-from ..quantities.kinds import a_number, applied, refuse_arguments
+from ..quantities.applied import applied
+from ..quantities.kinds import a_number, refuse_arguments
 from ..study.study import refuse_limits
 from ..units import deg
 from ..views.defaults import default_views

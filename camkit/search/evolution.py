@@ -12,7 +12,7 @@ from pymoo.core.repair import Repair
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
-from ..quantities.kinds import applied
+from ..quantities.applied import applied
 from ..study.study import Study
 from .checkpoint import WORST
 from .protocol import on_grid

@@ -10,7 +10,7 @@ from typing import Any
 import anywidget
 import ipywidgets as w
 
-from ...quantities.kinds import raised
+from ...quantities.applied import raised
 from .banner import Banner
 from .picture import LivePicture
 
