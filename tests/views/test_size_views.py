@@ -49,6 +49,16 @@ def xy(ax, key):
     return np.array(artist_of(ax, key).get_data(), dtype=float)
 
 
+def as_drawn_anew(axes, analysis, views, **position) -> None:
+    """The axes hold what they would hold if the views were drawn for the first time."""
+    _, fresh = drawn(analysis, *views, **position)
+    for ax, new in zip(axes, fresh, strict=True):
+        before, after = data_of(new), data_of(ax)
+        assert before.keys() == after.keys()
+        for key in before:
+            np.testing.assert_array_equal(after[key], before[key], err_msg=key)
+
+
 def redrawn_in_place(first, others, views, **position) -> None:
     figure, axes = drawn(first, *views, **position)
     artists = [set(moving(ax)) for ax in axes]
@@ -56,12 +66,7 @@ def redrawn_in_place(first, others, views, **position) -> None:
         draw(other, axes, views, **position)
         assert [set(moving(ax)) for ax in axes] == artists
     figure.canvas.draw()
-    _, fresh = drawn(first, *views, **position)
-    for ax, new in zip(axes, fresh, strict=True):
-        before, after = data_of(new), data_of(ax)
-        assert before.keys() == after.keys()
-        for key in before:
-            np.testing.assert_array_equal(after[key], before[key], err_msg=key)
+    as_drawn_anew(axes, first, views, **position)
 
 
 @pytest.mark.filterwarnings("error")
@@ -73,12 +78,7 @@ def test_the_shafts_views_move_what_they_drew() -> None:
     for other in (*OTHERS, first):
         draw(other.analyse(), axes, views)
         axes[0].figure.canvas.draw()
-    _, fresh = drawn(first.analyse(), *views)
-    for ax, new in zip(axes, fresh, strict=True):
-        before, after = data_of(new), data_of(ax)
-        assert before.keys() == after.keys()
-        for key in before:
-            np.testing.assert_array_equal(after[key], before[key], err_msg=key)
+    as_drawn_anew(axes, first.analyse(), views)
 
 
 @pytest.mark.filterwarnings("error")
