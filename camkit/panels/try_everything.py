@@ -8,6 +8,7 @@ from typing import Any
 import ipywidgets as w
 
 from ..quantities.kinds import refuse_arguments
+from .kit.banner import Banner
 from .kit.number import NumberBox
 
 KINDS = (
@@ -42,7 +43,8 @@ def _narrower(band: w.FloatRangeSlider) -> list[Any]:
 def try_everything(panel: w.Box) -> str:
     """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
 
-    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back.
+    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or a measure or a view
+    could not be computed.
     """
     refuse_arguments(try_everything, locals())
     controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
@@ -53,8 +55,15 @@ def try_everything(panel: w.Box) -> str:
             before = control.value
             for value in [*_others(control), before]:
                 control.value = value
+                _refuse_failure(panel)
             assert control.value == before, f"{control.description or type(control).__name__} did not come back"
     return f"{len(controls)} control{'' if len(controls) == 1 else 's'} moved"
+
+
+def _refuse_failure(panel: w.Box) -> None:
+    """``AssertionError`` if the panel says that a measure or a view raised an error of Python."""
+    for banner in _inside(panel):
+        assert not (isinstance(banner, Banner) and "cannot be computed:" in banner.value), banner.value
 
 
 def _inside(box: w.Widget) -> list[w.Widget]:

@@ -1578,3 +1578,5 @@ def test_a_view_that_breaks_is_not_silent():
     app = explore(DoorHandleCam(lift_arm=50.9999 * mm), view, free=["lift_arm"], **SMALL)
     app.controls["lift_arm"].slider.value = 51.5
     assert "the last one stays: the view view cannot be computed: RuntimeError: a broken view" in alert(app)
+    with pytest.raises(AssertionError, match="a broken view"):
+        try_everything(app)
