@@ -20,7 +20,7 @@ from ..cam import bodies
 from ..cam.loads import Table, as_table, tabulated
 from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
-from ..quantities import Measure, fails, quantity
+from ..quantities import Measure, fails, quantity, unremarked
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.study import Study
@@ -61,6 +61,9 @@ class CamLever(FreeLawCam):
     pivot_height: float = quantity("B", 180, 50, 300, "mm", "cam axis to lever pivot, upright")
     force_curve: Table | Callable[[Any], Any] = ()
 
+    offers: ClassVar[tuple[str, ...]] = ("bodies", "motion", "pressure_angle", "stress", "wear", "pressure", "way")
+    """The shapes and curves that are shown of its analysis where nobody chooses, in this order."""
+
     def __post_init__(self) -> None:
         if not callable(self.force_curve):
             object.__setattr__(self, "force_curve", as_table("force curve", "way", "force", self.force_curve))
@@ -98,9 +101,9 @@ class CamLever(FreeLawCam):
         return 2 * np.arcsin(self.stroke / (2 * self.lever))
 
     @property
-    def inertia_speed2(self) -> Any:
-        """``J omega^2`` with ``J = j x^2``, N m."""
-        return self.lever_mass * self.lever**2 * self.shaft_speed**2
+    def inertia(self) -> Any:
+        """``J = j x^2`` of the lever, kg m^2."""
+        return self.lever_mass * self.lever**2
 
     def force(self, way: Any) -> Any:
         """``P``: of the work on the slider at its ``way`` from the lowest position, N."""
@@ -109,80 +112,41 @@ class CamLever(FreeLawCam):
 
     @cached_property
     def cam(self) -> HighSpeedCam:
-        """The cam that swings the lever."""
+        """The cam that swings the lever: its load is that at 1 rad/s, its speed in rad/s."""
         shared = {f.name: getattr(self, f.name) for f in fields(FreeLawCam)}
-        return HighSpeedCam(
-            **shared,
-            load=SliderLoad(self.lever, self.weight, self.inertia_speed2, self.force),
-            centre_distance=np.hypot(self.slider_distance - self.lever, self.pivot_height),
-            swing=self.swing,
-            rise_angle=self.rise_angle,
-            return_angle=self.return_angle,
-        )
+        with unremarked():
+            return HighSpeedCam(
+                **shared,
+                load=SliderLoad(self.lever, self.weight, self.inertia, self.force),
+                centre_distance=np.hypot(self.slider_distance - self.lever, self.pivot_height),
+                swing=self.swing,
+                rise_angle=self.rise_angle,
+                return_angle=self.return_angle,
+                speed=self.shaft_speed,
+            )
 
-    def analyse(self, n: int = 401) -> CamLeverAnalysis:
+    def analyse(self, n: int = 401) -> HighSpeedAnalysis:
         """Geometry and forces at ``n`` even cam angles of either interval, and some of the dwells."""
-        analysis = CamLeverAnalysis(self.cam, *self.cam.angles(n), self)
-        analysis.refuse_impossible()
-        return analysis
+        return self.cam.analysed(n, self)
 
-
-@dataclass(frozen=True)
-class CamLeverAnalysis(HighSpeedAnalysis):
-    """What follows from a `CamLever`: all of its cam's `HighSpeedAnalysis`, the slider's way and what closes it."""
-
-    offers: ClassVar[tuple[str, ...]] = (
-        "bodies",
-        "motion",
-        "pressure_angle",
-        "stress",
-        "wear",
-        "hertz_pressure",
-        "way",
-    )
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
-
-    press: CamLever
-
-    @cached_property
-    def way(self) -> np.ndarray:
-        """The slider's way over the turn, m."""
-        return self.cam.load.way(self.motion, self.cam.swing)
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
+    def drawn(self, analysis: HighSpeedAnalysis) -> tuple[Body, ...]:
         """Cam, arm with roller, lever and slider as they stand: the slider goes up and down, the lever level at half.
 
         The arm lies under the cam, its pivot below the cam axis and beside it, where the paper's sizes put it.
         """
-        press, x = self.press, self.press.lever
-        down = -np.arctan2(press.pivot_height, press.slider_distance - x)
-        pivot, centre = (rotated(point * _mirror(point), down) for point in (self.cranks["arm"][0], self.roller_centre))
-        tilt = self.motion.s - press.swing / 2
-        end = np.reshape(pivot, (2, 1)) + x * np.stack([np.cos(tilt), np.sin(tilt)])
+        down, upright = -np.arctan2(self.pivot_height, self.slider_distance - self.lever), analysis.cranks["arm"]
+        disk = [_mirrored(part, down) for part in bodies.disk(analysis, False)]
+        pivot, centre = (rotated(point * _mirror(point), down) for point in upright)
+        tilt = analysis.motion.s - self.swing / 2
+        end = np.reshape(pivot, (2, 1)) + self.lever * np.stack([np.cos(tilt), np.sin(tilt)])
         return (
-            *(self._mirrored(part, down) for part in bodies.disk(self, False)),
+            *disk,
             Outline("", "guide", GUIDE, x=end[0], y=end[1]),
             *bodies.rocker("arm", pivot, centre),
-            bodies.roller("arm", centre, self.cam.roller_radius),
+            bodies.roller("arm", centre, self.roller_radius),
             *bodies.rocker("lever", pivot, end),
             Outline("slider", "block", BLOCK, x=end[0], y=end[1]),
         )
-
-    def _mirrored(self, part: Any, down: Any) -> Body:
-        """A part of the cam turned over, so that the arm lies under it."""
-        return replace(part, points=part.points * _mirror(part.points), angle=down - part.angle)
-
-    @property
-    def inertia(self) -> Any:
-        """``J = j x^2`` of the lever, kg m^2: of a press speeds are in rad/s."""
-        return self.press.lever_mass * self.press.lever**2
-
-    @cached_property
-    def closing(self) -> np.ndarray:
-        """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight."""
-        press, slowing = self.press, self.moving.tops(_slowing)
-        return press.inertia_speed2 * slowing / (press.weight * press.lever)
 
 
 GUIDE = np.array([[0, 0], [-90, 90]]) * mm
@@ -195,13 +159,24 @@ def _mirror(points: Value) -> np.ndarray:
     return np.reshape([1.0, -1.0], (2,) + (1,) * (np.ndim(points) - 1))
 
 
+def _mirrored(part: Any, down: Any) -> Body:
+    """A part of the cam turned over, so that the arm lies under it."""
+    return replace(part, points=part.points * _mirror(part.points), angle=down - part.angle)
+
+
 def _slowing(part: Any) -> Array:
     return -part.acceleration
 
 
+def _closing(analysis: Any) -> Any:
+    """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight."""
+    press = analysis.machine
+    return press.inertia * press.shaft_speed**2 * analysis.tops(_slowing) / (press.weight * press.lever)
+
+
 lever_stress = peak("contact stress F_sigma", "N^0.5 cm^-0.5", lambda a: a.stress)
 lever_wear = peak("wear F_wear", "N^1.5 cm^-0.5", lambda a: a.wear)
-closing_share = peak("inertia / closing weight", "", lambda a: a.closing)
+closing_share = peak("inertia / closing weight", "", _closing)
 reach = Measure("arm and roller l + r", "mm", lambda a: number(a.cam.arm_length + a.cam.roller_radius))
 
 CAM_LEVER_MEASURES = (

@@ -17,10 +17,11 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from ..cam import bodies
 from ..cam.directions import ROTATIONS
 from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
-from ..geometry import angle_opposite, end_to_end
+from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantity
 from ..quantities.types import Array, Value
@@ -86,6 +87,16 @@ class HighSpeedCam(FreeLawCam):
     )
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
 
+    offers: ClassVar[tuple[str, ...]] = (
+        "bodies",
+        "motion",
+        "pressure_angle",
+        "stress_coefficient",
+        "wear_coefficient",
+        "pressure",
+        "cam_torque",
+    )
+    """The shapes and curves that are shown of its analysis where nobody chooses, in this order."""
     groove: ClassVar[bool] = False
     """A plate: spring or weight hold the roller to it."""
     friction: ClassVar[Friction] = Friction(0, 0, 0, 0)
@@ -165,6 +176,14 @@ class HighSpeedCam(FreeLawCam):
 
     def analyse(self, n: int = 401) -> HighSpeedAnalysis:
         """Geometry and forces at ``n`` even cam angles of either interval, and some of the dwells."""
-        analysis = HighSpeedAnalysis(self, *self.angles(n))
+        return self.analysed(n, self)
+
+    def analysed(self, n: int, machine: Design) -> HighSpeedAnalysis:
+        """The same as a part of a ``machine``."""
+        analysis = HighSpeedAnalysis(self, *self.angles(n), machine)
         analysis.refuse_impossible()
         return analysis
+
+    def drawn(self, analysis: HighSpeedAnalysis) -> tuple[Body, ...]:
+        """The cam, and the arm with its roller."""
+        return *bodies.disk(analysis, False), *analysis.follower

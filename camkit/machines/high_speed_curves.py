@@ -1,6 +1,6 @@
 """What is to be small along a high-speed cam's rise and fall: each a function of a part of the cam.
 
-Their peaks are the measures of the cam (see `Interval.tops`).
+Their peaks are the measures of the cam (see `HighSpeedAnalysis.tops`).
 """
 
 from __future__ import annotations

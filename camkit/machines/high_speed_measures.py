@@ -38,10 +38,10 @@ def _torque(part: Any) -> Array:
 
 peak_stress = peak("contact stress F_sigma", "N^0.5 mm^-0.5", lambda a: a.stress)
 peak_wear = peak("wear F_wear", "N^1.5 mm^-0.5", lambda a: a.wear)
-max_pressure_angle = peak("steepest pressure angle", "deg", lambda a: a.moving.tops(_steepness))
-peak_force = peak("peak normal force", "N", lambda a: a.moving.tops(_force))
+max_pressure_angle = peak("steepest pressure angle", "deg", lambda a: a.tops(_steepness))
+peak_force = peak("peak normal force", "N", lambda a: a.tops(_force))
 peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.pressure)
-peak_torque = peak("peak cam torque", "N mm", lambda a: a.moving.tops(_torque))
+peak_torque = peak("peak cam torque", "N mm", lambda a: a.tops(_torque))
 spring_use = peak("closing spring needed", "%", lambda a: a.cam.speed**2 * a.springs / a.spring_rate)
 min_force = -peak("least normal force", "N", lambda a: -a.forces)
 lift_off = Measure("speed at which the roller lifts", "%", jump_speed)

@@ -20,7 +20,7 @@ VIEW_OF: dict[str, View] = {
     "contact_pressure": cam.contact_pressure,
     "stress_coefficient": intervals.contact_stress,
     "wear_coefficient": intervals.wear,
-    "hertz_pressure": intervals.hertz_pressure,
+    "pressure": intervals.hertz_pressure,
     "stress": intervals.stress_over_way,
     "wear": intervals.wear_over_way,
     "way": intervals.load_over_way,

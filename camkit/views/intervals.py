@@ -29,8 +29,8 @@ class Along(NamedTuple):
     sign: str
 
 
-TURN = Along("cam angle", lambda part: part.cam_angle, "deg", "°")
-WAY = Along("way of the slider", lambda part: part.cam.load.way(part.motion, part.cam.swing), "mm", " mm")
+TURN = Along("cam angle", attrgetter("cam_angle"), "deg", "°")
+WAY = Along("way of the slider", attrgetter("way"), "mm", " mm")
 
 
 class Curve(NamedTuple):
@@ -52,7 +52,7 @@ def _wear(part: Any) -> Any:
 
 STRESS = Curve("Contact stress", "F_sigma", "N^0.5 mm^-0.5", _stress)
 WEAR = Curve("Wear", "F_wear", "N^1.5 mm^-0.5", _wear)
-HERTZ = Curve("Hertz pressure", "p_0", "MPa", attrgetter("hertz_pressure"))
+HERTZ = Curve("Hertz pressure", "p_0", "MPa", attrgetter("contact_pressure"))
 
 
 def _with_peaks(analysis: Any, curve: Curve, along: Along = TURN) -> Picture:
@@ -131,8 +131,7 @@ def wear_over_way(analysis: object) -> Picture:
 
 def load_over_way(analysis: Any) -> Picture:
     """Weight ``G`` of the slider, and with it the force ``P`` of the work, over the slider's way."""
-    press = analysis.press
-    way = analysis.rise.cam.load.way(analysis.rise.motion, press.swing)
+    press, way = analysis.machine, analysis.rise.way
     title = "Load" if press.force_curve else "Load (stand-in)"
     return Picture.of(
         Axes(title=title, xlabel="way of the slider  [mm]", ylabel="F  [N]"),

@@ -101,7 +101,7 @@ def test_drawing_again_moves_what_was_drawn(first, others, views):
     [
         (contact_stress, peak_stress, "stress_coefficient", 1),
         (wear, peak_wear, "wear_coefficient", 1),
-        (hertz_pressure, peak_pressure, "hertz_pressure", MPa),
+        (hertz_pressure, peak_pressure, "contact_pressure", MPa),
     ],
 )
 def test_curves_over_the_turn_and_their_peaks(cam, view, measure, name, factor):
