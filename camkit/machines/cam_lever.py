@@ -134,13 +134,12 @@ class CamLever(FreeLawCam):
 
         The arm lies under the cam, its pivot below the cam axis and beside it, where the paper's sizes put it.
         """
-        down, upright = -np.arctan2(self.pivot_height, self.slider_distance - self.lever), analysis.cranks["arm"]
-        disk = [_mirrored(part, down) for part in bodies.disk(analysis, False)]
-        pivot, centre = (rotated(point * _mirror(point), down) for point in upright)
+        cam, down = bodies.disk(analysis, False), -np.arctan2(self.pivot_height, self.slider_distance - self.lever)
+        pivot, centre = (rotated(point * _mirror(point), down) for point in analysis.cranks["arm"])
         tilt = analysis.motion.s - self.swing / 2
         end = np.reshape(pivot, (2, 1)) + self.lever * np.stack([np.cos(tilt), np.sin(tilt)])
         return (
-            *disk,
+            *(_mirrored(part, down) for part in cam),
             Outline("", "guide", GUIDE, x=end[0], y=end[1]),
             *bodies.rocker("arm", pivot, centre),
             bodies.roller("arm", centre, self.roller_radius),

@@ -22,7 +22,7 @@ from ..contact import LineContact, line_contact
 from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import Resolution
-from ..quantities import unremarked
+from ..quantities import refuse_population, unremarked
 from ..quantities.types import Array
 from ..units import deg, mm
 
@@ -235,10 +235,11 @@ def _acceleration(analysis: Any) -> Array:
     return analysis.acceleration
 
 
-def _stem(cam: Any, lift: Array, foot: Any) -> Outline:
+def _stem(analysis: ValveAnalysis, foot: Any) -> Outline:
     """The follower's stem, which begins ``foot`` above the cam."""
-    length = 1.6 * cam.max_lift + foot
-    return Outline("follower", "arm", np.array([[0, 0], [0, length]]), x=0.0, y=cam.base_radius + lift + foot)
+    refuse_population(analysis, "what is drawn")
+    cam, points = analysis.cam, np.array([[0, 0], [0, 1.6 * analysis.cam.max_lift + foot]])
+    return Outline("follower", "arm", points, x=0.0, y=cam.base_radius + analysis.lift + foot)
 
 
 @dataclass(frozen=True)
@@ -271,7 +272,7 @@ class FlatValveAnalysis(ValveAnalysis, TranslatingFlatAnalysis):
     @property
     def bodies(self) -> tuple[Body, ...]:
         """The follower of one design: face and stem."""
-        stem, wide = _stem(self.cam, self.lift, 0.0), 1.15 * abs(self.velocity).max()
+        stem, wide = _stem(self, 0.0), 1.15 * abs(self.velocity).max()
         return Outline("follower", "face", np.array([[-wide, wide], [0, 0]]), x=stem.x, y=stem.y), stem
 
 
@@ -301,5 +302,5 @@ class RollerValveAnalysis(ValveAnalysis, TranslatingRollerAnalysis):
     @property
     def bodies(self) -> tuple[Body, ...]:
         """The follower of one design: roller and stem."""
-        stem = _stem(self.cam, self.lift, self.cam.roller_radius)
+        stem = _stem(self, self.cam.roller_radius)
         return Disc("follower", "roller", self.cam.roller_radius, x=stem.x, y=stem.y), stem

@@ -48,7 +48,7 @@ from camkit.decision import (
 )
 from camkit.files import Session, from_json, to_json
 from camkit.linkage.measures import departure, max_departure
-from camkit.machines import lift_curve_study
+from camkit.machines import CamLever, ValveCam, lift_curve_study
 from camkit.panels import ahp_panel, choose_panel, contour_panel, explore
 from camkit.quantities import Paths, declarations, quantities_of
 from camkit.search.front import Front
@@ -232,6 +232,10 @@ REFUSALS = [
      "what is drawn is a population, a DoorHandleCam with columns; it must be one design"),
     (lambda: OscillatingRollerCam(arm_length=np.array([[0.05], [0.051]])).analyse().bodies,
      "what is drawn is a population, a OscillatingRollerCam with columns; it must be one design"),
+    (lambda: ValveCam(max_lift=np.array([[0.012], [0.013]])).analyse().bodies,
+     "what is drawn is a population, a ValveCam with columns; it must be one design"),
+    (lambda: CamLever(lever=np.array([[0.2], [0.25]])).analyse().bodies,
+     "what is drawn is a population, a HighSpeedCam with columns; it must be one design"),
     (lambda: UniversalJointShaft(power=np.array([[1e5], [2e5]])).sizes,
      "the shaft whose sizes are wanted is a population, a UniversalJointShaft with columns; it must be one design"),
     (lambda: UniversalJointShaft(outer_diameter=np.array([[0.12], [0.13]])).analyse().rings,
