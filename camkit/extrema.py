@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .quantities.known import certain
 from .quantities.types import Array, Value
 
 CLOSER, AROUND = 1 / 16, 5
@@ -53,10 +54,13 @@ def raised(values: Any, inner: Any = True) -> Array:
     >>> print(f"{1 - np.sin(x).max():.0e}, {1 - raised(np.sin(x)).max():.0e}")
     4e-04, 1e-06
     """
-    tops = np.array(values, dtype=float, order="C")
-    flat, at = tops.reshape(-1), _maxima(values, inner)
-    flat[at] += _summit(flat[at - 1], flat[at], flat[at + 1])[1]
-    return tops
+    left, mid, right = values[..., :-2], values[..., 1:-1], values[..., 2:]
+    with np.errstate(invalid="ignore"):
+        bend, lean = 2 * mid - left - right, right - left
+        top = (mid >= left) & np.logical_not(right >= mid) & np.isfinite(bend)
+        top = top & np.broadcast_to(inner, values.shape)[..., 1:-1]
+    tops = mid + np.where(top, lean, 0.0) ** 2 / np.where(top, 8 * bend, 1.0)
+    return np.concatenate([values[..., :1], tops, values[..., -1:]], axis=-1)
 
 
 def _maxima(values: Array, inner: Value) -> Array:
@@ -79,21 +83,22 @@ def highest(f: Callable[[Any], Any], angle: Array, inner: Array) -> Extreme:
     >>> print(f"{found.value:.9f} at {found.cam_angle:.4f}")
     1.000000000 at 1.5708
     """
-    angle, values = np.broadcast_arrays(angle, f(angle))
+    angle, values, inner = np.broadcast_arrays(angle, f(angle), inner)
     best = np.argmax(raised(values, inner), axis=-1, keepdims=True)
     before, after = best - 1, (best + 1) % angle.shape[-1]
-    low = _at(angle, np.where(inner[best] | inner[before], before, best))
-    high = _at(angle, np.where(inner[best] | inner[after], after, best))
+    inside = _at(inner, best)
+    low = _at(angle, np.where(inside | _at(inner, before), before, best))
+    high = _at(angle, np.where(inside | _at(inner, after), after, best))
     centre, near = _at(angle, best), CLOSER * (high - low) / 2
     around = _at(values, before), _at(values, best), _at(values, after)
-    centre = centre + np.where(inner[best], _summit(*around)[0], 0.0) * (high - low) / 2
+    centre = centre + np.where(inside, _summit(*around)[0], 0.0) * (high - low) / 2
     value, place, bend, edge = _around(f, np.maximum(centre - near, low), np.minimum(centre + near, high), low, high)
     with np.errstate(invalid="ignore"):
         bent = 2 * around[1] - around[0] - around[2]
         smooth = (bend <= SMOOTH * (2 * CLOSER / (AROUND - 1)) ** 2 * bent) & (bent <= SHARP * abs(value))
     level = bend <= LEVEL * abs(value)
-    found = edge | level | inner[best] & smooth | ~np.isfinite(value)
-    if not found.all():
+    found = edge | level | inside & smooth | ~np.isfinite(value)
+    if not certain(found):
         zoomed, there = _zoomed(f, low, high)
         value, place = np.where(found, value, zoomed), np.where(found, place, there)
     return Extreme(value[..., 0], place[..., 0])
@@ -205,10 +210,10 @@ def _tops_by_ends(values: Array, inner: Any) -> tuple[Array, Array, Array]:
 
 def roughly_highest(angle: Value, values: Value, inner: Any) -> Extreme:
     """As `highest`, of ``values`` at the cam angles ``angle`` alone: the top of the parabola at the highest of them."""
-    angle, values = np.broadcast_arrays(angle, values)
+    angle, values, inner = np.broadcast_arrays(angle, values, inner)
     best = np.argmax(values, axis=-1, keepdims=True)
     around = (_at(values, np.clip(best + k, 0, values.shape[-1] - 1)) for k in (-1, 0, 1))
-    value = _at(values, best) + np.where(inner[best], _summit(*around)[1], 0.0)
+    value = _at(values, best) + np.where(_at(inner, best), _summit(*around)[1], 0.0)
     return Extreme(value[..., 0], _at(angle, best)[..., 0])
 
 

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities import certain
 from ..quantities.types import Array, Value
 
 COARSE, FINE, ROUNDS, CLOSER, ROUGH = 49, 5, 3, 3, 25
@@ -47,23 +48,24 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
     along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
     pair, least = _nearest(x, y, along, radius)
     close = least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
-    if close.any():
+    if not certain(np.logical_not(close)):
         least = np.where(close, _closer(path, span, radius, along, pair, least, rounds), least)
     return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
 
 
 def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Array, Array]:
     """The nearest two places ``(2, ..., 1)``, in coarse steps, that are not neighbours along the curve; how near, m."""
-    least, mate = np.full(along.shape, np.inf), np.zeros(along.shape, dtype=int)
+    nearest, firsts = [], []
     for k in range(1, along.shape[-1]):  # in parts that fit into the processor's own memory
         i, j = (..., slice(None, -k)), (..., slice(k, None))
         near = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
-        better = (near < least[i]) & (along[j] - along[i] >= np.pi * radius)
-        np.copyto(least[i], near, where=better)
-        np.copyto(mate[i], k, where=better)
-    first = np.argmin(least, axis=-1)[..., None]
-    second = first + np.take_along_axis(mate, first, -1)
-    return np.stack([first, second]).astype(float), np.sqrt(np.take_along_axis(least, first, -1))
+        near = np.where(along[j] - along[i] >= np.pi * radius, near, np.inf)
+        firsts.append(np.argmin(near, axis=-1))
+        nearest.append(near.min(-1))
+    least, first = np.stack(nearest, axis=-1), np.stack(firsts, axis=-1)
+    best = np.argmin(least, axis=-1)[..., None]
+    start = np.take_along_axis(first, best, -1)
+    return np.stack([start, start + best + 1]).astype(float), np.sqrt(np.take_along_axis(least, best, -1))
 
 
 def _closer(
@@ -76,12 +78,12 @@ def _closer(
         px, py = path(np.concatenate([t, u], axis=-1) * span / last)
         apart = _between(along, u)[..., None, :] - _between(along, t)[..., :, None]
         near = np.hypot(*(p[..., :FINE, None] - p[..., None, FINE:] for p in (px, py)))
-        near = np.where(apart >= np.pi * np.asarray(radius)[..., None], near, np.inf)
+        near = np.where(apart >= np.pi * np.expand_dims(radius, -1), near, np.inf)
         near = near.reshape(*near.shape[:-2], FINE * FINE)
         best = np.argmin(near, axis=-1)[..., None]
         found = np.take_along_axis(near, best, -1)
         here = [np.take_along_axis(place, k, -1) for place, k in ((t, best // FINE), (u, best % FINE))]
-        pair = np.where(found < least, here, pair)
+        pair = np.where(found < least, np.stack(here), pair)
         least, reach = np.where(found < least, found, least), reach / CLOSER
     return least
 

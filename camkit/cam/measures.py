@@ -45,7 +45,8 @@ def _groove_margin(analysis: Any) -> Value:
     r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in sides]
     with np.errstate(invalid="ignore"):
         margin = 1 - r * reduce(np.maximum, most)
-    return np.where((r == 0) & np.isinf(most).any(0), 1.0, margin)[()]  # a knife edge fits into every corner
+    cornered = reduce(np.logical_or, map(np.isinf, most))
+    return np.where((r == 0) & cornered, 1.0, margin)[()]  # a knife edge fits into every corner
 
 
 def mean_over(analysis: Any, name: str) -> Value:
@@ -71,13 +72,14 @@ def work_ratio(analysis: Any) -> Value:
     v, eta = np.broadcast_arrays(abs(shown.velocity), shown.efficiency)
     moving = v > STILL * v.max(-1, keepdims=True)
     jammed = (moving & (eta <= 0)).any(-1)
-    power_in = np.divide(v, eta, out=np.zeros(v.shape), where=moving & (eta > 0))
+    passes, at = moving & (eta > 0), np.arange(v.shape[-1])
+    power_in = np.where(passes, v / np.where(passes, eta, 1.0), 0.0)
     for ends, inward in ((pieces.first, 1), (pieces.last, -1)):
-        end = ends[pieces.moves[ends]]
-        near, far, farther = (power_in[..., end + k * inward] for k in (1, 2, 3))
-        power_in[..., end] = np.where(moving[..., end], power_in[..., end], 3 * (near - far) + farther)
+        near, far, farther = (np.roll(power_in, -k * inward, axis=-1) for k in (1, 2, 3))
+        resting = np.isin(at, ends[pieces.moves[ends]]) & np.logical_not(moving)
+        power_in = np.where(resting, 3 * (near - far) + farther, power_in)
     work_out, work_in = (np.trapezoid(power, shown.cam_angle, axis=-1) for power in (v, power_in))
-    ratio = np.divide(work_out, work_in, out=np.zeros_like(1.0 * work_in), where=work_in > 0)
+    ratio = np.where(work_in > 0, work_out / np.where(work_in > 0, work_in, 1.0), 0.0)
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 

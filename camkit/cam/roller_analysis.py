@@ -11,6 +11,7 @@ import numpy as np
 
 from ..extrema import Extreme
 from ..geometry import offset_curvature
+from ..quantities import certain
 from ..quantities.types import Array, Value
 from . import groove
 from .analysis import CamAnalysis
@@ -73,8 +74,7 @@ class RollerAnalysis(CamAnalysis):
 
     def _margin(self, flank: int) -> Extreme:
         most, angle = self.sharpest(flank)
-        radius = radius_of(most) - number(self.cam.roller_radius)
-        return Extreme(np.asarray(radius)[()], angle)
+        return Extreme(radius_of(most) - number(self.cam.roller_radius), angle)
 
     @property
     def max_curvature(self) -> Array:
@@ -89,7 +89,7 @@ class RollerAnalysis(CamAnalysis):
         ``inf`` for a closed cam, of which the local test of both flanks is enough, and for a plate.
         """
         motion = self.cam.motion
-        if not self.groove or np.all(motion.periodic):
+        if not self.groove or certain(motion.periodic):
             return np.where(self.buildable[..., 0], np.inf, np.nan)[()]
         found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius, self.rough)
         return np.where(number(motion.periodic) & np.isfinite(found), np.inf, found)[()]

@@ -119,7 +119,7 @@ class DoorHandleAnalysis:
         A rise begins on the base circle with that circle's curvature, so the most convex point of the whole curve says
         how large the disk is.  Behind the most hollow place lies what the stroke itself bends.
         """
-        hollow = np.asarray(self.lift.lowest(_curvature).cam_angle)[..., None]
+        hollow = np.expand_dims(self.lift.lowest(_curvature).cam_angle, -1)
         most = self.lift.highest(lambda at: np.where(at.cam_angle >= hollow, at.curvature, -np.inf)).value
         return np.where(np.isinf(self.lift.sharpest(1).value), np.inf, most)[()]
 

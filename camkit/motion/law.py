@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..extrema import highest_between
-from ..quantities import Declared
+from ..quantities import Declared, floats
 from ..quantities.kinds import numbers
 from ..quantities.types import Array, Value
 
@@ -63,7 +63,7 @@ class Law(Declared, ABC):
 
     def __call__(self, u: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``u`` (any shape), derivatives with respect to ``u``; ``nan`` outside [0, 1]."""
-        return Kinematics(*(np.asarray(x)[()] for x in self.at(_inside(u))))
+        return Kinematics(*(floats(x)[()] for x in self.at(_inside(u))))
 
     @abstractmethod
     def at(self, u: Value) -> Kinematics:

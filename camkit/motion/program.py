@@ -23,7 +23,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import Declared, Quantity, fails
+from ..geometry import end_to_end
+from ..quantities import Declared, Quantity, certain, fails, floats
 from ..quantities.kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import deg
@@ -172,18 +173,9 @@ class MotionProgram(Declared):
     def over(self, shown: Resolution) -> Kinematics:
         """``s, v, a, j`` at the cam angles of a resolution: a law is asked once for all of a population."""
         with np.errstate(all="ignore"):
-            motions = [self.segments[i].motion(u) for i, u in shown.shares]
-            shapes = [
-                np.shape(x)[:-1]
-                for x in (self.possible, shown.angle, *self.levels, *(x for motion in motions for x in motion))
-            ]
-            out = np.empty((4, *np.broadcast_shapes(*shapes), shown.angle.shape[-1]))
-            for (i, _), motion, first, last in zip(shown.shares, motions, shown.first, shown.last, strict=True):
-                for k, values in enumerate(motion):
-                    out[k][..., first : last + 1] = values if k else self.levels[i] + values
-        if not np.all(self.possible):
-            np.copyto(out, np.nan, where=np.logical_not(self.possible))
-        return Kinematics(*out)
+            pieces = [np.broadcast_arrays(*self._moved(i, u), u)[:4] for i, u in shown.shares]
+            joined = (end_to_end(*values) for values in zip(*pieces, strict=True))
+            return self._if_possible(*np.broadcast_arrays(*joined, shown.angle)[:4])
 
     @property
     def periodic(self) -> Any:
@@ -212,8 +204,8 @@ class MotionProgram(Declared):
         """``s, v, a, j`` at ``cam_angle`` (rad); at a joint the segment that begins there speaks."""
         phi = numbers(cam_angle, "the cam angles")
         with np.errstate(all="ignore"):
-            out = self._at(self._within(np.atleast_1d(phi)))
-        return Kinematics(*(out if phi.ndim else out[..., 0]))
+            motion = self._at(self._within(np.atleast_1d(phi)))
+        return motion if phi.ndim else Kinematics(*(values[..., 0] for values in motion))
 
     def in_time(self, cam_angle: ArrayLike, speed: Value) -> Kinematics:
         """``s, v, a, j`` with respect to time (m or rad, per s^k) at a constant shaft ``speed`` (rad/s).
@@ -229,7 +221,7 @@ class MotionProgram(Declared):
         """
         must = "be a finite number of at least 0"
         speed = a_number(speed, "the speed of the shaft", must, lambda speed: speed >= 0)
-        speed = np.asarray(speed)
+        speed = floats(speed)
         s, v, a, j = self(cam_angle)
         with np.errstate(over="ignore"):
             square, cube = speed**2, speed**3
@@ -254,33 +246,36 @@ class MotionProgram(Declared):
     def _within(self, phi: Array) -> Array:
         """Cam angles brought into the turn, ``nan`` where the program says nothing."""
         x = phi
-        if np.any(self.periodic) and not (phi.size and phi.min() >= 0 and phi.max() <= TURN):
+        within = (phi >= 0) & (phi <= TURN)
+        if not (certain(within) or certain(np.logical_not(self.periodic))):
             once = np.where(np.abs(phi - TURN) <= SAME_ANGLE, TURN, np.mod(phi, TURN))
-            x = np.where(self.periodic, once, phi)
+            x = np.where(self.periodic & np.logical_not(within), once, phi)
         return np.where((x >= -SAME_ANGLE) & (x <= self.span + SAME_ANGLE), x, np.nan)
 
-    def _at(self, x: Array) -> Array:
-        index = np.zeros(x.shape, dtype=int)
-        for edge in self.starts[1:-1]:
-            index = index + (x >= edge - SAME_JOINT)
-        speaks = [(i, index == i) for i in range(len(self.segments))]
-        pieces = [self._piece(i, here, x) for i, here in speaks if here.any()]
-        shapes = [np.shape(values) for _, _, motion in pieces for values in motion]
-        lead = np.broadcast_shapes(*(shape[:-1] for shape in (np.shape(self.possible), index.shape, *shapes)))
-        out = np.full((4, *lead, x.shape[-1]), np.nan)
-        for columns, here, motion in pieces:
-            for k, values in enumerate(motion):
-                np.copyto(out[k][..., columns], values, where=here)
-        np.copyto(out, np.nan, where=np.logical_not(self.possible))
-        return out
+    def _at(self, x: Array) -> Kinematics:
+        begun = [x >= edge - SAME_JOINT for edge in self.starts[1:-1]]
+        over, ahead = (*map(certain, begun), False), (False, *(certain(np.logical_not(here)) for here in begun))
+        first, *others = [i for i in range(len(self.segments)) if not (over[i] or ahead[i])] or [0]
+        motion = self._piece(first, x)
+        for i in others:
+            pairs = zip(self._piece(i, x), motion, strict=True)
+            motion = Kinematics(*(np.where(begun[i - 1], *pair) for pair in pairs))
+        return self._if_possible(*np.broadcast_arrays(*motion, x)[:4])
 
-    def _piece(self, i: int, here: Array, x: Array) -> tuple[slice, Value, Kinematics]:
-        """The columns that segment ``i`` has a say in, where in them it speaks, and what it says there."""
-        said = np.flatnonzero(here.any(axis=tuple(range(here.ndim - 1))))
-        columns, segment = slice(said[0], said[-1] + 1), self.segments[i]
-        u = np.minimum(np.maximum((x[..., columns] - self.starts[i]) / segment.angle, 0.0), 1.0)
-        s, v, a, j = segment.motion(u)
-        return columns, here[..., columns], Kinematics(self.levels[i] + s, v, a, j)
+    def _piece(self, i: int, x: Array) -> Kinematics:
+        """What segment ``i`` says at the cam angles ``x``; before it begins and after it ends it rests."""
+        return self._moved(i, np.minimum(np.maximum((x - self.starts[i]) / self.segments[i].angle, 0.0), 1.0))
+
+    def _moved(self, i: int, u: Value) -> Kinematics:
+        """What segment ``i`` says at the share ``u`` of it."""
+        s, v, a, j = self.segments[i].motion(u)
+        return Kinematics(self.levels[i] + s, v, a, j)
+
+    def _if_possible(self, *motion: Array) -> Kinematics:
+        """``motion``, ``nan`` in the rows of programs that cannot be."""
+        if certain(self.possible):
+            return Kinematics(*motion)
+        return Kinematics(*(np.where(self.possible, values, np.nan) for values in motion))
 
 
 def program_between(

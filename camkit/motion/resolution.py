@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..geometry import end_to_end
 from ..quantities.types import Array, Value
 from .law import Kinematics
 
@@ -86,11 +87,9 @@ def resolve(
             moves.append(not segment.still)
     sizes = np.array([even + 1 for *_, even in pieces])
     angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
-    lead = np.broadcast_shapes(*(angle.shape[:-1] for angle in angles))
-    joined = np.concatenate([np.broadcast_to(angle, (*lead, angle.shape[-1])) for angle in angles], axis=-1)
     ends = np.cumsum(sizes)
     inside = tuple((i, _inside(*piece)) for i, *piece in shares)
-    return Resolution(joined, ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
+    return Resolution(end_to_end(*angles), ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
 
 
 def _pieces(segment: Segment, steps: int, corners: list[Any]) -> list[tuple[Any, Any, int]]:

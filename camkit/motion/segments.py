@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Choice, Declared, Quantity, fails
+from ..quantities import Choice, Declared, Quantity, certain, fails
 from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
 from ..quantities.types import Value
 from ..units import in_unit
@@ -121,7 +121,7 @@ class Move(Segment):
 
     @property
     def still(self) -> bool:
-        return bool(np.all(np.asarray(self.lift) == 0))
+        return certain(self.lift == 0)
 
     @property
     def kinks(self) -> tuple[Value, ...]:
@@ -200,4 +200,6 @@ def _refuse_angle(segment: Segment) -> None:
     if angle is None or fails(positive(angle)):
         said = shown(segment.angle) if angle is None else degrees(angle)
         raise ValueError(f"the angle of the {kind_of(segment)} is {said}; it must be a finite angle above 0 deg")
-    object.__setattr__(segment, "angle", np.where(positive(angle), angle, np.nan) if np.ndim(angle) else angle)
+    if not certain(positive(angle)):
+        angle = np.where(positive(angle), angle, np.nan)
+    object.__setattr__(segment, "angle", angle)

@@ -39,7 +39,6 @@ from .declaration import (
     choice,
     counted,
     declarations,
-    fails,
     numbered,
     quantity,
     row,
@@ -47,6 +46,7 @@ from .declaration import (
     words,
 )
 from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
+from .known import certain, fails, floats, known
 from .measure import Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 
@@ -61,12 +61,15 @@ __all__ = [
     "PeakMeasure",
     "Quantity",
     "UnitRemark",
+    "certain",
     "choice",
     "choices_of",
     "counted",
     "declarations",
     "declared_in",
     "fails",
+    "floats",
+    "known",
     "measures_of",
     "members",
     "numbered",

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..units import factor, in_unit
 from .kinds import listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
+from .known import certain, fails
 from .types import Value
 
 OURS = __name__.partition(".")[0]
@@ -304,13 +305,6 @@ def _declared(kind: type) -> dict[str, Quantity | Choice]:
     return {f.name: f.metadata["declared"] for f in dataclasses.fields(kind) if "declared" in f.metadata}
 
 
-def fails(ok: Any) -> bool:
-    """True if ``ok`` is one false answer; a population's answers are a mask and never fail as a whole."""
-    if type(ok) is bool:
-        return not ok
-    return np.ndim(ok) == 0 and not ok
-
-
 def counted(n: int, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     return whole(n, f"the number of {what}", least, most)
@@ -363,7 +357,7 @@ class Declared:
 
         A number that all members share stays one, so that what follows from it is worked out once.
         """
-        if np.all(ok):
+        if certain(ok):
             return
         numbers = [name for name, declared in declarations(self).items() if isinstance(declared, Quantity)]
         for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:

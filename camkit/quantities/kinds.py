@@ -17,6 +17,7 @@ from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
+from .known import certain, fails, floats, known
 from .types import Value
 
 LONGEST = 60
@@ -31,7 +32,7 @@ def number(value: Any) -> Any:
     >>> number(5), number(np.array([[1], [2]])).tolist(), number(True), number([1.0]), number(np.ones(3))
     (5.0, [[1.0], [2.0]], None, None, None)
     """
-    if type(value) is float:
+    if type(value) is float or not known(value):
         return value
     if isinstance(value, np.ndarray):
         real, fits = plain(value) and value.dtype.kind in "iuf", value.shape == () or value.shape[1:] == (1,)
@@ -55,8 +56,8 @@ def finite(value: Any) -> Any:
     >>> finite(1.5), finite("1.5"), finite(np.array([[1.0], [np.nan]])).tolist()
     (np.True_, False, [[True], [False]])
     """
-    known = number(value)
-    return False if known is None else np.isfinite(known)
+    read = number(value)
+    return False if read is None else np.isfinite(read)
 
 
 def a_number(value: Any, what: str, must: str = "be a finite number", holds: Callable[[Any], Any] | None = None) -> Any:
@@ -69,13 +70,13 @@ def a_number(value: Any, what: str, must: str = "be a finite number", holds: Cal
         ...
     ValueError: the speed is -1; it must be at least 0
     """
-    known = number(value)
-    if known is not None:
-        ok = np.isfinite(known) & (True if holds is None else holds(known))
-        if np.all(ok):
-            return known
-        if np.ndim(known):
-            return np.where(ok, known, np.nan)
+    read = number(value)
+    if read is not None:
+        ok = np.isfinite(read) & (True if holds is None else holds(read))
+        if certain(ok):
+            return read
+        if np.ndim(read) or not known(read):
+            return np.where(ok, read, np.nan)
     raise ValueError(f"{what} is {shown(value)}; it must {must}")
 
 
@@ -83,10 +84,10 @@ def one_number(
     value: Any, what: str, must: str = "be a finite number", holds: Callable[[float], bool] | None = None
 ) -> float:
     """``value`` as a float, finite or not; ``ValueError`` for what is no single number or not as ``holds`` asks."""
-    known = number(value)
-    if known is None or np.ndim(known) or (holds and not holds(known)):
+    read = number(value)
+    if read is None or np.ndim(read) or (holds and not holds(read)):
         raise ValueError(f"{what} is {shown(value)}; it must {must}")
-    return float(known)
+    return float(read)
 
 
 def numbers(value: object, what: str) -> np.ndarray:
@@ -94,8 +95,8 @@ def numbers(value: object, what: str) -> np.ndarray:
 
     Of what is nested more than `DEEPEST` times too: numpy's functions take no more dimensions than 32.
     """
-    if isinstance(value, float):
-        return np.asarray(value)
+    if isinstance(value, float) or not known(value):
+        return floats(value)
     try:
         array = np.asanyarray(value)
         if not plain(array) or array.ndim > DEEPEST or (array.dtype.kind not in "iuf" and array.size):
@@ -292,11 +293,11 @@ def columns(thing: Any) -> bool:
     return bool(_lengths(thing))
 
 
-def _lengths(value: object) -> set[int]:
+def _lengths(value: Any) -> set[int]:
     """How many members the columns within ``value`` have."""
     if type(value) is float:
         return set()
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray) or not known(value):
         return {len(value)} if value.ndim == 2 else set()
     if isinstance(value, (tuple, list)):
         return set().union(*map(_lengths, value))
@@ -314,8 +315,8 @@ def _kinds(cls: type) -> tuple[tuple[str, Kind], ...]:
 
 
 def _one(value: object) -> bool:
-    known = number(value)
-    return known is not None and np.ndim(known) == 0 and bool(np.isfinite(known))
+    read = number(value)
+    return read is not None and np.ndim(read) == 0 and not fails(np.isfinite(read))
 
 
 SIMPLE: dict[Any, Kind] = {
@@ -339,10 +340,10 @@ def _kind(hint: Any) -> Kind | None:
         if {*typing.get_args(Value)} <= {*parts}:  # who takes a number or a column says itself what is wrong with it
             return None
         kinds = [_kind(part) for part in parts]
-        known = [kind for kind in kinds if kind is not None]
-        if len(known) < len(kinds):
+        sure = [kind for kind in kinds if kind is not None]
+        if len(sure) < len(kinds):
             return None
-        return Kind(lambda v: any(k.holds(v) for k in known), " or ".join(k.said for k in known))
+        return Kind(lambda v: any(k.holds(v) for k in sure), " or ".join(k.said for k in sure))
     if origin is Callable:
         return Kind(lambda v: callable(v) and not isinstance(v, type), "a function")
     if origin is tuple and parts[-1] is not ... and float not in parts:

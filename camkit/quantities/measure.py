@@ -12,6 +12,7 @@ import numpy as np
 from ..units import factor, in_unit
 from .applied import applied
 from .kinds import one_number, plain, refuse_kinds, shown
+from .known import known
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,10 @@ class Measure:
             value = self.function(analysis)
         if type(value) is float:
             return value
-        known = plain(value) if isinstance(value, np.ndarray) else isinstance(value, (int, float, np.generic))
-        if not known or np.asarray(value).dtype.kind not in "fiub":
+        if not known(value):
+            return value
+        plainly = plain(value) if isinstance(value, np.ndarray) else isinstance(value, (int, float, np.generic))
+        if not plainly or np.asarray(value).dtype.kind not in "fiub":
             raise ValueError(f"the {self.name} gives {shown(value)}; a measure gives real numbers, one or an array")
         return value
 

@@ -140,7 +140,8 @@ motion.rise.angle
         changed = Paths(design, first).put(design, list(first.values()))
         return with_quantities(changed, {p: v for p, v in values.items() if p not in first})
     changed = Paths(design, values).put(design, list(values.values()))
-    Paths(changed, values if chosen else ())  # a choice may have taken away one that was there
+    if chosen:
+        Paths(changed, values)  # a choice may have taken away one that was there
     return changed
 
 

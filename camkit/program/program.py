@@ -1,0 +1,131 @@
+"""A program: what plain numpy code does to its inputs, call by call, to be run again on others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..quantities import D, quantities_of, unremarked, value_of, with_quantities
+from .record import Call, CannotRecord, Recorded, Recording, Ref, mapped
+
+
+@dataclass(frozen=True)
+class Program:
+    """Calls of numpy in a straight line, from inputs to outputs, both by name.
+
+    >>> area = recorded(lambda size: {"area": size["width"] * size["height"]}, {"width": 2.0, "height": 3.0})
+    >>> area({"width": 4.0, "height": 5.0})
+    {'area': np.float64(20.0)}
+    """
+
+    calls: tuple[Call, ...]
+    """Inputs first, in order; of those that follow each needs only what stands before it."""
+    inputs: tuple[str, ...]
+    outputs: Mapping[str, Any]
+    """Of each output the `Ref` of its call, or what it is whatever the inputs are."""
+
+    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """The outputs of other inputs, of the same shapes as those that it was recorded with."""
+        results: dict[int, Any] = {}
+        for k, (name, call) in enumerate(zip(self.inputs, self.calls, strict=False)):
+            value = np.asarray(inputs[name], dtype=float)[()]
+            if value.shape != call.shape:
+                raise ValueError(f"the input {name} has the shape {value.shape}; it must have {call.shape}")
+            results[k] = value
+        with np.errstate(all="ignore"):
+            for k in self.needed:
+                results[k] = _run(self.calls[k], results)
+                for used in self._used_up[k]:
+                    del results[used]
+        return {name: _found(out, results) for name, out in self.outputs.items()}
+
+    @cached_property
+    def needed(self) -> list[int]:
+        """The numbers of the calls that outputs depend on, in order, without the inputs."""
+        found: set[int] = set()
+        waiting = [out.number for out in self.outputs.values() if isinstance(out, Ref)]
+        while waiting:
+            if (k := waiting.pop()) not in found:
+                found.add(k)
+                waiting += _refs(self.calls[k])
+        return sorted(k for k in found if self.calls[k].function is not None)
+
+    @cached_property
+    def _used_up(self) -> dict[int, list[int]]:
+        """After which call which results are not needed any more."""
+        last = {used: k for k in self.needed for used in _refs(self.calls[k])}
+        outputs = {out.number for out in self.outputs.values() if isinstance(out, Ref)}
+        found: dict[int, list[int]] = {k: [] for k in self.needed}
+        for used, k in last.items():
+            if used not in outputs:
+                found[k].append(used)
+        return found
+
+
+def _run(call: Call, results: Mapping[int, Any]) -> Any:
+    assert call.function is not None
+    return call.function(*mapped(lambda x: _found(x, results), call.arguments), **call.named)
+
+
+def _found(argument: Any, results: Mapping[int, Any]) -> Any:
+    return results[argument.number] if isinstance(argument, Ref) else argument
+
+
+def _refs(call: Call) -> Iterator[int]:
+    found: list[int] = []
+    mapped(lambda x: found.append(x.number) if isinstance(x, Ref) else None, call.arguments)
+    return iter(found)
+
+
+def recorded(function: Callable[[dict[str, Any]], Mapping[str, Any]], inputs: Mapping[str, Any]) -> Program:
+    """What ``function`` does to inputs by name, as a program; its outputs are arrays by name.
+
+    ``inputs`` are numbers or arrays that stand for all others of their shapes.  `CannotRecord` where it asks for what
+    is not known before the program runs.
+    """
+    recording = Recording()
+    given = {name: recording.input(value) for name, value in inputs.items()}
+    try:
+        with unremarked(), np.errstate(all="ignore"):
+            outputs = function(given)
+    except Exception as error:
+        raise _reason(error) from error
+    found = {k: Ref(v.number) if isinstance(v, Recorded) else np.asarray(v) for k, v in outputs.items()}
+    return Program(tuple(recording.calls), tuple(inputs), found)
+
+
+def _reason(error: BaseException) -> BaseException:
+    """What cannot be recorded, if that is behind an error: numpy and others put their own before it."""
+    behind: BaseException | None = error
+    while behind and not isinstance(behind, CannotRecord):
+        behind = behind.__cause__ or behind.__context__
+    return behind or error
+
+
+def record(
+    function: Callable[..., Mapping[str, Any]], design: D, more: Mapping[str, float] | None = None, rows: int = 0
+) -> Program:
+    """What ``function(design, **more)`` gives, as a program of all quantities of the design, by path, and ``more``.
+
+    What is chosen from a menu stays as it is.  The program is of one design or, with ``rows``, of so many at once, each
+    quantity a column ``(rows, 1)``.  What one design would be refused for makes its outputs ``nan``.
+
+    >>> from camkit import TranslatingRollerCam
+    >>> size = record(lambda cam: {"start height": cam.start_height}, TranslatingRollerCam())
+    >>> start = {path: value_of(TranslatingRollerCam(), path) for path in size.inputs}
+    >>> print(f"{size(start | {'base_radius': 0.05, 'offset': 0.0})['start height']:.3f} m")
+    0.058 m
+    """
+    extra = dict(more or {})
+    start = {path: value_of(design, path) for path in quantities_of(design)} | extra
+    inputs = {name: np.full((rows, 1), value) if rows else value for name, value in start.items()}
+
+    def of_design(given: dict[str, Any]) -> Mapping[str, Any]:
+        paths = {name: value for name, value in given.items() if name not in extra}
+        return function(with_quantities(design, paths), **{name: given[name] for name in extra})
+
+    return recorded(of_design, inputs)

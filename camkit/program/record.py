@@ -1,0 +1,206 @@
+"""Plain numpy code is run once on arrays that note what is done to them (numpy's protocols NEP 13 and NEP 18)."""
+
+from __future__ import annotations
+
+import operator
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from ..quantities.known import known
+from .operations import TABLE, Each, Move, Written, as_type
+
+HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
+
+
+class CannotRecord(ValueError):
+    """Plain numpy code asks for something that is not known before the program runs; the sentence says where."""
+
+
+def cannot(what: str) -> CannotRecord:
+    """``what`` cannot be recorded, at the line that asked for it: the last one outside of this wing and numpy."""
+    frame = sys._getframe(1)
+    while frame.f_back and _of_the_machinery(frame.f_code.co_filename):
+        frame = frame.f_back
+    file = Path(frame.f_code.co_filename)
+    told = file.relative_to(ROOT) if file.is_relative_to(ROOT) else file.name
+    return CannotRecord(f"{told}, line {frame.f_lineno}: {what}")
+
+
+def _of_the_machinery(file: str) -> bool:
+    return Path(file).is_relative_to(HERE) or "numpy" in Path(file).parts or file.startswith("<")
+
+
+@dataclass(frozen=True, slots=True)
+class Ref:
+    """The result of a call, or an input, by its number."""
+
+    number: int
+
+
+class Call(NamedTuple):
+    """A function of numpy with its arguments, of which each recorded one is a `Ref`; of an input there is none."""
+
+    function: Callable[..., Any] | None
+    arguments: Any
+    named: dict[str, Any]
+    shape: tuple[int, ...]
+    dtype: Any
+
+
+def mapped(f: Callable[[Any], Any], value: Any) -> Any:
+    """``f`` of every argument in nested tuples and lists."""
+    if isinstance(value, (tuple, list)):
+        each = [mapped(f, x) for x in value]
+        return each if isinstance(value, list) else tuple(each)
+    return f(value)
+
+
+class Recording:
+    """The calls that have been made so far, in order; one that is made again is the same."""
+
+    def __init__(self) -> None:
+        self.calls: list[Call] = []
+        self._known: dict[Any, Recorded] = {}
+
+    def input(self, value: Any) -> Recorded:
+        """An input, for which ``value`` stands while the program is recorded."""
+        return self._noted(None, (), {}, np.asarray(value, dtype=float)[()])
+
+    def call(self, function: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+        """The result of a function of the table."""
+        row = TABLE.get(function)
+        if row is None:
+            raise cannot(f"{_name_of(function)} cannot be recorded; it is not in the table of operations")
+        if isinstance(row, Written):
+            return _written(row, function, arguments, named)
+        if isinstance(row, Each) and (len(arguments) != row.operands or named):
+            raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
+        if not isinstance(row, (Each, Move)) and named.keys() - {"axis", "keepdims"}:
+            raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
+        key = (function, _key(arguments), _key(tuple(named.items())))
+        if key not in self._known:
+            value = function(*mapped(_value, arguments), **named)
+            self._known[key] = self._noted(function, mapped(_ref, arguments), named, value)
+        return self._known[key]
+
+    def _noted(self, function: Callable[..., Any] | None, arguments: Any, named: dict[str, Any], value: Any) -> Any:
+        if value.dtype.kind not in "fbiu":
+            raise cannot("complex numbers and texts cannot be recorded")
+        self.calls.append(Call(function, arguments, named, value.shape, value.dtype))
+        return Recorded(self, len(self.calls) - 1, value)
+
+
+def _name_of(function: Any) -> str:
+    owner = getattr(function, "__self__", None)
+    return f"{owner.__name__ + '.' if isinstance(owner, np.ufunc) else ''}{getattr(function, '__name__', function)}"
+
+
+def _written(row: Written, function: Any, arguments: Any, named: dict[str, Any]) -> Any:
+    try:
+        return row.by(*arguments, **named)
+    except TypeError as unfit:
+        raise cannot(f"{_name_of(function)} cannot be recorded with these arguments: {unfit}") from None
+
+
+def _value(argument: Any) -> Any:
+    return argument.value if isinstance(argument, Recorded) else argument
+
+
+def _ref(argument: Any) -> Any:
+    return Ref(argument.number) if isinstance(argument, Recorded) else argument
+
+
+def _key(argument: Any) -> Any:
+    """What tells one argument from another."""
+    if isinstance(argument, Recorded):
+        return argument.number
+    if isinstance(argument, (tuple, list)):
+        return (type(argument), *map(_key, argument))
+    if isinstance(argument, np.ndarray):
+        return argument.shape, argument.dtype.str, argument.tobytes()
+    return type(argument), repr(argument)
+
+
+class Recorded(NDArrayOperatorsMixin):
+    """An array of a recording: numpy computes with it as with any other, what is in it is known when it runs.
+
+    ``value`` is what it is of the inputs that the recording is made with: it says shape and kind, nothing else.
+    """
+
+    recorded = True
+    """By which physics can tell it from a known value (see `camkit.quantities.known`)."""
+
+    def __init__(self, recording: Recording, number: int, value: Any) -> None:
+        self.recording, self.number, self.value = recording, number, value
+        self.shape, self.dtype, self.ndim, self.size = value.shape, value.dtype, value.ndim, value.size
+
+    @property
+    def T(self) -> Any:
+        """Transposed."""
+        return np.transpose(self)
+
+    def _refuse(self, *_: Any, **__: Any) -> Any:
+        raise cannot("a truth value, a number or a plain array of a recorded value is asked for")
+
+    __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __format__ = _refuse
+
+    def __setitem__(self, at: Any, value: Any) -> None:
+        raise cannot("a recorded array is written into")
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __iter__(self) -> Any:
+        return (self[k] for k in range(len(self)))
+
+    def __pow__(self, exponent: Any) -> Any:
+        return self.recording.call(operator.pow, self, exponent)
+
+    def __getitem__(self, at: Any) -> Any:
+        within = at if isinstance(at, tuple) else (at,)
+        if all(map(known, within)):
+            return self if at == () else self.recording.call(operator.getitem, self, at)
+        *before, places = within
+        if known(places) or places.dtype.kind not in "iu" or len(before) > 1:
+            raise cannot("an array is indexed by computed values; only its last axis can be, by whole numbers")
+        if not before or before[0] is Ellipsis:
+            return np.take(self, places, axis=-1 if before else 0)
+        if self.ndim != 2 or not np.array_equal(before[0], np.arange(len(self))[:, None]):
+            raise cannot("an array is indexed by computed places, not one row after the other")
+        return np.take_along_axis(self, places, axis=-1)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, out: Any = None, **named: Any) -> Any:
+        if out is not None:
+            raise cannot("a computed value is written into an array")
+        return self.recording.call(ufunc if method == "__call__" else getattr(ufunc, method), *inputs, **named)
+
+    def __array_function__(self, function: Any, types: Any, arguments: Any, named: Any) -> Any:
+        if function in (np.shape, np.ndim, np.size):
+            return function(self.value, *arguments[1:], **named)
+        return self.recording.call(function, *arguments, **named)
+
+    def astype(self, dtype: Any, copy: bool = True) -> Any:
+        """As an array of numbers of another kind."""
+        return self.recording.call(as_type, self, np.dtype(dtype))
+
+    def reshape(self, *shape: Any) -> Any:
+        """The same numbers in another shape."""
+        return np.reshape(self, shape[0] if len(shape) == 1 else shape)
+
+
+def _method(function: Any) -> Any:
+    return lambda self, *arguments, **named: self.recording.call(function, self, *arguments, **named)
+
+
+for _name in ("max", "min", "sum", "prod", "mean", "any", "all", "argmax", "argmin", "cumsum", "clip", "ravel", "copy",
+              "squeeze", "repeat", "transpose", "swapaxes", "take"):  # fmt: skip
+    setattr(Recorded, _name, _method(getattr(np, _name)))

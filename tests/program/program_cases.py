@@ -1,0 +1,138 @@
+"""What programs are tried on: every row of the table at awkward numbers, and expressions made at random."""
+
+import operator
+from itertools import product
+
+import numpy as np
+
+from camkit.program.operations import TABLE, Each, as_type
+
+AWKWARD = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 0.5, 1.5, 2.5, -2.5, 3.0, 1e-9, 1e9]
+"""Numbers at which functions are not what they are elsewhere; halves, which are rounded to even, and ordinary ones."""
+ONE = np.array(AWKWARD)
+PAIRS = np.array(list(product(AWKWARD, AWKWARD)))
+ROWS = np.array([[a, b, 1.5, b] for a, b in product(AWKWARD, AWKWARD)])
+ORDINARY = np.random.default_rng(5).normal(size=(4, 7))
+TRUTHS = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert, np.bitwise_and.reduce, np.bitwise_or.reduce}
+"""What is asked of truths only."""
+SPECIAL = {
+    np.where: lambda x, y: np.where(x > y, x, y),
+    np.argmax: lambda m: np.argmax(m, axis=-1),
+    np.add.accumulate: lambda m: np.add.accumulate(m, axis=-1),
+    np.sort: lambda m: np.sort(m, axis=-1),
+    np.take: lambda x: np.take(x, np.argmax(x[3:]) - 2, axis=-1),
+    np.take_along_axis: lambda m: np.take_along_axis(m, np.argmax(m, axis=-1, keepdims=True) - 1, -1),
+    as_type: lambda x: np.where(np.isfinite(x), x, 0.0).astype(int),
+    operator.getitem: lambda m: m[1:, None, ::-2],
+    np.broadcast_to: lambda x: np.broadcast_to(x, (3, *x.shape)),
+    np.stack: lambda x: np.stack([x, 2 * x, np.zeros(x.shape)], axis=-1),
+    np.concatenate: lambda m: np.concatenate([m, np.ones(m.shape), -m], axis=-1),
+    np.expand_dims: lambda x: np.expand_dims(x, 0),
+    np.squeeze: lambda x: np.squeeze(x[None]),
+    np.reshape: lambda m: np.reshape(m, (-1, 2)),
+    np.ravel: np.ravel,
+    np.transpose: np.transpose,
+    np.moveaxis: lambda m: np.moveaxis(m, 0, -1),
+    np.swapaxes: lambda m: np.swapaxes(m, 0, 1),
+    np.repeat: lambda x: np.repeat(x, 3),
+    np.tile: lambda x: np.tile(x, 2),
+    np.roll: lambda m: np.roll(m, -1, axis=-1),
+    np.flip: lambda m: np.flip(m, axis=-1),
+    np.vstack: lambda x: np.vstack([x, -x]),
+    np.hstack: lambda x: np.hstack([x, -x]),
+    np.column_stack: lambda x: np.column_stack([x, -x]),
+    np.atleast_1d: np.atleast_1d,
+    np.atleast_2d: np.atleast_2d,
+    np.copy: np.copy,
+    np.append: lambda x: np.append(x, x[:2]),
+    np.diagonal: np.diagonal,
+    np.broadcast_arrays: lambda x: np.broadcast_arrays(x, x[:, None])[1],
+    np.argmin: lambda m: np.argmin(m, axis=-1, keepdims=True),
+    np.clip: lambda x: np.clip(x, -1.0, 2.0),
+    np.diff: lambda m: np.diff(m, axis=0),
+    np.trapezoid: lambda m: np.trapezoid(m, m**2),
+    np.unwrap: lambda m: np.unwrap(3 * m),
+    np.select: lambda x: np.select([x > 1, x > 0], [x, 2 * x], -1.0),
+    np.interp: lambda x: np.interp(x, [-1.0, 0.5, 2.0], [3.0, 1.0, 7.0]),
+    np.cross: lambda m: np.cross(m[:3], m[1:4] ** 2, axis=0),
+    np.linalg.norm: lambda m: np.linalg.norm(m, axis=0),
+    np.zeros_like: lambda x: x + np.zeros_like(x),
+    np.ones_like: lambda x: x + np.ones_like(x),
+    np.full_like: lambda x: x + np.full_like(x, 2.0),
+    np.outer: lambda x: np.outer(x, x[:3]),
+}
+OF_ROWS = {np.argmax, np.argmin, np.add.accumulate, np.sort, np.take_along_axis}
+OF_ORDINARY = {
+    operator.getitem,
+    np.concatenate,
+    np.reshape,
+    np.transpose,
+    np.moveaxis,
+    np.swapaxes,
+    np.roll,
+    np.flip,
+} | {*(np.diagonal, np.diff, np.trapezoid, np.unwrap, np.cross, np.linalg.norm)}
+
+
+def case(function):
+    """A use of a function of the table, and the arrays that it takes."""
+    row, use = TABLE[function], SPECIAL.get(function)
+    if isinstance(row, Each):
+        use, arrays = use or function, [ONE] if row.operands == 1 else list(PAIRS.T)
+    elif use:
+        arrays = [ROWS if function in OF_ROWS else ORDINARY if function in OF_ORDINARY else ONE]
+    else:
+        use, arrays = (lambda m: function(m, axis=-1)), [ROWS]
+    if function in TRUTHS:
+        return (lambda *given: use(*(values > 0 for values in given))), arrays
+    return use, arrays
+
+
+CASES = {f"{i:03d} {getattr(f, '__qualname__', f)}": case(f) for i, f in enumerate(TABLE)}
+
+
+def expression(seed):
+    """A function of a number, a row and a table, put together at random."""
+    rng = np.random.default_rng(seed)
+    steps = [(rng.integers(len(STEPS)), rng.integers(0, 1000, 3)) for _ in range(rng.integers(3, 16))]
+
+    def value(x, y, z):
+        found = [x, y, z]
+        for step, places in steps:
+            found.append(STEPS[step](*(found[place % len(found)] for place in places)))
+        return np.stack(np.broadcast_arrays(*(_last_row(each) for each in found[-3:])))
+
+    return value
+
+
+def _last_row(values):
+    return values.sum(0) if values.ndim == 2 else values
+
+
+STEPS = (
+    lambda a, b, c: a + b,
+    lambda a, b, c: a - b,
+    lambda a, b, c: a * b,
+    lambda a, b, c: a / b,
+    lambda a, b, c: 2.5 - a,
+    lambda a, b, c: a**2 + b**3 - c**0.5,
+    lambda a, b, c: np.sin(a) * np.cos(b),
+    lambda a, b, c: np.arctan2(a, b),
+    lambda a, b, c: np.hypot(a, b),
+    lambda a, b, c: np.where(a > b, a, c),
+    lambda a, b, c: np.where((a > 0) & ~(b >= c) | np.isnan(a), 1.0, a),
+    lambda a, b, c: np.minimum(a, b),
+    lambda a, b, c: np.maximum(abs(a), b),
+    lambda a, b, c: np.mod(a, 3.0) + b // 2,
+    lambda a, b, c: np.clip(a, -1, 1),
+    lambda a, b, c: a - np.max(b),
+    lambda a, b, c: a + np.sum(b, axis=-1, keepdims=True) if b.ndim else a,
+    lambda a, b, c: np.roll(a, 1, axis=-1) if a.ndim else a,
+    lambda a, b, c: a[..., ::-1] if a.ndim else a,
+    lambda a, b, c: np.concatenate([a[..., 3:], a[..., :3]], axis=-1) if a.ndim else a,
+    lambda a, b, c: np.cumsum(a, axis=-1) if a.ndim else a,
+    lambda a, b, c: np.take_along_axis(a, np.argmax(a, axis=-1, keepdims=True), -1) + b if a.ndim else b,
+    lambda a, b, c: np.take(a, np.argmin(np.ravel(b), keepdims=True) % 5, axis=-1) * 0.5 if a.ndim else a,
+    lambda a, b, c: np.append(a[..., 1:], np.broadcast_to(b, a.shape)[..., :1], axis=-1) if a.ndim >= b.ndim > 0 else b,
+)
+INPUTS = {"x": np.float64(0.7), "y": np.array([0.3, -1.2, 2.0, 0.0, 5.5]), "z": np.arange(15.0).reshape(3, 5) / 4 - 1}
