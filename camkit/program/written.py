@@ -102,6 +102,10 @@ def _full_like(a: Any, value: Any) -> Any:
     return np.broadcast_to(value, a.shape)
 
 
+def _append(a: Any, values: Any, axis: int | None = None) -> Any:
+    return np.concatenate([np.ravel(a), np.ravel(values)] if axis is None else [a, values], axis=axis or 0)
+
+
 def _outer(a: Any, b: Any) -> Any:
     return np.ravel(a)[:, None] * np.ravel(b)
 
@@ -130,5 +134,6 @@ BY: dict[Any, Any] = {
     np.ones_like: _ones_like,
     np.full_like: _full_like,
     np.outer: _outer,
+    np.append: _append,
 }
 """What numpy offers, and how it is written."""

@@ -132,7 +132,7 @@ STEPS = (
     lambda a, b, c: np.concatenate([a[..., 3:], a[..., :3]], axis=-1) if a.ndim else a,
     lambda a, b, c: np.cumsum(a, axis=-1) if a.ndim else a,
     lambda a, b, c: np.take_along_axis(a, np.argmax(a, axis=-1, keepdims=True), -1) + b if a.ndim else b,
-    lambda a, b, c: np.take(a, np.argmin(np.ravel(b), keepdims=True) % 5, axis=-1) * 0.5 if a.ndim else a,
-    lambda a, b, c: np.append(a[..., 1:], np.broadcast_to(b, a.shape)[..., :1], axis=-1) if a.ndim >= b.ndim > 0 else b,
+    lambda a, b, c: np.take(a, np.argmin(np.ravel(b), keepdims=True) % a.shape[-1], axis=-1) * 0.5 if a.ndim else a,
+    lambda a, b, c: np.append(a[..., 1:], 2 * a[..., :1], axis=-1) if a.ndim else b,
 )
 INPUTS = {"x": np.float64(0.7), "y": np.array([0.3, -1.2, 2.0, 0.0, 5.5]), "z": np.arange(15.0).reshape(3, 5) / 4 - 1}
