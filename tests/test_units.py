@@ -103,6 +103,14 @@ def test_what_is_no_number_is_not_converted(value, said):
         convert(value, "m", "mm")
 
 
+@pytest.mark.parametrize(
+    "value", ["1", True, np.True_, 1j, None, [1.0], np.array(["1"]), np.array([True]), np.array([1j]), 10**400]
+)
+def test_what_is_no_number_is_not_shown_in_a_unit(value):
+    with pytest.raises(ValueError, match=r"^what is to be shown in mm is no number that a computer can hold$"):
+        in_unit(value, "mm")
+
+
 def test_numbers_of_every_type_are_converted():
     for one in (1, 1.0, np.float32(1), np.int64(1), Fraction(1)):
         assert convert(one, "m", "mm") == 1000

@@ -79,7 +79,7 @@ class ContourPanel(Panel):
 
     def _knob(self, i: int, name: str, value: float) -> NumberRow:
         a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)
-        declared = Quantity(f"W_{i}", value, 0, 1, "", f"weight of the {words(name)}", at_least=0)
+        declared = Quantity(f"W_{i}", value, 0, max(1.0, value), "", f"weight of the {words(name)}", at_least=0)
         return NumberRow(name, declared, value, self._changed, self.banner.show_message)
 
     def _body(self) -> w.Widget:

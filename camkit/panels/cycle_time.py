@@ -66,7 +66,7 @@ class CycleTimePanel(JobPanel):
         return NumberRow("limit", declared, limit, lambda: None, self.runner.banner.show_message)
 
     def _interval(self, symbol: str, name: str, value: float) -> NumberRow:
-        declared = Quantity(symbol, value / deg, 10, 170, "deg", f"{name} interval that is tried")
+        declared = Quantity(symbol, 90, 10, 170, "deg", f"{name} interval that is tried")
         return NumberRow(f"{name}_interval", declared, value, lambda: None, self.runner.banner.show_message)
 
     def _asked(self) -> list[w.Widget]:

@@ -60,8 +60,9 @@ def _level() -> int:
 class Quantity:
     """The declaration of one number of a design; ``default, low, high, above, at_least, at_most`` are in ``unit``.
 
-    ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the largest of
-    ``low, high, default`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
+    The default is in the range from ``low`` to ``high``, which a slider offers and a study searches.
+    ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the larger of
+    ``low, high`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
     What must be above 0 is at least `BELOW` times that largest, so that nothing overflows when one divides by it.
     """
 
@@ -81,8 +82,11 @@ class Quantity:
         if not self.low < self.high:
             told = f"from {self.low:g} to {self.high:g}"
             raise ValueError(f"the range of {self.symbol} goes {told}; the first must be below the second")
+        told = f"{self.default:g} {self.unit}".rstrip()
+        if not self.low <= self.default <= self.high:
+            offered = f"from {self.low:g} to {self.high:g} {self.unit}".rstrip()
+            raise ValueError(f"the default of {self.symbol} is {told}; it must be in the range {offered}")
         if not self.allows(self.default * self.factor):
-            told = f"{self.default:g} {self.unit}".rstrip()
             raise ValueError(f"the default of {self.symbol} is {told}; it must be {self.possible}")
 
     @cached_property
@@ -97,7 +101,7 @@ class Quantity:
 
     @cached_property
     def _top(self) -> float:
-        return max(abs(self.low), abs(self.high), abs(self.default))
+        return max(abs(self.low), abs(self.high))
 
     @cached_property
     def _most(self) -> float:

@@ -40,7 +40,7 @@ def refuse_population(thing: object, what: str) -> None:
     """``ValueError`` in a sentence for a population of designs, or what holds one, such as its analysis."""
     for part in (thing, *getattr(thing, "__dict__", {}).values()):
         if isinstance(part, Declared) and columns(part):
-            raise ValueError(f"{what} is a population, a {type(part).__name__} with columns; it must be one design")
+            raise ValueError(f"{what} is a population, {shown(part)} with columns; it must be one design")
 
 
 class Design(Declared):

@@ -167,7 +167,9 @@ def shown(value: Any) -> str:
 
 
 def _article(name: str) -> str:
-    return "an" if name[0] in "AEIOUaeiou" else "a"
+    """What stands before a name: "a universal joint", "an oscillating cam"; "an RSSR", which is spelt."""
+    vowels = "AEFHILMNORSX" if name.isupper() else "AEIOU"
+    return "an" if name[0].upper() in vowels and name[:3].lower() != "uni" else "a"
 
 
 def kind_words(kind: type, article: bool = False) -> str:
@@ -175,8 +177,8 @@ def kind_words(kind: type, article: bool = False) -> str:
 
     >>> class RockerLoad: ...
     >>> class RSSR: ...
-    >>> kind_words(RockerLoad, article=True), kind_words(RSSR)
-    ('a rocker load', 'RSSR')
+    >>> kind_words(RockerLoad, article=True), kind_words(RSSR, article=True)
+    ('a rocker load', 'an RSSR')
     """
     name = kind.__name__
     said = name if name.isupper() else re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()

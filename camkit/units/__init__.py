@@ -88,9 +88,15 @@ def factor(unit: str) -> float:
 
 
 def in_unit(value: Any, unit: str) -> Any:
-    """``value`` (SI, number or array) expressed in ``unit``, free of the last digit's noise for a number."""
+    """``value`` (SI, number or array) expressed in ``unit``, free of the last digit's noise for a number.
+
+    Raises ``ValueError`` in a sentence for what is no such number or array: text, truths, complex numbers.
+    """
     si = factor(unit)
+    holds = getattr(value, "dtype", None)
     try:
+        if isinstance(value, (bool, complex)) if holds is None else holds.kind not in "iuf":
+            raise TypeError
         shown = value / si
     except (TypeError, OverflowError):
         raise ValueError(f"what is to be shown in {unit} is no number that a computer can hold") from None

@@ -231,7 +231,7 @@ REFUSALS = [
     (lambda: COLUMNS.analyse().bodies,
      "what is drawn is a population, a DoorHandleCam with columns; it must be one design"),
     (lambda: OscillatingRollerCam(arm_length=np.array([[0.05], [0.051]])).analyse().bodies,
-     "what is drawn is a population, a OscillatingRollerCam with columns; it must be one design"),
+     "what is drawn is a population, an OscillatingRollerCam with columns; it must be one design"),
     (lambda: ValveCam(max_lift=np.array([[0.012], [0.013]])).analyse().bodies,
      "what is drawn is a population, a ValveCam with columns; it must be one design"),
     (lambda: CamLever(lever=np.array([[0.2], [0.25]])).analyse().bodies,
