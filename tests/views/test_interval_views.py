@@ -11,8 +11,8 @@ from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_measures import peak_pressure, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
 from camkit.papers.sketches import two_radii_sketch
-from camkit.render.draw import artist_of, colour, moving
-from camkit.render.picture import draw, layout
+from camkit.render.draw import artist_of, colour
+from camkit.render.picture import draw
 from camkit.search.minimise import minimise
 from camkit.units import MPa, cm, deg, mm
 from camkit.views import default_views, mechanism
@@ -25,6 +25,7 @@ from camkit.views.intervals import (
     wear_over_way,
 )
 from camkit.views.progress import least_over_bound
+from redrawing import drawn, redrawn_in_place, xy
 
 FIRST, PRESS = HighSpeedCam(), CamLever()
 UNDERCUT = HighSpeedCam(roller_radius=115 * mm)
@@ -41,26 +42,10 @@ TABLE = ((0.0, 30.0), (12 * mm, 60.0), (18 * mm, 420.0))
 OTHER_PRESS = PRESS.replace(lever=210 * mm, arm_length=300 * mm, force_curve=TABLE)
 
 
-def drawn(cam, *views, **position):
-    _, axes = layout(views, dpi=50)
-    draw(cam.analyse(), axes, views, **position)
-    return axes if len(views) > 1 else axes[0]
-
-
-def xy(ax, key):
-    return np.array(artist_of(ax, key).get_data(), dtype=float)
-
-
 def told(ax, way):
     """What is said of the peak of an interval."""
     (said,) = [text.get_text() for text in ax.texts if text.get_gid().startswith(f"{way} ") and text.get_text()]
     return said
-
-
-def data_of(ax):
-    place = {"Polygon": "get_xy", "Line2D": "get_data", "Text": "get_position"}
-    found = {a.get_gid(): np.array(getattr(a, place[type(a).__name__])(), dtype=float) for a in moving(ax)}
-    return found, {a.get_gid(): (a.get_text(), a.get_color()) for a in ax.texts}
 
 
 @pytest.mark.filterwarnings("error")
@@ -77,19 +62,7 @@ def data_of(ax):
     ids=["cam", "lever"],
 )
 def test_drawing_again_moves_what_was_drawn(first, others, views):
-    axes = drawn(first, *views, turn=0.4)
-    artists = [set(moving(ax)) for ax in axes]
-    for cam in (*others, first):
-        draw(cam.analyse(), axes, views, turn=0.4)
-        assert [set(moving(ax)) for ax in axes] == artists
-    axes[0].figure.canvas.draw()
-    for again, new in zip(axes, drawn(first, *views, turn=0.4), strict=True):
-        (before, said), (after, says) = data_of(new), data_of(again)
-        assert before.keys() == after.keys()
-        assert said == says
-        assert again.get_title(loc="left") == new.get_title(loc="left")
-        for key in before:
-            assert_array_equal(after[key], before[key], err_msg=key)
+    redrawn_in_place(first, others, views, turn=0.4)
 
 
 # --- over the turn ----------------------------------------------------------------------------------------------------

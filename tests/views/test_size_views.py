@@ -13,8 +13,8 @@ from camkit.papers.optimiser_trials import measured_trials
 from camkit.papers.shaft import printed_designs
 from camkit.papers.trial_pictures import evaluations_needed, solved_within
 from camkit.render.contours import level_curve, outlined, region
-from camkit.render.draw import artist_of, moving
-from camkit.render.picture import draw, layout
+from camkit.render.draw import artist_of
+from camkit.render.picture import draw
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap
@@ -25,6 +25,7 @@ from camkit.views.progress import candidates
 from camkit.views.shafts import drive, pins
 from camkit.views.sizes import plane_of_sizes, section, utilisation
 from known_problems import tension_spring
+from redrawing import as_drawn_anew, drawn, redrawn_in_place, xy
 
 OTHERS = (
     UniversalJointShaft(power=400 * kW),
@@ -33,52 +34,16 @@ OTHERS = (
 )
 
 
-def drawn(shown, *views, **position):
-    figure, axes = layout(views, dpi=50)
-    draw(shown, axes, views, **position)
-    return figure, axes
-
-
-def data_of(ax):
-    """Where everything stands that was drawn with a key."""
-    place = {"Polygon": "get_xy", "Text": "get_position", "Line2D": "get_data"}
-    return {a.get_gid(): np.array(getattr(a, place[type(a).__name__])()) for a in moving(ax)}
-
-
-def xy(ax, key):
-    return np.array(artist_of(ax, key).get_data(), dtype=float)
-
-
-def as_drawn_anew(axes, analysis, views, **position) -> None:
-    """The axes hold what they would hold if the views were drawn for the first time."""
-    _, fresh = drawn(analysis, *views, **position)
-    for ax, new in zip(axes, fresh, strict=True):
-        before, after = data_of(new), data_of(ax)
-        assert before.keys() == after.keys()
-        for key in before:
-            np.testing.assert_array_equal(after[key], before[key], err_msg=key)
-
-
-def redrawn_in_place(first, others, views, **position) -> None:
-    figure, axes = drawn(first, *views, **position)
-    artists = [set(moving(ax)) for ax in axes]
-    for other in (*others, first):
-        draw(other, axes, views, **position)
-        assert [set(moving(ax)) for ax in axes] == artists
-    figure.canvas.draw()
-    as_drawn_anew(axes, first, views, **position)
-
-
 @pytest.mark.filterwarnings("error")
 def test_the_shafts_views_move_what_they_drew() -> None:
     """Names on curves come and go with the room for them."""
     first, views = UniversalJointShaft(), (plane_of_sizes, utilisation, section)
     assert default_views(first.analyse()) == views
-    _, axes = drawn(first.analyse(), *views)
+    axes = drawn(first, *views)
     for other in (*OTHERS, first):
         draw(other.analyse(), axes, views)
         axes[0].figure.canvas.draw()
-    as_drawn_anew(axes, first.analyse(), views)
+    as_drawn_anew(axes, first, views)
 
 
 @pytest.mark.filterwarnings("error")
@@ -188,8 +153,8 @@ def test_what_lies_beyond_the_bounds_is_veiled() -> None:
 
 def test_the_names_of_limits_keep_apart() -> None:
     for shaft in (UniversalJointShaft(), OTHERS[0], UniversalJointShaft(length=3.3, power=150 * kW)):
-        figure, (ax, *_) = drawn(shaft.analyse(), plane_of_sizes, utilisation, section)
-        figure.canvas.draw()
+        ax, *_ = drawn(shaft, plane_of_sizes, utilisation, section)
+        ax.figure.canvas.draw()
         boxes = [t.get_window_extent() for t in ax.texts if " name " in t.get_gid()]
         assert len(boxes) > 4
         assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
@@ -267,7 +232,7 @@ def test_the_drawing_turns_and_can_be_seen_from_elsewhere() -> None:
 
 def test_curves_over_a_turn() -> None:
     a = DoubleUniversalJoint(phase=90 * deg).analyse()
-    _, axes = drawn(a, *default_views(a))
+    axes = drawn(a, *default_views(a))
     speed = xy(axes[1], "driven")[1]
     assert (speed.min(), speed.max()) == pytest.approx((441.5, 566.2), abs=0.06)
     assert xy(axes[1], "input")[1] == pytest.approx(500)
@@ -289,7 +254,7 @@ def test_candidates_are_drawn_where_they_stood() -> None:
 
 def test_boxes_of_trials() -> None:
     some = measured_trials("tension spring")
-    _, (ax,) = drawn(some, evaluations_needed)
+    ax = drawn(some, evaluations_needed)
     for i, one in enumerate(some):
         needed = one.to(0.01)
         assert sorted(xy(ax, f"runs {i} 0.01")[0]) == sorted(needed[np.isfinite(needed)])
@@ -300,7 +265,7 @@ def test_boxes_of_trials() -> None:
 
 def test_the_share_of_runs_that_arrived() -> None:
     everything = [t for p in ("tension spring", "welded beam") for t in measured_trials(p)]
-    _, (ax, one) = drawn(everything, solved_within(0.01), solved_within(0.01, "welded beam"))
+    ax, one = drawn(everything, solved_within(0.01), solved_within(0.01, "welded beam"))
     for method in ("SLSQP", "GA (pymoo)", "random search"):
         needed = np.concatenate([t.to(0.01) for t in everything if t.method == method])
         n, share = xy(ax, method)
