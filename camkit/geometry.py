@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class Outline(Body):
     cut: Value | None = None
     """At which points it is cut away, ``(k,)``; ``None``: nowhere."""
 
-    def at(self, i: Any) -> np.ndarray:
+    def at(self, i: SupportsIndex) -> np.ndarray:
         """Its points in the machine's frame at position ``i``, ``(2, k)``, m."""
         x, y, angle = (np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y, self.angle))
         return rotated(self.points, angle) + np.stack(np.broadcast_arrays(x, y))[:, None]
@@ -51,7 +52,7 @@ class Disc(Body):
 
     radius: Any
 
-    def at(self, i: Any) -> np.ndarray:
+    def at(self, i: SupportsIndex) -> np.ndarray:
         """Its centre at position ``i``, ``(2,)``, m."""
         return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
 
@@ -94,7 +95,7 @@ def angle_opposite(side: Value, first: Value, second: Value) -> Value:
         return np.arccos(cosine)
 
 
-def circle(centre: Any, radius: float, n: int = 73) -> np.ndarray:
+def circle(centre: Sequence[Value], radius: Value, n: int = 73) -> np.ndarray:
     """A closed circle of ``n`` points, ``(2, n)``."""
     turn = np.linspace(0, 2 * np.pi, n)
     return np.stack([centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn)])

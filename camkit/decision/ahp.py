@@ -175,7 +175,7 @@ class Judgements:
             if value <= left.min() * (1 + ALIKE)
         }
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[np.ndarray | float]:
         """Unpacks as weights and consistency ratio."""
         return iter((self.weights, self.consistency_ratio))
 

@@ -89,7 +89,7 @@ def weighted_sum(front: object, weights: object = None) -> Any:
     return _chosen(-_weights(weights, f.shape[1]) @ normalised(f).T)
 
 
-SCALES: dict[str, Callable[[Any], np.ndarray]] = {"vector": _of_length_one, "range": normalised}
+SCALES: dict[str, Callable[[object], np.ndarray]] = {"vector": _of_length_one, "range": normalised}
 """Ways to make objectives comparable, by name."""
 
 

@@ -15,7 +15,7 @@ from ..quantities.kinds import shown
 from .ahp import SAATY_SCALE, ahp, judged_weights
 from .choosers import objectives_of, weighted_sum
 
-Chooser = Callable[[Any, Any], Any]
+Chooser = Callable[[object, object], Any]
 
 LEAST, MOST = SAATY_SCALE[0], SAATY_SCALE[-1]
 STEPS = 100

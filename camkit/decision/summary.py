@@ -128,7 +128,7 @@ def side_by_side(
     return SideBySide(tuple(map(str, designs)), tuple(lines))
 
 
-def _senses(study: Any) -> dict[Measure, int]:
+def _senses(study: Study | None) -> dict[Measure, int]:
     """Measures of a study with +1 if small, -1 if large is better."""
     if study is None:
         return {}

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import Design, Quantity, counted, declarations, quantity
-from ..quantities.kinds import number, numbers, shown
+from ..quantities.kinds import numbers, one_number, shown
 from ..quantities.types import Array, Value
 from . import limits
 from .load import RockerLoad
@@ -187,8 +187,7 @@ class RSSR(Links):
         There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
         crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
         """
-        if np.ndim(number(branch)) or number(branch) not in (1, -1):
-            raise ValueError(f"the branch is {shown(branch)}; it must be +1 or -1")
+        one_number(branch, "the branch", "be +1 or -1", lambda sign: sign in (1, -1))
         if not (load is None or isinstance(load, RockerLoad)):
             raise ValueError(f"the load is {shown(load)}; it must be a RockerLoad")
         if not isinstance(through, (bool, np.bool_)):

@@ -80,7 +80,7 @@ def _against_fullness(wear: Measure, weights: Sequence[float], most: Measure, at
         raise ValueError(f"there are {len(weights)} weights; there must be one of the fullness and one of the wear")
     parts = dict(zip((-fullness, wear), weights, strict=True))
     name = f"fullness against {most.name}{'' if wear.sign > 0 else ', sign as printed'}"
-    return weighted(name, parts, (fullness(_corner(at.cam, 1)), most(at)))
+    return weighted(name, parts, (fullness.one(_corner(at.cam, 1)), most.one(at)))
 
 
 def valve_study(

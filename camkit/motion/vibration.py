@@ -50,7 +50,7 @@ class Vibration(NamedTuple):
     """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
 
 
-def period_ratio(angle: Value, speed: Value, natural_frequency: Value) -> Array:
+def period_ratio(angle: Value, speed: Value, natural_frequency: Value) -> Value:
     """``tau`` of a rise over the cam ``angle`` (rad) at a shaft ``speed`` (rad/s); natural frequency in rad/s.
 
     >>> from camkit.units import rpm
@@ -108,9 +108,10 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
         raise ValueError(f"residual vibration is that of a motion law or of a motion program, not of {shown(law)}")
     motion = law if isinstance(law, Law) else _Whole(law)
     ratio = _ratios(tau)
-    damping = a_number(damping, "the damping ratio", "be at least 0 and below 1", lambda z: (z >= 0) & (z < 1))
-    if np.ndim(damping):
+    share = a_number(damping, "the damping ratio", "be at least 0 and below 1", lambda z: (z >= 0) & (z < 1))
+    if np.ndim(share):
         raise ValueError("the damping ratio is a column; it must be one number")
+    damping = float(share)
     W = 2 * np.pi * ratio[:, None]
     m, c = _root(W, damping), 1 + 1j * damping / np.sqrt(1 - damping**2)
     panels = _panels(motion, float(ratio.max()))

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..units import deg, mm
 from ..views.picture import Axes, Formula, Picture, Text
-from ..views.space import CRANK, ROCKER, crank_circle, rocker_circle, scene_of
+from ..views.space import CRANK, NEITHER, ROCKER, crank_circle, rocker_circle, scene_of
 from ..views.turntable import Turntable
 
 
@@ -28,7 +28,7 @@ def linkage_sketch(
         _angle(scene, key, centre, circle(linkage, np.linspace(0, angle, 41)), style, letter)
     for key, ends, style, letter, shift in (
         ("crank", (root, b), CRANK, "$l_1$", -14),
-        ("coupler", (b, c), {}, "$l_2$", 14),
+        ("coupler", (b, c), NEITHER, "$l_2$", 14),
         ("rocker", (hinge, c), ROCKER, "$l_3$", -13),
     ):
         scene.link(key, np.stack(ends, axis=1), **style)
@@ -36,8 +36,8 @@ def linkage_sketch(
     for key, point, size, style in (
         ("root", root, 8, CRANK),
         ("hinge", hinge, 8, ROCKER),
-        ("B", b, 12, {}),
-        ("C", c, 12, {}),
+        ("B", b, 12, NEITHER),
+        ("C", c, 12, NEITHER),
     ):
         scene.ball(key, point, size, fill="paper", **style)
     _ways(scene, here, b, c)

@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..units import factor, in_unit
 from .kinds import listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
@@ -118,7 +119,7 @@ class Quantity:
         """The hard limit in words; the largest size is named where the declaration gives it."""
         return self._possible(self.at_most is not None)
 
-    def possible_for(self, value: Any) -> str:
+    def possible_for(self, value: float) -> str:
         """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
         said = self._possible(np.isfinite(value) and abs(value) > self._most)
         small = self.at_least is None and 0 < value < self._least
@@ -133,15 +134,15 @@ class Quantity:
             return f"a finite number above {self.above:g}{unit}" + f" and {upto}" * bool(most)
         return "a finite number" + f" of a size of {upto}" * bool(most)
 
-    def allows(self, value: Any) -> Any:
+    def allows(self, value: object) -> Any:
         """Whether ``value`` (SI) can be built, element by element."""
-        if (value := number(value)) is None:
+        if (read := number(value)) is None:
             return False
-        ok = abs(value) <= self._most
+        ok = (read >= -self._most) & (read <= self._most)
         if self.at_least is not None:
-            return ok & (value >= self.at_least * self.factor)
+            return ok & (read >= self.at_least * self.factor)
         if self.above is not None:
-            return ok & (value > self.above * self.factor) & (value >= self._least)
+            return ok & (read > self.above * self.factor) & (read >= self._least)
         return ok
 
     def text(self, value: float) -> str:
@@ -181,7 +182,7 @@ class Choice:
     """
 
     symbol: str
-    default: Any
+    default: object
     options: Sequence[Any] | Mapping[str, Any]
     meaning: str
 
@@ -273,7 +274,9 @@ def quantity(
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
-def choice(symbol: str, default: object, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: Any) -> Any:
+def choice(
+    symbol: str, default: object, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: object
+) -> Any:
     """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names.
 
     ``says`` what the options leave to their owner, such as the letter of numbers in a row, by the name of their field.
@@ -327,6 +330,8 @@ def _subject(name: str, declared: Quantity) -> str:
 class Declared:
     """What has quantities of its own, as a design has, or a part of one: they are checked and can be replaced."""
 
+    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
+
     def __post_init__(self) -> None:
         for name, entry in _declared(type(self)).items():  # type: ignore[arg-type]
             value = getattr(self, name)
@@ -337,7 +342,7 @@ class Declared:
             elif (option := entry.same_as(value)) is not value:
                 object.__setattr__(self, name, option)
 
-    def _check(self, name: str, declared: Quantity, given: Any) -> None:
+    def _check(self, name: str, declared: Quantity, given: object) -> None:
         """Refuse one number that cannot be built; drop the members of a population that cannot."""
         value = number(given)
         if value is None:
@@ -349,14 +354,14 @@ class Declared:
         if fails(ok):
             raise ValueError(
                 f"{_subject(name, declared)} ({declared.meaning}) is {declared.text(float(value))}; "
-                f"it must be {declared.possible_for(value)}"
+                f"it must be {declared.possible_for(float(value))}"
             )
         if type(value) is float:
             declared.remark(name, value)
         else:
             self._keep(ok)
 
-    def _keep(self, ok: Any) -> None:
+    def _keep(self, ok: ArrayLike) -> None:
         """Members of a population for which ``ok`` does not hold become ``nan`` in every number that is a column.
 
         A number that all members share stays one, so that what follows from it is worked out once.
@@ -367,22 +372,22 @@ class Declared:
         for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:
             object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 
-    def replace(self, **changes: Any) -> Any:
+    def replace(self, **changes: Any) -> Self:
         """The same design with some fields changed (and checked again)."""
         refuse_fields(self, changes)
         with unremarked():
-            changed = dataclasses.replace(self, **changes)  # type: ignore[type-var]
+            changed = dataclasses.replace(self, **changes)
         for name, declared in declarations(self).items():
             if name in changes and isinstance(declared, Quantity):
                 declared.remark(name, getattr(changed, name))
         return changed
 
-    def branches(self) -> dict[str, Any]:
+    def branches(self) -> Mapping[str, Declared]:
         """The parts that have quantities of their own, by the names that their paths begin with."""
-        parts = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self))  # type: ignore[arg-type]
+        parts = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self))
         return {name: part for name, part in parts if isinstance(part, Declared) and dataclasses.is_dataclass(part)}
 
-    def changed(self, changes: Mapping[str, Any]) -> Any:
+    def changed(self, changes: Mapping[str, object]) -> Self:
         """The same with other fields and `branches`."""
         return self.replace(**changes)
 

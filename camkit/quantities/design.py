@@ -11,7 +11,7 @@ from .declaration import Choice, Declared, Quantity, declarations, words
 from .kinds import columns, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, table
 from .measure import Measure
-from .tree import choices_of, declared_in, refuse_no_design, value_of
+from .tree import a_design, choices_of, declared_in, value_of
 
 
 @runtime_checkable
@@ -56,7 +56,7 @@ class Design(Declared):
         refuse_kinds(self, declarations(self))
         refuse_lengths(self)
 
-    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
+    def _repr_mimebundle_(self, **wanted: object) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
         told = (f"{words(path)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
         return {"text/plain": f"{type(self).__name__}: {', '.join(told)}", "text/html": self._repr_html_()}
@@ -76,11 +76,10 @@ def measures_of(design: object) -> tuple[Measure, ...]:
     >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
     ['overspeed before the follower jumps', 'peak contact pressure']
     """
-    refuse_no_design(design)
-    return (*getattr(type(design), "measures", ()), *_measures_below(design))
+    return (*getattr(type(design), "measures", ()), *_measures_below(a_design(design)))
 
 
-def _measures_below(part: Any) -> Iterator[Measure]:
+def _measures_below(part: Declared) -> Iterator[Measure]:
     """Those of the parts that it holds; what is analysed on its own, such as a cam of a pair, keeps its own."""
     for held in part.branches().values():
         yield from () if hasattr(held, "analyse") else getattr(type(held), "measures", ())

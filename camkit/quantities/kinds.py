@@ -26,7 +26,7 @@ DEEPEST = 8
 """No table of numbers has more dimensions."""
 
 
-def number(value: Any) -> Any:
+def number(value: Any) -> Value | None:
     """``value`` as a float, or as an array of floats of shape ``(p, 1)``; ``None`` for anything else.
 
     >>> number(5), number(np.array([[1], [2]])).tolist(), number(True), number([1.0]), number(np.ones(3))
@@ -50,7 +50,7 @@ def plain(array: np.ndarray) -> bool:
     return not isinstance(array, (np.ma.MaskedArray, np.matrix))
 
 
-def finite(value: Any) -> Any:
+def finite(value: object) -> Any:
     """Whether ``value`` is a finite number, element by element of a column; ``False`` for what is no number.
 
     >>> finite(1.5), finite("1.5"), finite(np.array([[1.0], [np.nan]])).tolist()
@@ -60,7 +60,9 @@ def finite(value: Any) -> Any:
     return False if read is None else np.isfinite(read)
 
 
-def a_number(value: Any, what: str, must: str = "be a finite number", holds: Callable[[Any], Any] | None = None) -> Any:
+def a_number(
+    value: object, what: str, must: str = "be a finite number", holds: Callable[[Any], Any] | None = None
+) -> Value:
     """``value`` as a float or a column; ``ValueError`` if it is none, or one number for which ``holds`` does not hold.
 
     Members of a column that are not finite, or for which it does not, become ``nan``.
@@ -81,11 +83,11 @@ def a_number(value: Any, what: str, must: str = "be a finite number", holds: Cal
 
 
 def one_number(
-    value: Any, what: str, must: str = "be a finite number", holds: Callable[[float], bool] | None = None
+    value: object, what: str, must: str = "be a finite number", holds: Callable[[float], bool] | None = None
 ) -> float:
     """``value`` as a float, finite or not; ``ValueError`` for what is no single number or not as ``holds`` asks."""
     read = number(value)
-    if read is None or np.ndim(read) or (holds and not holds(read)):
+    if read is None or np.ndim(read) or (holds and not holds(float(read))):
         raise ValueError(f"{what} is {shown(value)}; it must {must}")
     return float(read)
 
@@ -133,7 +135,7 @@ ARRAYS = {
 """What an array holds, by the letter of its type; numbers need no word."""
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """``value`` as a sentence can hold it.
 
     >>> shown("22"), shown([]), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
@@ -203,14 +205,14 @@ def refuse_kinds(thing: object, but: Container[str] = ()) -> None:
             raise ValueError(f"the {name.replace('_', ' ')} is {shown(value)}; it must be {kind.said}")
 
 
-def refuse_fields(thing: Any, changes: Mapping[str, Any]) -> None:
+def refuse_fields(thing: Any, changes: Mapping[str, object]) -> None:
     """``ValueError`` in a sentence for a change of a field that the dataclass ``thing`` does not have."""
     names = [f.name for f in dataclasses.fields(thing)]
     if unknown := sorted(changes.keys() - set(names)):
         raise ValueError(f"{type(thing).__name__} has no {', '.join(unknown)}; it has {', '.join(names)}")
 
 
-def refuse_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+def refuse_arguments(function: Callable[..., object], given: Mapping[str, Any]) -> None:
     """``ValueError`` in a sentence for an argument of ``function`` that is not of its annotation's kind.
 
     ``given`` are its ``locals()`` at its door; what is annotated ``Any`` is the function's own business.
@@ -229,7 +231,7 @@ def refuse_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> 
                 raise ValueError(f"{name} is {shown(value)}; it must be {kind.said}")
 
 
-def _each(parameter: inspect.Parameter, value: Any) -> list[tuple[str, Any]]:
+def _each(parameter: inspect.Parameter, value: Any) -> list[tuple[str, object]]:
     """What is given for a parameter, with its name; several if it gathers arguments."""
     if parameter.kind is inspect.Parameter.VAR_POSITIONAL:
         return [(f"one of the {parameter.name}", each) for each in value]
@@ -239,7 +241,7 @@ def _each(parameter: inspect.Parameter, value: Any) -> list[tuple[str, Any]]:
 
 
 @cache
-def _argument_kinds(function: Callable[..., Any]) -> tuple[tuple[inspect.Parameter, Kind], ...]:
+def _argument_kinds(function: Callable[..., object]) -> tuple[tuple[inspect.Parameter, Kind], ...]:
     """The arguments of a function that can be checked."""
     hints = typing.get_type_hints(function)
     parameters = inspect.signature(function).parameters.values()
@@ -270,7 +272,7 @@ def refuse_lengths(thing: Any) -> None:
     refuse_unequal({f.name: getattr(thing, f.name) for f in dataclasses.fields(thing)}, type(thing).__name__)
 
 
-def refuse_unequal(held: Mapping[str, Any], what: str) -> None:
+def refuse_unequal(held: Mapping[str, object], what: str) -> None:
     """The same for what ``what`` holds by name."""
     found = ((name, _lengths_of(value, name)) for name, value in held.items())
     several = [(name, length) for name, lengths in found for length in lengths if length != 1]
@@ -286,7 +288,7 @@ def _lengths_of(value: object, name: str) -> set[int]:
         raise ValueError(f"the {name.replace('_', ' ')} holds itself, or lists within lists without end") from None
 
 
-def columns(thing: Any) -> bool:
+def columns(thing: object) -> bool:
     """Whether a number of ``thing``, or of what it holds, is a column: it is a population.
 
     >>> columns((1.0, np.array([[2.0], [3.0]]))), columns((1.0, 2.0))
@@ -321,7 +323,7 @@ def _one(value: object) -> bool:
     return read is not None and np.ndim(read) == 0 and not fails(np.isfinite(read))
 
 
-SIMPLE: dict[Any, Kind] = {
+SIMPLE: dict[object, Kind] = {
     float: Kind(_one, "a finite number"),
     int: Kind(lambda v: isinstance(v, (int, np.integer)) and not isinstance(v, bool), "a whole number"),
     bool: Kind(lambda v: isinstance(v, (bool, np.bool_)), "True or False"),

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 
-def known(value: Any) -> bool:
+def known(value: object) -> bool:
     """Whether a value can be asked what it is; a recorded one only stands for others.
 
     >>> known(1.5), known(np.ones(3))

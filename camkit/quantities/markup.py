@@ -12,7 +12,6 @@ import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import Any
 
 
 class Html(str):
@@ -39,12 +38,12 @@ def attribute(name: str, text: object) -> Html:
     return Html(f"{name}='{escape(_visible(text), quote=True)}'")
 
 
-def html(template: str, *parts: Any, **named: Any) -> Html:
+def html(template: str, *parts: object, **named: object) -> Html:
     """``template``, which is HTML, with every part that is not `Html` escaped."""
     return Html(template.format(*map(escaped, parts), **{name: escaped(part) for name, part in named.items()}))
 
 
-def joined(parts: Iterable[Any], between: str = "") -> Html:
+def joined(parts: Iterable[object], between: str = "") -> Html:
     """Parts one after the other with ``between``, which is HTML, between them.
 
     >>> joined(["x < 1", html("<i>{}</i>", "y")], "<br>")
@@ -53,7 +52,7 @@ def joined(parts: Iterable[Any], between: str = "") -> Html:
     return Html(between.join(map(escaped, parts)))
 
 
-def table(head: Sequence[Any], rows: Iterable[Sequence[Any]], caption: object = "", style: str = "") -> Html:
+def table(head: Sequence[object], rows: Iterable[Sequence[object]], caption: object = "", style: str = "") -> Html:
     """An HTML table; ``style`` is that of every cell.
 
     >>> table(["law"], [["a & b"]])
@@ -65,7 +64,7 @@ def table(head: Sequence[Any], rows: Iterable[Sequence[Any]], caption: object = 
     )
 
 
-def _row(kind: str, cells: Iterable[Any], style: str) -> Html:
+def _row(kind: str, cells: Iterable[object], style: str) -> Html:
     opened = html("<{} {}>", kind, attribute("style", style)) if style else f"<{kind}>"
     return Html(f"<tr>{''.join(f'{opened}{escaped(cell)}</{kind}>' for cell in cells)}</tr>")
 

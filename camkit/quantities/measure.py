@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ..units import factor, in_unit
 from .applied import applied
 from .kinds import one_number, plain, refuse_kinds, shown
 from .known import known
+from .types import Value
 
 
 @dataclass(frozen=True)
@@ -29,9 +30,9 @@ class Measure:
 
     name: str
     unit: str
-    function: Callable[[Any], Any] = field(repr=False, compare=False)
+    function: Callable[[Any], Value] = field(repr=False, compare=False)
     sign: int = 1
-    made: tuple[Any, ...] = field(default=(), repr=False, compare=False, kw_only=True)
+    made: tuple[object, ...] = field(default=(), repr=False, compare=False, kw_only=True)
     """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
 
     def __post_init__(self) -> None:
@@ -40,7 +41,7 @@ class Measure:
         if self.sign not in (1, -1):
             raise ValueError(f"the sign of the measure is {shown(self.sign)}; it must be +1 or -1")
 
-    def given(self, analysis: Any) -> Any:
+    def given(self, analysis: object) -> Value:
         """What the function gives of an analysis, before the sign; ``ValueError`` for anything but real numbers."""
         with applied(f"the {self.name}", analysis):
             value = self.function(analysis)
@@ -53,7 +54,7 @@ class Measure:
             raise ValueError(f"the {self.name} gives {shown(value)}; a measure gives real numbers, one or an array")
         return value
 
-    def __call__(self, analysis: object) -> Any:
+    def __call__(self, analysis: object) -> Value:
         return self.sign * self.given(analysis)
 
     def of(self, analysis: object, p: int) -> np.ndarray:
@@ -103,16 +104,16 @@ class PeakMeasure(Measure):
     0.02
     """
 
-    angle: Callable[[Any], Any] | None = field(default=None, repr=False, compare=False)
+    angle: Callable[[Any], np.ndarray] | None = field(default=None, repr=False, compare=False)
 
-    def curve(self, analysis: object) -> Any:
+    def curve(self, analysis: object) -> np.ndarray:
         """The value at every point, before the sign."""
         curve = self.given(analysis)
         if not np.ndim(curve) or not np.shape(curve)[-1]:
             raise ValueError(
                 f"the {self.name} gives {shown(curve)}; it is the largest value of a curve, its points last"
             )
-        return curve
+        return cast(np.ndarray, curve)
 
-    def __call__(self, analysis: object) -> Any:
+    def __call__(self, analysis: object) -> Value:
         return self.sign * self.curve(analysis).max(-1)

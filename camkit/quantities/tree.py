@@ -13,13 +13,15 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cache
 from types import MethodType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from .declaration import Choice, Declared, Quantity
 from .kinds import shown
 
+T = TypeVar("T")
+"""A design, or a part of one."""
 NEAR, FEW = 3, 12
 """So many paths near a wrong one are named, and as many as there are where they are few."""
 
@@ -27,11 +29,11 @@ NEAR, FEW = 3, 12
 class Leaf(NamedTuple):
     """A quantity or a choice where it stands: in a field, or ``at`` a place of a field that is a row."""
 
-    declared: Any
+    declared: Quantity | Choice
     field: str
     at: int | None = None
 
-    def value(self, part: Any) -> Any:
+    def value(self, part: Declared) -> Any:
         """What ``part`` has there."""
         held = getattr(part, self.field)
         return held if self.at is None else held[self.at]
@@ -43,7 +45,7 @@ def _lettered(declared: Quantity, letter: str | None) -> Quantity:
     return replace(declared, symbol=f"{letter}_{declared.symbol.partition('_')[2]}") if letter else declared
 
 
-def _leaves(part: Any, said: Mapping[str, Any]) -> dict[str, Leaf]:
+def _leaves(part: Declared, said: Mapping[str, Any]) -> dict[str, Leaf]:
     """The quantities and choices of one part by name; ``said``: what its owners say of fields that leave it to them."""
     found, own = {}, part.declares()
     for f in dataclasses.fields(part):
@@ -58,13 +60,13 @@ def _leaves(part: Any, said: Mapping[str, Any]) -> dict[str, Leaf]:
     return found
 
 
-def _said(part: Any, branch: str, said: Mapping[str, Any]) -> Mapping[str, Any]:
+def _said(part: Declared, branch: str, said: Mapping[str, Any]) -> Mapping[str, Any]:
     """What the owners of a branch say."""
     more = (f.metadata.get("says", {}) for f in dataclasses.fields(part) if f.name == branch)
     return {**said, **next(more, {})}
 
 
-def _walk(part: Any, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
+def _walk(part: Declared, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
     """All below one part, in the order of its fields, with their paths from it."""
     leaves, branches, hidden = _leaves(part, said), part.branches(), part.following()
     own = [f.name for f in dataclasses.fields(part)]
@@ -76,16 +78,16 @@ def _walk(part: Any, said: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
                 yield path, leaf
 
 
-def refuse_no_design(design: object) -> None:
-    """``ValueError`` for what is no design, nor a part of one."""
+def a_design(design: object) -> Declared:
+    """``design``; ``ValueError`` for what is no design, nor a part of one."""
     if not isinstance(design, Declared) or not dataclasses.is_dataclass(design):
         raise ValueError(f"the design is {shown(design)}; it must be a design, such as a cam, or a part of one")
+    return design
 
 
 def _leaves_of(design: object) -> dict[str, Leaf]:
     """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
-    refuse_no_design(design)
-    return dict(_walk(design, {}))
+    return dict(_walk(a_design(design), {}))
 
 
 def declared_in(design: object) -> dict[str, Quantity | Choice]:
@@ -113,7 +115,7 @@ def value_of(design: object, path: str) -> Any:
     return Paths(design, (path,)).values(design)[0]
 
 
-def with_quantities(design: object, values: Mapping[str, Any]) -> Any:
+def with_quantities(design: T, values: Mapping[str, object]) -> T:
     """The design with other values by path: numbers, columns ``(p, 1)``, and options of choices or their names.
 
     All that changes in one part changes at once, and what its constructor refuses is refused.  Choices come first where
@@ -210,9 +212,9 @@ class Paths:
             paths = ", ".join(self.declared)
             raise ValueError(f"this {type(design).__name__} is made in another way: it lacks one of {paths}") from None
 
-    def put(self, design: object, values: Sequence[Any]) -> Any:
+    def put(self, design: T, values: Sequence[object]) -> T:
         """``design``, of the same make, with other values in the order of the paths."""
-        return self._change.put(design, values) if self._leaves else design
+        return cast(T, self._change.put(design, values)) if self._leaves else design
 
 
 def _part(design: Any, way: Sequence[str]) -> Any:
@@ -246,7 +248,7 @@ def _followed(design: Any, path: str) -> str:
     return ""
 
 
-def members(value: Any, rows: Any) -> Any:
+def members(value: Any, rows: np.ndarray | Sequence[int]) -> Any:
     """Some members of a population: ``value`` with those rows of every column in it; what all share stays.
 
     >>> members((1.0, np.array([[2.0], [3.0], [4.0]])), [2, 0])

@@ -247,7 +247,7 @@ def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, Any], th
     at = mark.anchor.split()
     across = next((a for a in at if a in ("left", "right")), "center")
     upright = next((a for a in at if a in ("top", "bottom")), "center")
-    seen = np.isfinite([mark.x, mark.y]).all()
+    seen = np.isfinite(np.append(mark.x, mark.y)).all()
     place = (mark.x, mark.y) if seen else (1.0, 1.0)
     artist.set(position=place, text=words if seen else "", ha=across, va=upright, fontsize=mark.size, **style)
     artist.set_fontweight("bold" if mark.bold else "normal")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic
+from typing import Any, Generic, SupportsIndex
 
 import numpy as np
 from scipy.stats import qmc
@@ -41,10 +41,10 @@ class Front(Generic[D]):
     def __len__(self) -> int:
         return len(self.x)
 
-    def __getitem__(self, i: int) -> D:
+    def __getitem__(self, i: SupportsIndex | slice | np.ndarray) -> D:
         return self.study.design(self.x[i if isinstance(i, slice) else self._place(i)])
 
-    def _place(self, i: object) -> Any:
+    def _place(self, i: object) -> np.ndarray:
         """One or more places on the front; past its end `IndexError`, by which a loop over it ends."""
         numbers(i, "the place on the front")
         place = np.asarray(i)

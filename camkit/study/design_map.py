@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from ..quantities import Measure, counted
+from ..quantities.declaration import Quantity
 from ..quantities.kinds import numbers, refuse_kinds, shown
 from .study import Evaluation, Study
 
@@ -60,7 +61,7 @@ class DesignMap:
         return np.linspace(self.window[0], self.window[1], self.n, axis=1)
 
     @property
-    def declared(self) -> tuple[Any, Any]:
+    def declared(self) -> tuple[Quantity, Quantity]:
         """The declarations of both quantities."""
         first, second = self.study.declared.values()
         return first, second

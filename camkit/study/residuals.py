@@ -47,9 +47,9 @@ def _row(sides: Callable[[Any], np.ndarray], i: int) -> Callable[[Any], np.ndarr
 
 def _remembered(function: Callable[[Any], np.ndarray]) -> Callable[[Any], np.ndarray]:
     """``function``, computed once for each analysis in a row: every residual asks for it."""
-    last: list[Any] = [None, None]
+    last: list[object] = [None, None]
 
-    def of(analysis: Any) -> np.ndarray:
+    def of(analysis: object) -> np.ndarray:
         if last[0] is not analysis:
             last[:] = analysis, function(analysis)
         return np.asarray(last[1])

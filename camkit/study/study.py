@@ -37,6 +37,7 @@ from ..quantities.kinds import (
     refuse_kinds,
     shown,
 )
+from ..quantities.types import Array, Value
 
 TRIED = 32
 """So many pairs of designs, at random, say whether a free quantity has any effect."""
@@ -85,7 +86,7 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
         for m, value in zip(parts, reference, strict=True)
     )
 
-    def total(analysis: object) -> Any:
+    def total(analysis: object) -> Value:
         return sum(w * part(analysis) / r for part, w, r in zip(parts, shares, divisors, strict=True))
 
     return WeightedSum(name, "", total, 1, parts, shares, divisors)
@@ -99,7 +100,7 @@ KEPT = 1e-9
 """A limit is kept if it is missed by no more than this share of it (of 1, if it is 0): in all of the package."""
 
 
-def keeps(value: Any, limit: float, sense: int) -> Any:
+def keeps(value: Value, limit: float, sense: int) -> Value:
     """Whether ``value`` keeps a limit: at most (``sense`` +1) or at least (-1) ``limit``.
 
     >>> keeps(2.0, 2.0 * (1 - 1e-10), 1), keeps(2.0, 1.99, 1), keeps(float("nan"), 2.0, 1)
@@ -133,7 +134,7 @@ def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> Non
     declared.remark(name, float(high))
 
 
-def refuse_limits(at_most: Mapping[Any, Any], at_least: Mapping[Any, Any]) -> None:
+def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, float]) -> None:
     """``ValueError`` in a sentence for limits that are no finite number for a measure, or that nothing can keep."""
     for measure, limit in (*at_most.items(), *at_least.items()):
         if not isinstance(measure, Measure):
@@ -161,7 +162,7 @@ def named_studies(studies: Study | Mapping[str, Study]) -> dict[str, Study]:
     return dict(studies)
 
 
-def made_study(make: Callable[..., Any], *given: Any, **named: Any) -> Study:
+def made_study(make: Callable[..., object], *given: object, **named: object) -> Study:
     """The study that ``make(*given, **named)`` gives; ``ValueError`` where it cannot, or gives something else."""
     name = getattr(make, "__name__", "that is given")
     try:
@@ -221,7 +222,7 @@ class Study(Generic[D]):
 
     def __post_init__(self) -> None:
         refuse_design(self.start, "the start of the study")
-        given: Any = self.free
+        given: object = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
         if twice := [name for i, name in enumerate(given) if name in list(given)[:i]]:
@@ -320,7 +321,7 @@ class Study(Generic[D]):
         return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
 
     @staticmethod
-    def _columns(values: list[Any], p: int) -> np.ndarray:
+    def _columns(values: list[Array], p: int) -> np.ndarray:
         return np.stack(values, axis=-1) if values else np.zeros((p, 0))
 
     def worst_miss(self, g: np.ndarray) -> str:
@@ -342,7 +343,7 @@ class Study(Generic[D]):
         self.x_of(design)
         return replace(self, start=design)
 
-    def freeing(self, free: Any) -> Self:
+    def freeing(self, free: Sequence[str] | Space) -> Self:
         """The same study with other free quantities, as ``free`` of a study names them.
 
         Raises ``ValueError`` for one on which nothing depends that the study judges.

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure, counted
+from ..quantities import Measure, Quantity, counted
 from ..quantities.kinds import refuse_kinds
 from .study import Evaluation, Study
 
@@ -41,7 +40,7 @@ class Sweep:
         return str(next(iter(self.study.free)))
 
     @property
-    def declared(self) -> Any:
+    def declared(self) -> Quantity:
         """The free quantity's declaration."""
         return self.study.declared[self.name]
 

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
 from ..quantities import Measure, Paths, Quantity, counted, value_of, words
-from ..quantities.kinds import number, numbers, one_number, refuse_arguments, refuse_kinds, shown
+from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor, mm
 from .study import Evaluation, Study
 
@@ -269,11 +269,9 @@ def _named(measure: Measure) -> Measure:
     return measure if measure.sign > 0 else -measure
 
 
-def _check(name: str, declared: Quantity, value: Any, half: Any) -> None:
+def _check(name: str, declared: Quantity, value: float, half: Any) -> None:
     """Refuse a half width that makes no sense."""
-    if number(half) is None or np.ndim(number(half)):
-        raise ValueError(f"the tolerance of the {words(name)} is {shown(half)}; it must be a number of at least 0")
-    half = number(half)
+    half = one_number(half, f"the tolerance of the {words(name)}", "be a number of at least 0")
     if not (np.isfinite(half) and half >= 0):
         raise ValueError(
             f"the tolerance of the {words(name)} is {declared.text(half)}; it must be a finite number of at least 0"

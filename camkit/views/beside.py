@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import Disc
+from ..geometry import Disc, Outline
 from ..quantities import PeakMeasure
 from ..quantities.kinds import refuse_empty, refuse_kinds
 from ..quantities.types import Array
 from ..units import deg, factor, mm
 from .cam import bodies, position
-from .picture import Axes, Line, Mark, Picture, Text
+from .picture import Axes, Colour, Line, Mark, Picture, Text
 
 GAP = 40.0
 """Between two cams with their followers, mm."""
@@ -55,7 +55,7 @@ def _reach(analysis: Any) -> tuple[float, float, float]:
     return left / mm, right / mm, -size / mm
 
 
-def _sides(body: Any) -> tuple[Array, Array]:
+def _sides(body: Outline | Disc) -> tuple[Array, Array]:
     """Least and largest x of a body over its path, m."""
     if isinstance(body, Disc):
         return np.min(body.x) - body.radius, np.max(body.x) + body.radius
@@ -72,7 +72,7 @@ def curves_beside(shown: Beside) -> Picture:
     marks = []
     for index, (name, analysis) in enumerate(shown.analyses.items()):
         x, y = np.ravel(peak.angle(analysis)) / deg, np.ravel(peak.curve(analysis)) / factor(peak.unit)
-        style: Any = {"role": "series", "index": index}
+        style: Colour = {"role": "series", "index": index}
         jump = np.diff(x, append=x[-1:]) > 3 * np.median(np.diff(x))
         across, along = _parted(x, jump), _parted(y, jump)
         marks.append(Line(f"{name} curve", across, along, label=name, **style))
@@ -81,6 +81,6 @@ def curves_beside(shown: Beside) -> Picture:
     return Picture.of(Axes(title=title, xlabel="cam angle  [deg]", ylabel=peak.label, ylim=(0, None)), marks)
 
 
-def _parted(values: Any, jump: Any) -> Any:
+def _parted(values: Array, jump: Array) -> Array:
     """``values``, each followed by a gap where a ``jump`` comes behind it and else by itself again."""
     return np.stack([values, np.where(jump, np.nan, values)], axis=-1).ravel()

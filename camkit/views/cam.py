@@ -6,14 +6,15 @@ They show whatever analysis offers ``bodies`` (see `camkit.geometry.Body`) and `
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 
-from ..geometry import Body, Disc
+from ..geometry import Disc, Outline
 from ..quantities import Measure
+from ..quantities.types import Array, Value
 from ..units import MPa, deg, mm
-from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
+from .picture import Axes, Band, Circle, Colour, LabelStyle, Line, LineStyle, Mark, Picture, Points, Polygon, gaps
 
 ANGLE = "cam angle  [deg]"
 PARTS = {"body": "", "pitch": "pitch curve", "profile": "profile", "flank": "groove's outer flank"}
@@ -22,7 +23,7 @@ PARTS = {"body": "", "pitch": "pitch curve", "profile": "profile", "flank": "gro
 MOTION = ("position", "velocity", "acceleration", "jerk")
 
 
-def position(analysis: Any, turn: Any) -> Any:
+def position(analysis: Any, turn: Value) -> np.intp:
     """Which of the positions of ``analysis`` is nearest to ``turn`` (rad)."""
     return np.argmin(abs(analysis.cam_angle - turn), axis=-1)
 
@@ -37,7 +38,7 @@ def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
 
 
 def bodies(
-    shown: tuple[Body, ...], i: Any, away: float = 0.0, prefix: str = "", index: int | None = None
+    shown: tuple[Outline | Disc, ...], i: SupportsIndex, away: float = 0.0, prefix: str = "", index: int | None = None
 ) -> list[Mark]:
     """Marks of bodies at position ``i``, shifted by ``away`` mm along x.
 
@@ -47,7 +48,7 @@ def bodies(
     names = list(dict.fromkeys(body.name for body in shown if body.name))
     marks: list[Mark] = []
     for body in shown:
-        style: Any = {}
+        style: LabelStyle = {}
         if index is not None:
             style = {"role": "series", "index": index, "label": ""}
         elif body.name:
@@ -56,7 +57,7 @@ def bodies(
     return marks
 
 
-def _body(body: Any, i: Any, away: float, key: str, style: Any) -> Iterator[Mark]:
+def _body(body: Outline | Disc, i: SupportsIndex, away: float, key: str, style: LabelStyle) -> Iterator[Mark]:
     """The marks of one body."""
     x, y = body.at(i) / mm
     x = x + away
@@ -90,7 +91,7 @@ def motion(analysis: Any) -> Picture:
     return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
 
 
-def _moving(curve: Any) -> Any:
+def _moving(curve: Any) -> Array:
     """Where the follower moves, and one sample on either side."""
     v = curve.velocity != 0
     still = np.zeros_like(v[:1])
@@ -143,7 +144,7 @@ def curvature(analysis: Any) -> Picture:
     for i, (name, curve) in enumerate(analysis.curves.items()):
         inner = curve.profile_curvature * mm
         shown = gaps(inner, abs(inner) < 2 * limit)
-        style: Any = {"role": "series", "index": i, "stroke": "thin dashed"}
+        style: LineStyle = {"role": "series", "index": i, "stroke": "thin dashed"}
         marks.append(Line(f"{name} profile", curve.cam_angle / deg, shown, **style))
     return Picture.of(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
 
@@ -152,7 +153,7 @@ def efficiency(analysis: Any) -> Picture:
     """Power out over power in: from the free-body diagram (full) and, of a rocking roller, as published (thin)."""
     marks, several = [], len(analysis.curves) > 1
     for i, (name, curve) in enumerate(analysis.curves.items()):
-        style: Any = {"role": "series", "index": i}
+        style: Colour = {"role": "series", "index": i}
         x, moves = curve.cam_angle / deg, _moving(curve)
         marks.append(Line(name, x, gaps(100 * curve.efficiency, moves), label=several * name, **style))
         if hasattr(curve, "published_efficiency"):

@@ -5,23 +5,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from textwrap import fill
-from typing import Any
+from typing import Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..decision import CHOOSERS, WEIGHING, JudgementRange, Judgements, WinnerMap, judgement_ranges, winner_map
 from ..quantities import Measure, words
 from ..units import factor
+from .front import Judged
 from .parallel import Column, Designs, parallel_coordinates
-from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, joined
+from .picture import Axes, Line, Mark, MarkStyle, Picture, Points, Polygon, Text, joined
 
-MARKS: dict[str, Any] = {
-    "weighted sum": {"mark": "star", "size": 20},
-    "TOPSIS": {"mark": "diamond", "size": 11},
-    "knee": {"mark": "triangle", "size": 13},
-    "crowding distance": {"mark": "square", "size": 14},
+MARKS = {
+    "weighted sum": ("star", 20),
+    "TOPSIS": ("diamond", 11),
+    "knee": ("triangle", 13),
+    "crowding distance": ("square", 14),
 }
-"""The mark of each rule's winner."""
+"""The mark of each rule's winner, and its size."""
 OTHERS = (0.18, 0.30, 0.42)
 """How strong the greys are of designs that win somewhere, but not now."""
 
@@ -30,7 +32,7 @@ OTHERS = (0.18, 0.30, 0.42)
 class ShownDecision:
     """A front and what follows from the judgements of its objectives; designs are named by their place on it."""
 
-    front: Any
+    front: Judged
     designs: Designs
     """Objectives, free quantities and further measures of the front's designs; winners are marked."""
     winners: Mapping[str, int]
@@ -77,7 +79,7 @@ class ShownDecision:
 
 
 def decision(
-    front: Any, judgements: Judgements | None = None, measures: Sequence[Measure] | None = None
+    front: Judged, judgements: Judgements | None = None, measures: Sequence[Measure] | None = None
 ) -> ShownDecision:
     """A front that is not empty, and what follows from judgements of its objectives (``None``: all count alike).
 
@@ -90,7 +92,7 @@ def decision(
     return shown.judged(judgements)
 
 
-def _numbers(front: Any, measures: Sequence[Measure] | None) -> tuple[tuple[Column, ...], np.ndarray]:
+def _numbers(front: Judged, measures: Sequence[Measure] | None) -> tuple[tuple[Column, ...], np.ndarray]:
     """Every number of the front's designs that is shown, in its unit, ``(p, n)``."""
     study, p = front.study, len(front)
     goals = [(Column(m.name, m.unit, m.sign), m.sign * f) for m, f in zip(study.minimise, front.f.T, strict=True)]
@@ -124,7 +126,17 @@ def front_winners(shown: ShownDecision) -> Picture:
         Points("kept", x[kept], y[kept], role="position", size=5.5, opacity=0.7),
         Points("in the sliders", x[at], y[at], size=9),
         [
-            Points(rule, x[[i]], y[[i]], role="series", index=shown.index[i], fill="none", label=rule, **MARKS[rule])
+            Points(
+                rule,
+                x[[i]],
+                y[[i]],
+                role="series",
+                index=shown.index[i],
+                mark=MARKS[rule][0],
+                size=MARKS[rule][1],
+                fill="none",
+                label=rule,
+            )
             for rule, i in shown.winners.items()
         ],
     )
@@ -149,21 +161,21 @@ def winners_by_weight(shown: ShownDecision) -> Picture:
     return views.get(len(shown.front.study.minimise), _weight_shares)(shown)
 
 
-def _bar(key: str, low: Any, high: Any, y: float, half: float, **style: Any) -> Polygon:
+def _bar(key: str, low: ArrayLike, high: ArrayLike, y: float, half: float, **style: Unpack[MarkStyle]) -> Polygon:
     """An upright rectangle over each stretch from ``low`` to ``high``."""
     low, high = np.broadcast_arrays(np.atleast_1d(low), high)
     x, heights = np.stack([low, high, high, low], axis=-1), np.array([y - half, y - half, y + half, y + half])
     return Polygon(key, *joined(np.stack([x, np.broadcast_to(heights, x.shape)], axis=-1)), **style)
 
 
-def _look(shown: ShownDecision, design: Any) -> dict[str, Any]:
+def _look(shown: ShownDecision, design: int) -> MarkStyle:
     """The colour of a winner of now, or one of the greys."""
     if design in shown.index:
         return {"role": "series", "index": shown.index[design]}
     return {"role": "guide", "opacity": OTHERS[design % len(OTHERS)]}
 
 
-def _number(shown: ShownDecision, key: str, x: Any, y: Any, design: Any) -> Text:
+def _number(shown: ShownDecision, key: str, x: float, y: float, design: int) -> Text:
     """The number of a design on its colour."""
     return Text(f"{key} number {design}", x, y, str(design), role="onto" if design in shown.index else "ink", size=9.5)
 
@@ -279,9 +291,16 @@ def _weight_shares(shown: ShownDecision) -> Picture:
             marks.append(_bar(f"{rule} {design}", 0, percent, y, BAR, **_look(shown, design)))
             told = f"design {design}: {percent:.0f} %"
             marks.append(Text(f"{rule} {design} share", percent + 1, y, told, anchor="left", size=9.5))
-    window: Any = {"xlim": (0, 118), "ylim": (0.5 - rows * len(shown.maps), 0.7), "yticks": {}, "grid": False}
-    ticks = {float(x): f"{x}" for x in range(0, 101, 20)}
-    return Picture.of(Axes(title=TITLE, xlabel="share of all weightings  [%]", xticks=ticks, **window), marks)
+    axes = Axes(
+        title=TITLE,
+        xlabel="share of all weightings  [%]",
+        xlim=(0, 118),
+        ylim=(0.5 - rows * len(shown.maps), 0.7),
+        xticks={float(x): f"{x}" for x in range(0, 101, 20)},
+        yticks={},
+        grid=False,
+    )
+    return Picture.of(axes, marks)
 
 
 # ---------------------------------------------------------------- how far a judgement may move
@@ -316,12 +335,12 @@ def judgement_bars(shown: ShownDecision) -> Picture:
     return Picture.of(axes, marks)
 
 
-def _judgement_bar(key: str, shown: ShownDecision, rule: str, told: Any, y: float) -> list[Mark]:
+def _judgement_bar(key: str, shown: ShownDecision, rule: str, told: JudgementRange, y: float) -> list[Mark]:
     below, above = ("stays" if design is None else f"then {design}" for design in (told.below, told.above))
     return [
         _bar(f"{key} scale", 1 / 9, 9, y, BAR / 2, role="body"),
         _bar(key, told.low, told.high, y, BAR / 2, **_look(shown, shown.winners[rule])),
-        Points(f"{key} now", told.judged, y, role="onto", mark=MARKS[rule]["mark"], size=7.5),
+        Points(f"{key} now", told.judged, y, role="onto", mark=MARKS[rule][0], size=7.5),
         Text(f"{key} below", 1 / 10, y, below, anchor="right", size=9.5),
         Text(f"{key} above", 10, y, above, anchor="left", size=9.5),
     ]

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..quantities import words
+from ..quantities import Analysable, words
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..study.design_map import DesignMap
 from ..study.study import KEPT
 from ..units import factor
-from .picture import Axes, Contour, Line, Mark, Picture, Points, Polygon, Region, Text, View
+from .picture import Axes, Contour, Line, LineStyle, Mark, Picture, Points, Polygon, Region, Text, View
 
 SHADES = 8
 """How many shades show the objective; each covers about the same area, whatever the objective is."""
@@ -27,13 +27,13 @@ def units_of(plane: DesignMap) -> np.ndarray:
     return np.array([q.factor for q in plane.declared])[:, None]
 
 
-def _axes(plane: DesignMap, title: str, **window: Any) -> Axes:
+def _axes(plane: DesignMap, title: str, xlim: tuple[Value, Value], ylim: tuple[Value, Value]) -> Axes:
     """The axes are named after the quantities, with their symbols and units."""
     x, y = (
         words(name) + ("" if name == q.symbol else f"  {q.symbol}") + (f"  [{q.unit}]" if q.unit else "")
         for name, q in zip(plane.study.free, plane.declared, strict=True)
     )
-    return Axes(title=title, xlabel=x, ylabel=y, grid=False, **window)
+    return Axes(title=title, xlabel=x, ylabel=y, grid=False, xlim=xlim, ylim=ylim)
 
 
 def design_plane(plane: DesignMap, names: Sequence[str] | None = None) -> Picture:
@@ -51,7 +51,7 @@ def design_plane(plane: DesignMap, names: Sequence[str] | None = None) -> Pictur
     best = plane.best[:, None] / units
     allowed = Region("allowed", x, y, np.minimum(plane.worst, 1.0), -np.inf, 0.0, role="allowed", opacity=0.33)
     return Picture.of(
-        _axes(plane, "What is allowed, and what it costs", xlim=(x[0], x[-1]), ylim=(y[0], y[-1])),
+        _axes(plane, "What is allowed, and what it costs", (x[0], x[-1]), (y[0], y[-1])),
         allowed,
         _bounds(plane, x, y),
         Contour("objective", x, y, z, levels, names=values, role="guide", stroke="thin", label=measure.label),
@@ -72,7 +72,7 @@ def _round_levels(z: np.ndarray) -> np.ndarray:
     return np.arange(np.ceil(z.min() / step), np.floor(z.max() / step) + 1) * step
 
 
-def _bounds(plane: DesignMap, x: Any, y: Any) -> list[Mark]:
+def _bounds(plane: DesignMap, x: Array, y: Array) -> list[Mark]:
     """The bounds, and a veil over what lies beyond them."""
     (x0, y0), (x1, y1) = plane.study.bounds / units_of(plane).T
     corners = [x0, x0, x1, x1, x0], [y0, y1, y1, y0, y0]
@@ -84,12 +84,12 @@ def _bounds(plane: DesignMap, x: Any, y: Any) -> list[Mark]:
     ]
 
 
-def _limits(plane: DesignMap, x: Any, y: Any, names: Sequence[str]) -> list[Mark]:
+def _limits(plane: DesignMap, x: Array, y: Array, names: Sequence[str]) -> list[Mark]:
     """A curve for each limit with its name; one that has no curve here, being kept all over, is in the legend."""
     marks: list[Mark] = []
     for i, (name, limit) in enumerate(zip(names, plane.limits, strict=True)):
         label = f"{name}: kept" if np.nanmax(limit) <= KEPT else ""
-        style: Any = {"role": "series", "index": i, "stroke": "line", "label": label}
+        style: LineStyle = {"role": "series", "index": i, "stroke": "line", "label": label}
         marks.append(Contour(f"limit {i}", x, y, np.minimum(limit, 1.0), [0.0], names=(name,), **style))
     return marks
 
@@ -101,7 +101,7 @@ def _nothing(plane: DesignMap) -> Text:
     return Text("nothing", x, y, told, role="trouble", size=12, boxed=True)
 
 
-def designs_on_plane(designs: Mapping[str, Any], limits: Sequence[str] | None = None) -> View:
+def designs_on_plane(designs: Mapping[str, Analysable], limits: Sequence[str] | None = None) -> View:
     """A view of a `DesignMap` with some designs on it by name; ``limits`` are what its limits' curves are called."""
     refuse_arguments(designs_on_plane, locals())
 
@@ -123,8 +123,8 @@ class ShownPlane:
     """A `DesignMap` with what is marked on it: free values of the design in the sliders and of the optimum, SI."""
 
     plane: DesignMap
-    here: Any = None
-    best: Any = None
+    here: ArrayLike | None = None
+    best: ArrayLike | None = None
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
@@ -140,9 +140,8 @@ def objective_plane(shown: ShownPlane) -> Picture:
     measure = plane.study.minimise[0]
     limits = [f"{m.name} {'at most' if sense > 0 else 'at least'} {m.text(v)}" for m, v, sense in plane.study.limits]
     worst, label = np.clip(plane.worst, -1, 1), limits[0] if len(limits) == 1 else "a limit" if limits else ""
-    window = {"xlim": _ends(x), "ylim": _ends(y)}
     return Picture.of(
-        _axes(plane, measure.label[:1].upper() + measure.label[1:], **window),
+        _axes(plane, measure.label[:1].upper() + measure.label[1:], _ends(x), _ends(y)),
         _shades(x, y, plane.objective / factor(measure.unit), measure.sign),
         Region("missed", x, y, worst, 0, np.inf, role="paper", opacity=0.72),
         Contour("limit", x, y, worst, [0.0], role="limit", stroke="line", label=label),
@@ -157,7 +156,7 @@ def _ends(values: np.ndarray) -> tuple[Array, Array]:
     return values[0] - room, values[-1] + room
 
 
-def _shades(x: Any, y: Any, z: np.ndarray, sign: int) -> list[Mark]:
+def _shades(x: Array, y: Array, z: np.ndarray, sign: int) -> list[Mark]:
     """Shades between levels that part the plane into equal areas, every second level with its value as it is read."""
     levels = np.nanquantile(z, np.arange(1, SHADES) / SHADES)
     ends = [-np.inf, *levels, np.inf]
@@ -169,6 +168,9 @@ def _shades(x: Any, y: Any, z: np.ndarray, sign: int) -> list[Mark]:
     return [*shades, Contour("levels", x, y, z, levels, names=values, role="paper", stroke="thin")]
 
 
-def _mark(name: str, at: Any, plane: DesignMap, **style: Any) -> Points:
+def _mark(
+    name: str, at: ArrayLike | None, plane: DesignMap, size: float, mark: str = "dot", role: str = "ink"
+) -> Points:
     x, y = np.full((2, 1), np.nan) if at is None else np.reshape(at, (2, 1)) / units_of(plane)
-    return Points(name, x, y, fill="paper", label="" if at is None else name, **style)
+    label = "" if at is None else name
+    return Points(name, x, y, role=role, mark=mark, size=size, fill="paper", label=label)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..geometry import rotated
 from ..quantities import Measure
+from ..quantities.types import Array
 from ..units import MPa, deg, mm
 from .cam import ANGLE, bodies
 from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
@@ -39,12 +40,14 @@ def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
     )
 
 
-def _around(angle: Any) -> Any:
+def _around(angle: Array) -> Array:
     """The same angle within half a turn of 0."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
-def _over_event(analysis: Any, title: str, ylabel: str, *marks: Mark, ylim: Any = None) -> Picture:
+def _over_event(
+    analysis: Any, title: str, ylabel: str, *marks: Mark, ylim: tuple[float, float] | None = None
+) -> Picture:
     """``marks`` over the cam angle, with thin lines at the nose and at both ends of the flanks."""
     ends = np.array([0, 1, 2]) * analysis.cam.half_angle / deg
     lines = [

@@ -2,28 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import cycle
+from typing import Protocol, runtime_checkable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..decision import Judgements
+from ..quantities import Measure
 from ..quantities.kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
+from ..quantities.types import Array
+from ..study.study import Study
 from ..units import factor
 from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
+
+
+@runtime_checkable
+class Judged(Protocol):
+    """Designs of a study with their objectives, such as a front."""
+
+    @property
+    def study(self) -> Study:
+        """What the designs were judged by."""
+        ...
+
+    @property
+    def x(self) -> Array:
+        """Their free values, ``(p, n)``."""
+        ...
+
+    @property
+    def f(self) -> Array:
+        """Their objectives, ``(p, k)``."""
+        ...
+
+    def __len__(self) -> int: ...
 
 
 @dataclass(frozen=True)
 class ShownFront:
     """A front with what is marked on it: indices of the design in the sliders and of the winner."""
 
-    front: Any
+    front: Judged
     selected: int | None = None
     winner: int | None = None
-    start: Any = None
+    start: Array | Sequence[float] | None = None
     """Objectives of the starting design, ``(k,)``."""
-    known: Any = None
+    known: Array | Sequence[Sequence[float]] | None = None
     """Points of the front that are known, as they are read, ``(2, m)``."""
 
     def __post_init__(self) -> None:
@@ -36,29 +63,29 @@ class ShownFront:
             raise ValueError(f"the points of the front that are known are {shown(self.known)}; they must be two rows")
 
 
-def _refuse_objectives(at: Any, what: str, front: Any) -> None:
+def _refuse_objectives(at: object, what: str, front: Judged) -> None:
     """``ValueError`` for objectives of a design that are not a number for each of the front's."""
     if at is not None and numbers(at, f"the objectives of the {what}").shape != (len(front.study.minimise),):
         raise ValueError(f"the objectives of the {what} are {shown(at)}; there must be {len(front.study.minimise)}")
 
 
-def shown_objectives(front: Any) -> np.ndarray:
+def shown_objectives(front: Judged) -> np.ndarray:
     """The first two objectives as a person reads them: in their units, large is large; ``(2, p)``."""
     return _read(front.study.minimise, np.reshape(front.f, (-1, len(front.study.minimise))).T)
 
 
-def _read(objectives: Any, f: Any) -> np.ndarray:
+def _read(objectives: Sequence[Measure], f: Iterable[ArrayLike]) -> np.ndarray:
     """Two rows, the second of them 0 where there is one objective only."""
     rows = [m.sign * np.asarray(values) / factor(m.unit) for m, values in zip(objectives, f, strict=True)]
     return np.array([*rows, 0 * rows[0]])[:2]
 
 
-def _one(objectives: Any, f: Any) -> np.ndarray:
+def _one(objectives: Sequence[Measure], f: ArrayLike | None) -> np.ndarray:
     """A single design's first two objectives as they are read, ``(2, 1)``; ``(2, 0)`` of none."""
     return np.zeros((2, 0)) if f is None else _read(objectives, np.reshape(f, (-1, 1)))
 
 
-def _axes(title: str, objectives: Any) -> Axes:
+def _axes(title: str, objectives: Sequence[Measure]) -> Axes:
     x, y = ([f"{m.label}\n({'larger' if m.sign < 0 else 'smaller'} is better)" for m in objectives] + [""])[:2]
     return Axes(title=title, xlabel=x, ylabel=y)
 
@@ -66,10 +93,12 @@ def _axes(title: str, objectives: Any) -> Axes:
 def pareto(shown: ShownFront) -> Picture:
     """The front of the first two objectives, the start, the design in the sliders and the winner."""
     known = np.zeros((2, 0)) if shown.known is None else shown.known
-    style: Any = {"mark": "diamond", "size": 9, "fill": "none", "role": "allowed"}
     label = "" if shown.known is None else "known points"
-    axes = _axes("Pareto front", shown.front.study.minimise)
-    return Picture.of(axes, _front(shown), Points("known", *known, label=label, **style))
+    return Picture.of(
+        _axes("Pareto front", shown.front.study.minimise),
+        _front(shown),
+        Points("known", *known, role="allowed", mark="diamond", size=9, fill="none", label=label),
+    )
 
 
 def _front(shown: ShownFront) -> list[Mark]:
@@ -87,9 +116,9 @@ def _front(shown: ShownFront) -> list[Mark]:
 class ShownFronts:
     """Fronts of the same objectives by name, and the objectives of two single designs, ``(k,)``."""
 
-    fronts: Mapping[str, Any]
-    start: Any = None
-    here: Any = None
+    fronts: Mapping[str, Judged]
+    start: Array | Sequence[float] | None = None
+    here: Array | Sequence[float] | None = None
     """Of the design in the sliders."""
 
     def __post_init__(self) -> None:
@@ -100,16 +129,16 @@ class ShownFronts:
             _refuse_objectives(self.here, "design in the sliders", front)
 
 
-FORMS: Any = ({"size": 8, "fill": "none"}, {"size": 3})
-"""Fronts take turns: rings, and dots that fit into them."""
+FORMS = ((8, "none"), (3, "full"))
+"""Size and inside of points; fronts take turns: rings, and dots that fit into them."""
 
 
 def fronts_overlaid(shown: ShownFronts) -> Picture:
     """Several fronts of the same two objectives, the start and the design in the sliders."""
     objectives = next(iter(shown.fronts.values())).study.minimise[:2]
     marks: list[Mark] = [
-        Points(f"front {name}", *shown_objectives(front), role="series", index=i, label=name, **FORMS[i % 2])
-        for i, (name, front) in enumerate(shown.fronts.items())
+        Points(f"front {name}", *shown_objectives(front), role="series", index=i, size=size, fill=fill, label=name)
+        for i, ((name, front), (size, fill)) in enumerate(zip(shown.fronts.items(), cycle(FORMS), strict=False))
     ]
     start, here = (_one(objectives, None if f is None else f[: len(objectives)]) for f in (shown.start, shown.here))
     named = ["" if f is None else "shown" for f in (shown.start, shown.here)]
@@ -124,9 +153,9 @@ def fronts_overlaid(shown: ShownFronts) -> Picture:
 class LiveFront:
     """A front as it is now and as it was ``before``, its winner, and the objectives of the design in the sliders."""
 
-    front: Any
-    before: Any
-    here: Any
+    front: Judged
+    before: Judged
+    here: Array | Sequence[float]
     winner: int | None = None
 
 
@@ -145,15 +174,17 @@ def live_pareto(shown: LiveFront) -> Picture:
     )
 
 
-def searches_compared(searches: Mapping[str, Any]) -> Picture:
+def searches_compared(searches: Mapping[str, object]) -> Picture:
     """What each search still lacks of the best hypervolume known, against the designs evaluated; both axes logarithmic.
 
     ``searches``: pairs of designs evaluated and missing share of the hypervolume, ``(k, 2)``, by name.
     """
     refuse_arguments(searches_compared, locals())
-    for name, points in searches.items():
-        if np.shape(numbers(points, f"the points of {name}"))[1:] != (2,):
-            raise ValueError(f"the points of {name} are {shown(points)}; they must be pairs of designs and shares")
+    tables = {name: numbers(points, f"the points of {name}") for name, points in searches.items()}
+    for name, points in tables.items():
+        if points.shape[1:] != (2,):
+            told = shown(searches[name])
+            raise ValueError(f"the points of {name} are {told}; they must be pairs of designs and shares")
     axes = Axes(
         title="How fast a front is found",
         xlabel="designs evaluated",
@@ -163,8 +194,8 @@ def searches_compared(searches: Mapping[str, Any]) -> Picture:
     return Picture.of(
         axes,
         [
-            Line(name, *(np.transpose(points) * [[1], [100]]), role="series", index=i, label=name)
-            for i, (name, points) in enumerate(searches.items())
+            Line(name, *(points.T * [[1], [100]]), role="series", index=i, label=name)
+            for i, (name, points) in enumerate(tables.items())
         ],
     )
 

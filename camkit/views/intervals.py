@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import factor, mm
 from .picture import Axes, Line, Mark, Picture, Points, Text, gaps
 
@@ -24,7 +24,7 @@ class Along(NamedTuple):
     """What a curve is drawn over: its name, the function that gives it, its unit, and how a place on it is signed."""
 
     name: str
-    of: Callable[[Any], Any]
+    of: Callable[[Any], Array]
     unit: str
     sign: str
 
@@ -39,14 +39,14 @@ class Curve(NamedTuple):
     title: str
     letter: str
     unit: str
-    of: Callable[[Any], Any]
+    of: Callable[[Any], Array]
 
 
-def _stress(part: Any) -> Any:
+def _stress(part: Any) -> Array:
     return part.stress_coefficient / mm**0.5
 
 
-def _wear(part: Any) -> Any:
+def _wear(part: Any) -> Array:
     return part.wear_coefficient / mm**0.5
 
 
@@ -70,11 +70,11 @@ def _with_peaks(analysis: Any, curve: Curve, along: Along = TURN) -> Picture:
         marks.append(Points(f"{way} peak", where, peak, role="series", index=index))
         marks += _told(way, part, np.min(x) + (0.25 + 0.5 * index) * np.ptp(x), top, (peak[0], where[0]), along)
     marks.append(Line("none", x, gaps(0 * x, ~np.isfinite(y)), role="trouble"))
-    labels: Any = {"xlabel": f"{along.name}  [{along.unit}]", "ylabel": f"{curve.letter}  [{curve.unit}]"}
-    return Picture.of(Axes(title=curve.title, ylim=(0, top), **labels), marks)
+    x_label, y_label = f"{along.name}  [{along.unit}]", f"{curve.letter}  [{curve.unit}]"
+    return Picture.of(Axes(title=curve.title, xlabel=x_label, ylabel=y_label, ylim=(0, top)), marks)
 
 
-def _told(way: str, part: Any, x: Any, top: Any, found: tuple[Any, Any], along: Along) -> list[Mark]:
+def _told(way: str, part: Any, x: Value, top: Value, found: tuple[Value, Value], along: Along) -> list[Mark]:
     """The peak and its place in words, or why a stress is missing somewhere in the interval."""
     there = np.isfinite(found[0])
     held = np.isfinite(part.contact_force).all()  # no spring follows an arm that passes its start
@@ -85,10 +85,12 @@ def _told(way: str, part: Any, x: Any, top: Any, found: tuple[Any, Any], along: 
         "loses\ncontact": ~there & held & ~cut,
     }
     words = f"{way} {{:.4g}}\nat {{:.1f}}{along.sign}"
-    style: Any = {"anchor": "top", "role": "trouble"}
     return [
         Text(f"{way} value", gaps(x, there), top, words, values=found, anchor="top"),
-        *(Text(f"{way} {why}", gaps(x, where), top, f"{way} {why}", **style) for why, where in reasons.items()),
+        *(
+            Text(f"{way} {why}", gaps(x, where), top, f"{way} {why}", role="trouble", anchor="top")
+            for why, where in reasons.items()
+        ),
     ]
 
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from ..motion import Kinematics, Law, MotionProgram, residual_vibration
 from ..quantities.kinds import refuse_kinds
+from ..quantities.types import Array
 from ..units import deg, factor
 from .cam import MOTION
-from .picture import Axes, Line, Picture, Points, View
+from .picture import Axes, Line, MarkStyle, Picture, Points, View
 
 HAIR = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
@@ -147,6 +147,6 @@ def vibration_left(shown: ShownVibration) -> Picture:
     return Picture.of(axes, [_ringing(shown.tau, law, residual, i) for i, (law, residual) in laws])
 
 
-def _ringing(tau: Any, law: Law, residual: Any, index: int) -> Line:
-    style: Any = {"role": "series", "index": index, "label": law.name}
+def _ringing(tau: Array, law: Law, residual: Array, index: int) -> Line:
+    style: MarkStyle = {"role": "series", "index": index, "label": law.name}
     return Line(f"{index} {law.name}", tau, np.maximum(100 * residual, 1e-4), **style)

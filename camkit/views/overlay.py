@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities import Measure
 from ..units import mm
 from .picture import Axes, Line, Mark, Picture, Points
 
@@ -21,8 +22,8 @@ FAR = 1000.0
 class Kept:
     """Designs by the letter of their place, and measures to compare."""
 
-    analyses: dict[str, Any]
-    measures: tuple[Any, ...] = ()
+    analyses: dict[str, object]
+    measures: tuple[Measure, ...] = ()
 
 
 def profiles_overlaid(kept: Kept) -> Picture:

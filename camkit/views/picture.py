@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import Any, Self, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from ..quantities.types import Array, Value
 
 ROLES = (
     "ink",  # what is read: letters, the design in hand, edges
@@ -37,6 +39,31 @@ ROLES = (
 """What a mark may mean."""
 
 
+class Colour(TypedDict, total=False):
+    """What a mark is, by which a renderer knows its colour."""
+
+    role: str
+    index: int
+
+
+class LabelStyle(Colour, total=False):
+    """And its name in the legend."""
+
+    label: str
+
+
+class MarkStyle(LabelStyle, total=False):
+    """Options that every mark has."""
+
+    opacity: float
+
+
+class LineStyle(MarkStyle, total=False):
+    """Those of a line."""
+
+    stroke: str
+
+
 class Formula(str):
     """Text between dollars that is meant as a formula."""
 
@@ -52,8 +79,8 @@ class Axes:
     ylabel: str = ""
     equal: bool = False
     """Whether both axes have one scale."""
-    xlim: tuple[Any, Any] | None = None
-    ylim: tuple[Any, Any] | None = None
+    xlim: tuple[Value | None, Value | None] | None = None
+    ylim: tuple[Value | None, Value | None] | None = None
     """Ends of an axis, either of which may be ``None``; without them the axis fits what is drawn."""
     log: str = ""
     """The axes with a logarithmic scale: "x", "y" or "xy"."""
@@ -163,19 +190,19 @@ class Points(Mark):
 class Circle(Mark):
     """A circle that is to scale; a knife edge, whose radius is 0, is a point."""
 
-    x: float
-    y: float
-    radius: float
+    x: Value
+    y: Value
+    radius: Value
 
 
 @dataclass(frozen=True)
 class Text(Mark):
     """Words at a place; at ``nan`` they are not shown."""
 
-    x: float
-    y: float
+    x: Value
+    y: Value
     words: str
-    values: tuple[Any, ...] = field(kw_only=True, default=())
+    values: tuple[Value, ...] = field(kw_only=True, default=())
     """Numbers for the braces in ``words``, if there are any: a view that is recorded does not know them."""
     anchor: str = field(kw_only=True, default="")
     """Which part of the words is at the place: "left" or "right", "top" or "bottom", or both; else the middle."""
@@ -232,16 +259,16 @@ class Picture:
         return any(mark.key == key for mark in self.marks)
 
 
-View = Callable[..., Any]
+View = Callable[..., Picture]
 """``view(analysis) -> Picture``; it may ask for ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` by name."""
 
 
-def gaps(values: Any, where: Any) -> Any:
+def gaps(values: ArrayLike, where: ArrayLike) -> Array:
     """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
     return np.where(where, values, np.nan)
 
 
-def joined(pieces: Any) -> np.ndarray:
+def joined(pieces: Array) -> np.ndarray:
     """Outlines ``(k, corners, 2)`` as one, each closed, with ``nan`` between them, ``(2, m)``."""
     gap = np.full((len(pieces), 1, 2), np.nan)
     return np.asarray(np.concatenate([pieces, np.asarray(pieces)[:, :1], gap], axis=1).reshape(-1, 2)[:-1].T)

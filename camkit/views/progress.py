@@ -9,6 +9,7 @@ import numpy as np
 
 from ..quantities import Measure, Quantity, declarations, words
 from ..quantities.kinds import refuse_arguments, refuse_empty
+from ..study.study import Study
 from ..units import deg, factor, in_unit
 from .picture import Axes, Band, Line, Mark, Picture, Points, Text, View
 
@@ -35,7 +36,7 @@ class ShownLooks(NamedTuple):
     """What a search looked at, and its objective."""
 
     measure: Measure
-    looks: Sequence[Any]
+    looks: Sequence[tuple[float, float, float]]
 
 
 def best_so_far(shown: ShownLooks) -> Picture:
@@ -122,13 +123,13 @@ class _Shown(NamedTuple):
     factor: float
 
 
-def _free(study: Any, name: str) -> _Shown:
+def _free(study: Study, name: str) -> _Shown:
     declared = declarations(study.start)[name]
     assert isinstance(declared, Quantity)
     return _Shown(words(name).capitalize(), f"{declared.symbol}  [{declared.unit}]", declared.factor)
 
 
-def _objective(study: Any) -> _Shown:
+def _objective(study: Study) -> _Shown:
     measure: Measure = study.minimise[0]
     return _Shown(measure.name.capitalize(), measure.label, factor(measure.unit))
 
@@ -154,6 +155,6 @@ def least_over_bound(name: str) -> View:
     return view
 
 
-def two_lines(measure: Any) -> str:
+def two_lines(measure: Measure) -> str:
     """Name and unit of a measure in two lines, for a short axis."""
     return f"{measure.name}\n[{measure.unit}]" if measure.unit else str(measure.name)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Unpack
 
 import numpy as np
 
+from ..quantities.types import Array, Value
 from ..units import deg, rpm
-from .picture import Axes, Line, Picture
+from .picture import Axes, Line, LineStyle, Picture
 from .turntable import Turntable
 
 ROLE = {"input": "guide", "intermediate": "follower", "driven": "position"}
@@ -18,18 +19,18 @@ REACH, GAP = 0.5, 0.85
 """Half the length of a pin and how far a fork reaches back from it, in lengths of which the middle shaft has 3."""
 
 
-def _direction(slope: Any) -> np.ndarray:
+def _direction(slope: Value) -> np.ndarray:
     """Of a shaft that falls by ``slope`` (rad) to the right."""
     return np.stack([np.cos(slope), 0 * slope, -np.sin(slope)])
 
 
-def _pin(axis: np.ndarray, angle: Any) -> np.ndarray:
+def _pin(axis: np.ndarray, angle: Value) -> np.ndarray:
     """The direction of a pin that has turned by ``angle`` about ``axis`` from the plane of the shafts."""
     upright = np.cross(axis, ACROSS)
     return np.asarray(np.cos(angle) * upright + np.sin(angle) * ACROSS)
 
 
-def pins(analysis: Any, i: Any) -> dict[str, np.ndarray]:
+def pins(analysis: Any, i: np.intp) -> dict[str, np.ndarray]:
     """Directions of the four pins at the input angle ``i``: of each shaft at each joint, as they stand in space."""
     drive, quarter = analysis.drive, np.pi / 2
     middle = analysis.intermediate_angle[i] + quarter
@@ -59,7 +60,7 @@ def drive(analysis: Any, turn: float = 0.0, azimuth: float = -75 * deg, elevatio
     return table.picture(Axes(title="Drive", equal=True, bare=True, xlim=(-3.5, 3.5), ylim=(-1.75, 1.75)))
 
 
-def _fork(table: Turntable, name: str, k: int, joint: Any, away: Any, pin: Any, end: Any) -> None:
+def _fork(table: Turntable, name: str, k: int, joint: Array, away: Array, pin: Array, end: Array) -> None:
     """Half a shaft with its fork, and the pin that the fork carries: from ``-pin`` to ``pin`` at the joint."""
     root, back, key = joint + GAP * away, joint + 0.62 * GAP * away, f"{name} {k}"
     _bar(table, f"{key} shaft", [root, end], role=ROLE[name], stroke="shaft", label=f"{name} shaft")
@@ -69,11 +70,11 @@ def _fork(table: Turntable, name: str, k: int, joint: Any, away: Any, pin: Any, 
         table.ball(f"{key} {side} end", joint + half, 8)
 
 
-def _bar(table: Turntable, key: str, points: Any, **style: Any) -> None:
+def _bar(table: Turntable, key: str, points: Sequence[Array], **style: Unpack[LineStyle]) -> None:
     table.bar(key, np.transpose(points), **style)
 
 
-def _over_a_turn(analysis: Any, title: str, ylabel: str, curves: Mapping[str, Any]) -> Picture:
+def _over_a_turn(analysis: Any, title: str, ylabel: str, curves: Mapping[str, Value]) -> Picture:
     """Values over the input angle, by the name of the shaft that they belong to."""
     marks = []
     for name, values in curves.items():

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..geometry import circle
+from ..quantities.types import Array
 from ..units import mm, percent
 from .design_map import design_plane, units_of
 from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps
@@ -72,7 +73,7 @@ def section(analysis: Any) -> Picture:
     )
 
 
-def _ring(number: int, name: str, ring: Any) -> Line:
+def _ring(number: int, name: str, ring: Array) -> Line:
     """The outlines of a ring, its size told in the legend."""
     both = np.hstack([circle((0, 0), ring[0] / 2), [[np.nan], [np.nan]], circle((0, 0), ring[1] / 2)])
     told = f"{ring[0]:.5g} × {(ring[0] - ring[1]) / 2:.4g} mm".replace("nan × nan mm", "none")

@@ -8,18 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import product
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..quantities import Measure
+from ..quantities.types import Array, Value
 from ..units import deg, mm
-from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps
+from .picture import Axes, Band, Colour, Line, Mark, Picture, Points, Polygon, Text, gaps
 from .turntable import Turntable
 
 CIRCLE = np.linspace(0, 2 * np.pi, 181)
-CRANK: Any = {"role": "series", "index": 0}
-ROCKER: Any = {"role": "series", "index": 1}
+CRANK: Colour = {"role": "series", "index": 0}
+ROCKER: Colour = {"role": "series", "index": 1}
+NEITHER: Colour = {}
 GRID = 50.0
 """Width of a square of the floor, mm."""
 
@@ -56,16 +58,16 @@ def linkage_in_space(
     return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
 
 
-def _middle(analysis: Any) -> Any:
+def _middle(analysis: Any) -> float:
     return analysis.crank_angle[[0, -1]].mean()
 
 
-def crank_circle(linkage: Any, angle: Any) -> np.ndarray:
+def crank_circle(linkage: Any, angle: Value) -> np.ndarray:
     """Places of the crank's ball joint, mm."""
     return (linkage.crank_root[:, None] + linkage.crank * linkage.crank_direction(angle)) / mm
 
 
-def rocker_circle(linkage: Any, angle: Any) -> np.ndarray:
+def rocker_circle(linkage: Any, angle: Value) -> np.ndarray:
     """Places of the rocker's ball joint, mm."""
     return (linkage.rocker_root[:, None] + linkage.rocker * linkage.rocker_direction(angle)) / mm
 
@@ -113,7 +115,7 @@ def _sweeps(scene: Turntable, analysis: Any) -> None:
     scene.put(5.0, Points("limits", x, y, role="trouble", size=6))
 
 
-def _box(scene: Turntable, box: Any, kept: Any) -> None:
+def _box(scene: Turntable, box: Any, kept: np.bool_) -> None:
     low, high = np.divide(box.low, mm), np.divide(box.high, mm)
     scene.box(box.name, low, high, kept, role="guide", stroke="thin", label=box.name)
     scene.box(f"{box.name}, broken", low, high, ~kept, role="trouble", stroke="thin")
@@ -135,7 +137,11 @@ def _links(scene: Turntable, here: Any) -> None:
     other = here.at(here.crank_angle[0], -here.branch).rocker_joint[:, 0] / mm
     faint = np.stack([b, other, hinge], axis=1)
     scene.path("other branch", faint, at=4.5, role="ghost", stroke="arm", label="other branch")
-    for name, ends, style in (("crank", (root, b), CRANK), ("coupler", (b, c), {}), ("rocker", (hinge, c), ROCKER)):
+    for name, ends, style in (
+        ("crank", (root, b), CRANK),
+        ("coupler", (b, c), NEITHER),
+        ("rocker", (hinge, c), ROCKER),
+    ):
         scene.link(name, np.stack(ends, axis=1), label=name, **style)
     for name, point, style in (("crank root", root, CRANK), ("hinge", hinge, ROCKER)):
         scene.ball(name, point, 8, fill="paper", **style)
@@ -162,7 +168,7 @@ def _pressure_angles_at(scene: Turntable, here: Any) -> None:
         scene.words(name, place, f"{name} {{:.0f}}°", values=(angle[0] / deg,), size=11, bold=True)
 
 
-def _curve(key: str, x: Any, y: Any, turn: float | None, named: bool = True, **style: Any) -> list[Mark]:
+def _curve(key: str, x: Array, y: Array, turn: float | None, named: bool = True, **style: Unpack[Colour]) -> list[Mark]:
     """A curve over the crank angle (rad), ``named`` in the legend, with a dot where the crank stands."""
     at = np.nan if turn is None else gaps(turn, (x.min() <= turn) & (turn <= x.max()))
     order = np.argsort(x)
@@ -173,8 +179,8 @@ def _curve(key: str, x: Any, y: Any, turn: float | None, named: bool = True, **s
     ]
 
 
-def _swept(title: str, ylabel: str, **window: Any) -> Axes:
-    return Axes(title=title, xlabel="crank angle  [deg]", ylabel=ylabel, **window)
+def _swept(title: str, ylabel: str, ylim: tuple[float, float] | None = None) -> Axes:
+    return Axes(title=title, xlabel="crank angle  [deg]", ylabel=ylabel, ylim=ylim)
 
 
 def output_angle(analysis: Any, turn: float | None = None) -> Picture:
@@ -199,7 +205,7 @@ def output_angle(analysis: Any, turn: float | None = None) -> Picture:
     )
 
 
-def _unbroken(angle: Any) -> np.ndarray:
+def _unbroken(angle: Array) -> np.ndarray:
     """Angles in degrees within one turn, without a line across where they pass 360."""
     shown = np.mod(angle, 2 * np.pi) / deg
     return np.asarray(gaps(shown, np.append(abs(np.diff(shown)) < 180, True)))

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Measure, words
 from ..quantities.kinds import refuse_arguments
+from ..quantities.types import Value
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
-from .front import shown_objectives
-from .picture import Area, Axes, Line, Mark, Picture, Points, Text, View, gaps
+from .front import Judged, shown_objectives
+from .picture import Area, Axes, Colour, Line, Mark, Picture, Points, Text, View, gaps
 
 
 def band(curve: AnalysisCurve) -> View:
@@ -27,7 +27,7 @@ def deviation(curve: AnalysisCurve) -> View:
     return lambda tolerances: _band(tolerances, curve, curve.values(tolerances.nominal))
 
 
-def _band(tolerances: Tolerances, curve: AnalysisCurve, base: Any) -> Picture:
+def _band(tolerances: Tolerances, curve: AnalysisCurve, base: Value) -> Picture:
     unit = factor(curve.unit)
     angle, x = curve.angle(tolerances.nominal)
     x = x / deg
@@ -52,7 +52,7 @@ def _band(tolerances: Tolerances, curve: AnalysisCurve, base: Any) -> Picture:
     )
 
 
-def cloud(front: object = None) -> View:
+def cloud(front: Judged | None = None) -> View:
     """A view of every part in the first two objectives, beside ``front``; trouble: what misses a limit.
 
     With one objective: which share of the parts stays below each of its values.
@@ -61,7 +61,7 @@ def cloud(front: object = None) -> View:
     return lambda tolerances: _cloud(tolerances, front)
 
 
-def _cloud(tolerances: Tolerances, front: Any) -> Picture:
+def _cloud(tolerances: Tolerances, front: Judged | None) -> Picture:
     study, kept = tolerances.study, tolerances.evaluation.feasible
     x, y = _places(tolerances)
     marks: list[Mark] = []
@@ -104,15 +104,15 @@ def sobol_bars(tolerances: Tolerances) -> Picture:
     names = [*tolerances.half_widths, "together"]
     marks: list[Mark] = []
     for j, name in enumerate(names):
-        style: Any = {"role": "guide"} if name == "together" else {"role": "series", "index": j}
+        style: Colour = {"role": "guide"} if name == "together" else {"role": "series", "index": j}
         for i in range(len(measures)):
             start, end = shares[i, :j].sum(), shares[i, : j + 1].sum()
             label = words(name) if i == 0 else ""
             ends = gaps(np.stack([start, end]), end > start)
             marks.append(Line(f"{name} {i}", ends, [-i, -i], stroke="bar", label=label, **style))
-            look: Any = {"role": "paper", "bold": True, "size": 11, "values": (end - start,)}
-            middle = gaps((start + end) / 2, end - start > 8)
-            marks.append(Text(f"{name} {i} value", middle, -i, "{:.0f}", **look))
+            middle, values = gaps((start + end) / 2, end - start > 8), (end - start,)
+            key = f"{name} {i} value"
+            marks.append(Text(key, middle, -i, "{:.0f}", role="paper", bold=True, size=11, values=values))
     for i in range(len(measures)):
         still = gaps(2.0, ~shares[i].any())
         marks.append(Text(f"still {i}", still, -i, "does not vary", role="guide", anchor="left", size=11))

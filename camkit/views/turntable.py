@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .picture import Axes, Line, Mark, Picture, Points, Polygon, Text, gaps
+from ..quantities.types import Array, Value
+from .picture import Axes, Line, LineStyle, Mark, MarkStyle, Picture, Points, Polygon, Text, gaps
 
 SQUARES = 40
 """No floor has more squares each way from its middle."""
@@ -24,11 +25,11 @@ class Turntable:
 
     frame: np.ndarray
     centre: np.ndarray
-    radius: Any
-    depth: Any
+    radius: Value
+    depth: Value
     """How far the floor lies below the centre."""
-    azimuth: Any
-    elevation: Any
+    azimuth: Value
+    elevation: Value
     drawn: list[Mark] = field(default_factory=list)
     """Marks so far, nearer things higher."""
 
@@ -45,7 +46,7 @@ class Turntable:
         above = np.array([-up * cos, -up * sin, flat])
         return np.stack([right, above, np.cross(right, above)]) @ self.frame
 
-    def seen(self, points: Any) -> np.ndarray:
+    def seen(self, points: ArrayLike) -> np.ndarray:
         """Where ``points`` ``(3, ...)`` are on the picture, and how near they are, ``(3, ...)``."""
         middle = self.centre.reshape(3, *(1 for _ in np.shape(points)[1:]))
         return np.tensordot(self.eye, np.asarray(points) - middle, 1)
@@ -54,56 +55,66 @@ class Turntable:
         """What has been put on the table, nearer things above, with ``more`` above all."""
         return Picture.of(axes, self.drawn, (replace(mark, height=np.inf) for mark in more))
 
-    def put(self, height: Any, mark: Mark) -> None:
+    def put(self, height: float, mark: Mark) -> None:
         """Put a mark into the drawing at a height."""
         self.drawn.append(replace(mark, height=height))
 
-    def _height(self, near: Any) -> Any:
+    def _height(self, near: Array) -> float:
         return NEAR + 4 * np.mean(near) / self.radius
 
-    def path(self, key: str, points: ArrayLike, at: float = 3.0, **style: Any) -> None:
+    def path(self, key: str, points: ArrayLike, at: float = 3.0, **style: Unpack[LineStyle]) -> None:
         """A line through ``points`` ``(3, n)``."""
         x, y, _ = self.seen(points)
         self.put(at, Line(key, x, y, **style))
 
-    def bar(self, key: str, points: Any, **style: Any) -> None:
+    def bar(self, key: str, points: ArrayLike, **style: Unpack[LineStyle]) -> None:
         """A thick line through ``points`` ``(3, n)``, before what lies behind it."""
         x, y, near = self.seen(points)
         self.put(self._height(near), Line(key, x, y, **style))
 
-    def link(self, key: str, ends: ArrayLike, **style: Any) -> None:
+    def link(self, key: str, ends: ArrayLike, **style: Unpack[MarkStyle]) -> None:
         """A thick line that parts what lies behind it."""
         x, y, near = self.seen(ends)
         self.put(self._height(near) - 0.01, Line(f"{key} edge", x, y, role="paper", stroke="solid"))
         self.put(self._height(near), Line(key, x, y, stroke="arm", **style))
 
-    def ball(self, key: str, point: ArrayLike, size: float, **style: Any) -> None:
+    def ball(self, key: str, point: ArrayLike, size: float, fill: str = "full", **style: Unpack[MarkStyle]) -> None:
         """A round mark at ``point`` ``(3,)``, above the links that it joins."""
         x, y, near = self.seen(point)
-        self.put(self._height(near) + 2.5, Points(key, x, y, size=size, **style))
+        self.put(self._height(near) + 2.5, Points(key, x, y, size=size, fill=fill, **style))
 
-    def arrow(self, key: str, start: Any, along: Any, **style: Any) -> None:
+    def arrow(self, key: str, start: Array, along: Array, **style: Unpack[LineStyle]) -> None:
         """An arrow from ``start``, ``along`` being direction and length."""
         foot, tip = self.seen(start)[:2], self.seen(start + along)[:2]
         back, side = 0.22 * (foot - tip), 0.09 * (foot - tip)[::-1] * [1, -1]
         shaft = np.transpose([foot, tip, tip + back + side, tip, tip + back - side])
         self.put(18.0, Line(key, *shaft, **style))
 
-    def face(self, key: str, corners: ArrayLike, at: float = 3.0, **style: Any) -> None:
+    def face(
+        self, key: str, corners: ArrayLike, at: float = 3.0, edged: bool = False, **style: Unpack[MarkStyle]
+    ) -> None:
         """A filled polygon with ``corners`` ``(3, n)``."""
         x, y, _ = self.seen(corners)
-        self.put(at, Polygon(key, x, y, **style))
+        self.put(at, Polygon(key, x, y, edged=edged, **style))
 
-    def words(self, key: str, point: ArrayLike, said: str, **style: Any) -> None:
+    def words(
+        self,
+        key: str,
+        point: ArrayLike,
+        said: str,
+        size: float = 10.0,
+        bold: bool = False,
+        values: tuple[Value, ...] = (),
+    ) -> None:
         """A text at ``point`` ``(3,)``."""
         x, y, _ = self.seen(point)
-        self.put(19.0, Text(key, x, y, said, **style))
+        self.put(19.0, Text(key, x, y, said, size=size, bold=bold, values=values))
 
-    def axis(self, key: str, point: Any, along: Any, **style: Any) -> None:
+    def axis(self, key: str, point: Array, along: Array, **style: Unpack[MarkStyle]) -> None:
         """A line through ``point``, ``along`` being direction and half its length."""
         self.path(key, np.stack([point - along, point + along], axis=1), at=4.0, stroke="dashdot", **style)
 
-    def box(self, key: str, low: Any, high: Any, where: object = True, **style: Any) -> None:
+    def box(self, key: str, low: Array, high: Array, where: ArrayLike = True, **style: Unpack[LineStyle]) -> None:
         """The edges of a box from corner ``low`` to corner ``high``, if ``where`` holds."""
         corners = np.array(list(product(*zip(low, high, strict=True))))
         edges = [(i, i | axis) for i in range(8) for axis in (1, 2, 4) if not i & axis]

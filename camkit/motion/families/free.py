@@ -39,10 +39,10 @@ def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
     return cache(declared)
 
 
-def sized(value: object, what: str, declared: Quantity) -> Any:
+def sized(value: object, what: str, declared: Quantity) -> Value:
     """``value`` as a number or a column of the size that its declaration allows (see `a_number`)."""
     known = number(value)
-    must = declared.possible if known is None or np.ndim(known) else declared.possible_for(known)
+    must = declared.possible if known is None or np.ndim(known) else declared.possible_for(float(known))
     return a_number(value, what, f"be {must}", declared.allows)
 
 

@@ -15,29 +15,30 @@ import ipywidgets as w
 import numpy as np
 
 from ...decision import CHOOSERS
-from ...quantities import words
+from ...quantities import Analysable, words
 from ...quantities.markup import html
+from ...quantities.types import Array
 from ...search.front import Front
 from ...study.study import Study
-from ...views.front import shown_objectives
+from ...views.front import Judged, shown_objectives
 from .layout import button
 from .panel import Panel
 from .picture import LivePicture
 from .quiet import Quiet
 
 
-def objective_texts(study: Study, f: Any, between: str = " ") -> list[str]:
+def objective_texts(study: Study, f: Array, between: str = " ") -> list[str]:
     """A design's objectives ``f`` by name, with their units."""
     return [f"{m.name}{between}{m.text(m.sign * v)}" for m, v in zip(study.minimise, f, strict=True)]
 
 
-def places_on(front: Front, design: Any) -> np.ndarray:
+def places_on(front: Judged, design: Analysable) -> np.ndarray:
     """Where a design stands on a front; nowhere if it is not of it."""
     now = front.study.x_of(design)
     return np.flatnonzero(np.isclose(front.x, now, rtol=1e-9, atol=0).all(-1))
 
 
-def place_on(front: Front, design: object) -> int | None:
+def place_on(front: Judged, design: Analysable) -> int | None:
     """The first of the places where a design stands on a front."""
     return next(map(int, places_on(front, design)), None)
 
