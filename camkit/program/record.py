@@ -168,7 +168,7 @@ class Recorded(NDArrayOperatorsMixin):
     def __getitem__(self, at: Any) -> Any:
         within = at if isinstance(at, tuple) else (at,)
         if all(map(known, within)):
-            return self if at == () else self.recording.call(operator.getitem, self, at)
+            return self if isinstance(at, tuple) and not at else self.recording.call(operator.getitem, self, at)
         *before, places = within
         if known(places) or places.dtype.kind not in "iu" or len(before) > 1:
             raise cannot("an array is indexed by computed values; only its last axis can be, by whole numbers")

@@ -51,7 +51,9 @@ def _diff(a: Any, n: int = 1, axis: int = -1) -> Any:
     return a
 
 
-def _trapezoid(y: Any, x: Any = None, dx: float = 1.0) -> Any:
+def _trapezoid(y: Any, x: Any = None, dx: float = 1.0, axis: int = -1) -> Any:
+    if axis not in (-1, np.ndim(y) - 1):
+        raise TypeError("the axis must be the last one")
     step = dx if x is None else np.diff(x)
     return (step * (y[..., 1:] + y[..., :-1]) / 2.0).sum(-1)
 

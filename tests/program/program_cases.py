@@ -6,6 +6,7 @@ from itertools import product
 import numpy as np
 
 from camkit.program.operations import TABLE, Each, as_type
+from camkit.quantities import quantities_of, value_of
 
 AWKWARD = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 0.5, 1.5, 2.5, -2.5, 3.0, 1e-9, 1e9]
 """Numbers at which functions are not what they are elsewhere; halves, which are rounded to even, and ordinary ones."""
@@ -136,3 +137,26 @@ STEPS = (
     lambda a, b, c: np.append(a[..., 1:], 2 * a[..., :1], axis=-1) if a.ndim else b,
 )
 INPUTS = {"x": np.float64(0.7), "y": np.array([0.3, -1.2, 2.0, 0.0, 5.5]), "z": np.arange(15.0).reshape(3, 5) / 4 - 1}
+
+
+def judged(study, p):
+    """What the study says of a design or of ``p``."""
+
+    def function(design):
+        found = study.judge(np.empty((p, 0)), design.analyse(study.angles))
+        return {"f": found.f, "g": found.g}
+
+    return function
+
+
+def designs_beside(design, p, seed):
+    """Values by path for ``p`` designs: some numbers from anywhere in the range of their declarations."""
+    rng, declared = np.random.default_rng(seed), quantities_of(design)
+    low, high = (np.array([getattr(q, end) * q.factor for q in declared.values()]) for end in ("low", "high"))
+    start = np.array(list(start_of(design).values()))
+    values = np.where(rng.random((p, len(low))) < 0.4, rng.uniform(low, high, (p, len(low))), start)
+    return {path: values[:, i : i + 1].copy() for i, path in enumerate(declared)}
+
+
+def start_of(design):
+    return {path: value_of(design, path) for path in quantities_of(design)}

@@ -8,8 +8,8 @@ from numpy.testing import assert_array_equal
 
 from camkit import DoorHandleCam, TranslatingRollerCam, door_handle_study
 from camkit.program import CannotRecord, record, recorded
-from camkit.quantities import Measure, certain, fails, floats, known, quantities_of, value_of, with_quantities
-from program_cases import CASES, INPUTS, expression
+from camkit.quantities import Measure, certain, fails, floats, known, with_quantities
+from program_cases import CASES, INPUTS, designs_beside, expression, judged, start_of
 
 
 def program_of(function, arrays):
@@ -115,29 +115,6 @@ def test_what_physics_may_ask_of_a_number():
 
 
 ROWS, BLOCKS = 10, 20
-
-
-def judged(study, p):
-    """What the study says of a design or of ``p``."""
-
-    def function(design):
-        found = study.judge(np.empty((p, 0)), design.analyse(study.angles))
-        return {"f": found.f, "g": found.g}
-
-    return function
-
-
-def designs_beside(design, p, seed):
-    """Values by path for ``p`` designs: some numbers from anywhere in the range of their declarations."""
-    rng, declared = np.random.default_rng(seed), quantities_of(design)
-    low, high = (np.array([getattr(q, end) * q.factor for q in declared.values()]) for end in ("low", "high"))
-    start = np.array(list(start_of(design).values()))
-    values = np.where(rng.random((p, len(low))) < 0.4, rng.uniform(low, high, (p, len(low))), start)
-    return {path: values[:, i : i + 1].copy() for i, path in enumerate(declared)}
-
-
-def start_of(design):
-    return {path: value_of(design, path) for path in quantities_of(design)}
 
 
 @pytest.mark.slow

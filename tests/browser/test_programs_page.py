@@ -1,0 +1,72 @@
+"""Programs written as JavaScript give in a browser what numpy gives: every row of the table, and a whole machine."""
+
+import numpy as np
+import pytest
+
+from camkit import DoorHandleCam, door_handle_study
+from camkit.program import record, recorded
+from camkit.program.page import javascript
+from camkit.quantities import with_quantities
+from program_cases import CASES, INPUTS, designs_beside, expression, judged
+
+RUN = "jobs => jobs.map(([text, inputs]) => { const f = eval(text); return inputs.map(x => f(x).map(a => [...a])) })"
+TOLERANCE = 1e-12
+"""Of the largest of an output: JavaScript's functions differ from numpy's in the last digit."""
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    page = browser.new_page()
+    yield page
+    page.close()
+
+
+def flat(arrays):
+    return [float(x) for array in arrays for x in np.ravel(array)]
+
+
+def program_of(function, arrays):
+    shapes = {str(i): np.ones(np.shape(array)) for i, array in enumerate(arrays)}
+    return recorded(lambda given: {"out": function(*given.values())}, shapes)
+
+
+def same(found, expected):
+    """Whether numbers agree: what is not finite exactly, the others to a share of the largest."""
+    found, expected = np.ravel(np.asarray(found, dtype=float)), np.ravel(np.asarray(expected, dtype=float))
+    known = np.isfinite(expected)
+    np.testing.assert_array_equal(found[~known], expected[~known])
+    largest = abs(expected[known]).max(initial=0.0)
+    np.testing.assert_allclose(found[known], expected[known], rtol=0, atol=TOLERANCE * largest)
+
+
+def run(page, uses):
+    """What the browser gives of each function and its arrays, and what numpy gives."""
+    found = page.evaluate(RUN, [[javascript(program_of(f, arrays)), [flat(arrays)]] for f, arrays in uses])
+    with np.errstate(all="ignore"):
+        return [(job[0][0], f(*arrays)) for job, (f, arrays) in zip(found, uses, strict=True)]
+
+
+def test_every_row_of_the_table_is_in_the_page_what_it_is_in_numpy(page):
+    for name, (found, expected) in zip(CASES, run(page, CASES.values()), strict=True):
+        for number, of_numpy in zip(np.ravel(found), np.ravel(expected), strict=True):
+            np.testing.assert_allclose(number, of_numpy, rtol=TOLERANCE, atol=0, err_msg=name)
+
+
+def test_expressions_made_at_random_are_in_the_page_what_they_are_in_numpy(page):
+    rng = np.random.default_rng(7)
+    uses = [(expression(seed), [rng.normal(size=np.shape(x)) for x in INPUTS.values()]) for seed in range(200)]
+    for found, expected in run(page, uses):
+        same(found, expected)
+
+
+def test_the_study_of_the_door_handle_is_in_the_page_what_it_is_in_numpy(page):
+    study, p = door_handle_study(DoorHandleCam()), 200
+    text = javascript(record(judged(study, 1), study.start))
+    values = designs_beside(study.start, p, 3)
+    with np.errstate(all="ignore"):
+        expected = judged(study, p)(with_quantities(study.start, values))
+    ((*found,),) = page.evaluate(RUN, [[text, np.hstack(list(values.values())).tolist()]])
+    assert 20 <= np.isfinite(expected["f"]).all(-1).sum() <= p - 20
+    for k, name in enumerate(expected):
+        for column, of_numpy in zip(np.transpose([one[k] for one in found]), expected[name].T, strict=True):
+            same(column, of_numpy)
