@@ -30,7 +30,7 @@ from .kit.picture import LivePicture
 from .kit.runner import JobPanel, Runner
 from .kit.running import Job
 from .kit.search_job import SessionSearch, progress_text, record_text
-from .kit.search_page import SearchPage
+from .kit.search_page import SearchPage, same_design
 
 COUNTS = {"population": range(4, 1001), "generations": range(1, 10_001), "seed": range(10**6 + 1)}
 """What can be typed for the size of a search."""
@@ -49,8 +49,9 @@ class ParetoPanel(JobPanel, FrontPanel):
     A panel that is made while a search of its kind runs, because its cell is run again, takes that search over; a
     search of another kind that the cell began is stopped.
 
-    Each generation is kept in a file until the search has ended.  After Stop or a killed kernel, Resume puts the page
-    back as it was at Optimise and goes on from the last generation, to the same front as without the break.
+    Each generation is kept in a file until the search has ended.  After Stop or a killed kernel, Resume goes on from
+    the last generation, to the same front as without the break.  What the search needs goes back to what it was at
+    Optimise, and a sentence says what; design and judgements go back only where they stand as the page began.
     """
 
     def __init__(
@@ -82,6 +83,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.study = self.asked_study()
         self.found = sessions.empty_front(self.study)
         self.search: SessionSearch | None = None
+        self._went_back = ""
         self.picker = FrontPicker(explorer, self.found, importance, lambda: self._show_front(self.front))
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
@@ -157,12 +159,13 @@ class ParetoPanel(JobPanel, FrontPanel):
 
     def _resumed(self) -> SessionSearch:
         search = self.page.resume(self.session())
-        self._put_back(search.session)
-        return self._follow(search)
+        return self._follow(search, self._put_back(search.session))
 
-    def _follow(self, search: SessionSearch) -> SessionSearch:
-        """Show that a search begins, or goes on."""
-        self.search, self.study = search, search.session.study
+    def _follow(self, search: SessionSearch, went_back: str = "") -> SessionSearch:
+        """Show that a search begins, or goes on, and what went back for it."""
+        self.search, self.study, self._went_back = search, search.session.study, went_back
+        if self.criteria and self.criteria.judgements != search.session.judgements["criteria"]:
+            self.study = self.study.with_weights(self.criteria.weights)
         self.resume_button.disabled = True
         self.progress.max, self.progress.value = self.generations.value, 0
         return search
@@ -180,8 +183,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         with job.lock:
             if job.over:
                 return False
-            self._put_back(search.session)
-            self._follow(search)
+            self._follow(search, self._put_back(search.session))
             self.runner.adopt(job)
             if job.step:
                 self._show_step(job.step, last=False)
@@ -207,10 +209,11 @@ class ParetoPanel(JobPanel, FrontPanel):
             self._say("")
 
     def _say(self, message: str) -> None:
-        """Say ``message``, and that the search is not kept if it is not."""
+        """Say ``message``, what went back for the search, and that it is not kept if it is not."""
         why = self.search.unkept if self.search else ""
         unkept = f"This search is not kept in a file to resume it from: {why}." if why else ""
-        self.banner.show_message(f"{message}. {unkept}" if message and unkept else message or unkept)
+        told = " ".join(filter(None, (self._went_back, unkept)))
+        self.banner.show_message(f"{message}. {told}" if message and told else message or told)
 
     # ------------------------------------------------------------ the front
 
@@ -256,11 +259,32 @@ class ParetoPanel(JobPanel, FrontPanel):
     def _json(self) -> str:
         return designs.to_json(self.session())
 
-    def _put_back(self, session: Session) -> None:
-        """The page as it was when the session was searched."""
-        self._judge(session.judgements)
-        self._set_boxes(session)
-        self.explorer.load(session.design)
+    def _put_back(self, session: Session) -> str:
+        """Bounds and settings of a search that goes on; design, judgements and rule where nobody has changed them.
+
+        What is not as it was on the page, in a sentence.
+        """
+        before = self._search_in_words()
+        self._judge({name: given for name, given in session.judgements.items() if self._untouched(name)})
+        rule = {"rule": self.picker.rule.value} if self.picker.rule.index else {}
+        self._set_boxes(replace(session, search={**session.search, **rule}))
+        if self.explorer.design == self.explorer.start:
+            self.explorer.load(session.design)
+        now = self._search_in_words()
+        back = [f"{name} {now[name]}, not {was}" for name, was in before.items() if now[name] != was]
+        if not same_design(self.explorer.design, session.design):
+            back.append("its own design, while yours stays in the sliders")
+        return f"The search goes on with what it began with: {'; '.join(back)}." if back else ""
+
+    def _untouched(self, name: str) -> bool:
+        """Whether there is a panel of judgements of that name, as it began."""
+        panel = self._judges.get(name)
+        return panel is not None and panel.judgements == panel.start
+
+    def _search_in_words(self) -> dict[str, str]:
+        """What a search needs of the page, by name."""
+        bounds = {words(name): bounds.words for name, bounds in self.bounds.items()}
+        return {"problem": self.mode.value, **{name: str(getattr(self, name).value) for name in COUNTS}, **bounds}
 
     def _judge(self, judgements: Mapping[str, Judgements]) -> None:
         for name, panel in self._judges.items():

@@ -715,7 +715,7 @@ def stopped(finder, monkeypatch):
 
 
 def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
-    """Also from a page that was opened anew, and after everything on it was changed: all is put back."""
+    """Also from a page that was opened anew: all is put back, and a sentence says what the search needed."""
     typed = explore(DoorHandleCam(lift_start_angle=0.371234567890123), pressure_angle, free=SLIDERS, **SMALL).design
     finder.explorer.load(typed)
     finder.bounds["relief_cam_angle"].free.value = False
@@ -733,7 +733,11 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     assert not other.resume_button.disabled
     press(other, "Resume")
     other.wait(60)
-    assert alert(other) == ""
+    assert alert(other) == (
+        "The search goes on with what it began with: population 40, not 100; generations 60, not 100; seed 4, not 1; "
+        "lift arm from 45.1235 to 54.9877 mm, not from 45 to 55 mm; "
+        "lift start angle from 17.1887 to 26.3561 deg, not fixed."
+    )
     assert other.status.value.startswith("generation 60 of 60: ")
     assert_allclose(other.study.evaluate(other.front.x).f, study.evaluate(other.front.x).f, rtol=1e-14)
     uninterrupted = nsga2(other.study, 40, 60, 4)  # the study as its file says it, in units
@@ -748,6 +752,36 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     assert other.resume_button.disabled
     press(finder, "Resume")
     assert alert(finder) == "This cannot be resumed: there is no search that did not end."
+
+
+def test_what_was_typed_since_a_search_began_stays_when_it_is_resumed(finder, stopped):
+    """The search has its own study and size; design and judgements are the page's, and these weigh the front."""
+    finder.explorer.load(DoorHandleCam(lift_arm=47 * mm))
+    finder.population.value, finder.generations.value, finder.seed.value = 24, 40, 3
+    study = finder.asked_study()
+    stopped()
+    typed = DoorHandleCam(lift_arm=48.09 * mm, lift_load=ArmLoad(torque=12))
+    finder.explorer.load(typed)
+    finder.criteria.boxes[(0, 1)].value = "3"
+    finder.picker.rule.value = "TOPSIS"
+    finder.generations.value, finder.bounds["lift_arm"].low.value = 60, 41.0
+    judged = finder.criteria.judgements
+    press(finder, "Resume")
+    finder.wait(60)
+    assert alert(finder) == (
+        "The search goes on with what it began with: generations 40, not 60; lift arm from 45 to 55 mm, "
+        "not from 41 to 55 mm; its own design, while yours stays in the sliders."
+    )
+    assert finder.explorer.design == typed
+    assert finder.explorer.controls["lift_arm"].box.value == 48.09
+    assert (finder.criteria.judgements, finder.picker.rule.value) == (judged, "TOPSIS")
+    assert finder.criteria.boxes[(0, 1)].value == "3"
+    assert_array_equal(finder.found.x, nsga2(finder.found.study, 24, 40, 3).x)
+    assert_allclose(finder.found.f, study.evaluate(finder.found.x).f, rtol=1e-14)
+    weighed = study.with_weights(judged.weights)
+    assert_allclose(finder.front.f, weighed.evaluate(finder.front.x).f, rtol=1e-14)
+    run(finder, generations=2)  # a search of its own says nothing of that
+    assert alert(finder) == ""
 
 
 @pytest.mark.parametrize(("damaged", "what"), [(2, "checkpoint"), (1, "file")])
@@ -789,7 +823,8 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     assert not newer.resume_button.disabled
     press(own, "Resume")
     own.wait(30)
-    assert alert(own) == ""
+    size = "population 24, not 100; generations 12, not 100"
+    assert alert(own) == f"The search goes on with what it began with: {size}."
     assert own.status.value.startswith("generation 12 of 12: ")
 
 

@@ -63,6 +63,13 @@ class Bounds:
             return self._exact
         return self.low.value * self.declared.factor, self.high.value * self.declared.factor
 
+    @property
+    def words(self) -> str:
+        """``from 40 to 60 mm``, or ``fixed``."""
+        if not self.free.value:
+            return "fixed"
+        return f"from {self.low.value:.6g} to {self.high.value:.6g} {self.declared.unit}".rstrip()
+
     def set(self, bounds: tuple[float, float] | None) -> None:
         """Show other bounds (SI); ``None``: not free."""
         self.free.value = bounds is not None
