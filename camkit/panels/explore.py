@@ -153,8 +153,9 @@ class Explorer(Panel):
         return angle, float(np.min(values)), float(np.max(values))
 
     def _buttons(self) -> w.Widget:
-        back = "back to the design that the panel began with"
-        reset = button("Reset", lambda: self.load(self.start), "undo", tooltip=back)
+        back = "back to the design and the position that the panel began with"
+        began = {name: knob.value for name, knob in self.positions.items()}
+        reset = button("Reset", lambda: self._begin_again(began), "undo", tooltip=back)
         name = type(self.design).__name__
         save = self._file("Save design", f"{name}.json", "application/json", lambda: designs.to_json(self.design))
         table = self._file("Profile as CSV", f"{name}.csv", "text/csv", lambda: profiles.profile_csv(self.analysis))
@@ -164,6 +165,12 @@ class Explorer(Panel):
         load = Upload("Load design", self.load_json)
         has_profile = hasattr(self.analysis, "profile")
         return w.HBox([reset, save, load, *([table, drawing] if has_profile else [])])
+
+    def _begin_again(self, positions: Mapping[str, float]) -> None:
+        """The design that the panel began with, in the positions of then."""
+        for name in positions.keys() & self.positions.keys():
+            self.positions[name].set(positions[name])
+        self.load(self.start)
 
     def _file(self, description: str, filename: str, mime: str, content: Callable[[], str]) -> Download:
         """A download of the design that the controls show; none where they show what cannot be built."""

@@ -1503,6 +1503,36 @@ def callbacks(panel):
     return waiting + sum(len(widget._msg_callbacks.callbacks) for widget in widgets)
 
 
+def test_a_picture_that_moves_keeps_its_axes_true_to_scale_until_they_fit():
+    app = explore(DoorHandleCam(), mechanism, curvature, free=["roller_radius"], turn=75 * deg, width=8, height=4)
+
+    def axes():
+        corners = [ax.transData.transform([(0, 0), (1, 0), (0, 1)]) for ax in app.picture.axes]
+        return np.array(corners)
+
+    app.controls["roller_radius"].box.text = "33"
+    app.picture.settle()
+    large = axes()
+    press(app, "Reset")
+    assert_allclose(axes(), large, rtol=1e-12)
+    app.picture.settle()
+    zero, across, up = axes()[0]
+    assert abs(axes()[0] - large[0]).max() > 1
+    assert across[0] - zero[0] == pytest.approx(up[1] - zero[1], rel=1e-9)
+
+
+def test_the_cam_angle_that_is_shown_stays_within_the_turn_and_reset_brings_it_back():
+    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
+    turn = app.positions["turn"]
+    turn.box.text = "500"
+    assert (turn.box.value, turn.slider.value, turn.value) == (180, 180, pytest.approx(180 * deg))
+    turn.box.text = "-20"
+    assert (turn.box.value, turn.slider.value, turn.value) == (0, 0, 0)
+    press(app, "Reset")
+    assert (turn.box.value, turn.slider.value, turn.value) == (75, 75, 75 * deg)
+    assert alert(app) == ""
+
+
 def test_a_thousand_moves_leave_nothing_behind():
     app = explore(DoorHandleCam(), curvature, free=["lift_arm", "relief_arm"], **SMALL)
     slider = app.controls["lift_arm"].slider

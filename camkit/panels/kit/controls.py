@@ -111,7 +111,7 @@ class NumberRow:
         self._put(self.slider, shown)
 
     def between(self, low: float, high: float) -> None:
-        """Other ends of the slider (SI), to the next step outward; the value is moved between them."""
+        """Ends of the slider (SI), to the next step outward; a value outside is moved between them."""
         step, factor = self.slider.step, self.declared.factor
         ends = tuple(
             round(to(end / factor / step) * step, 9) for to, end in ((math.floor, low + 1e-9), (math.ceil, high - 1e-9))
@@ -120,7 +120,9 @@ class NumberRow:
             with self._quiet, self.slider.hold_sync():
                 with self.slider.hold_trait_notifications():
                     self.slider.min, self.slider.max = ends
-                self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
+                self.set(self.value)
+        if not ends[0] * factor <= self.value <= ends[1] * factor:
+            self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
 
     def _put(self, widget: Any, shown: float) -> None:
         with self._quiet:

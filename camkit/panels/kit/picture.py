@@ -70,6 +70,7 @@ class LivePicture:
         self.said: Callable[[], str] = str
         self.widget = ImageWidget(description=description)
         self._background: Any = None
+        self._ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
         self._last: tuple[Any, dict[str, Any]] | None = None
         self._later = Debounced(self._settle_and_describe, SETTLE)
         self._moved = 0.0
@@ -91,9 +92,18 @@ class LivePicture:
             if self._background is None:
                 self.settle()
             else:
+                self._keep_axes()
                 self._blit()
                 self.widget.put(self._jpeg(), "image/jpeg")
                 self._later.ask(self._patience())
+
+    def _keep_axes(self) -> None:
+        """The ends of the stored background, so that what moves over it is to its scale."""
+        for ax, (across, up) in zip(self.axes, self._ends, strict=True):
+            if ax.get_autoscalex_on():
+                ax.set_xlim(across, auto=None)
+            if ax.get_autoscaley_on():
+                ax.set_ylim(up, auto=None)
 
     def _refuse_far_points(self) -> None:
         """Matplotlib finds no ticks and fills no area for numbers of any size."""
@@ -116,6 +126,7 @@ class LivePicture:
             with rc_context(theme_style()):
                 self.figure.canvas.draw()
             self.figure.set_layout_engine("none")  # the first drawing has laid the axes out; that takes half a second
+            self._ends = [(ax.get_xlim(), ax.get_ylim()) for ax in self.axes]
             self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]
             self._blit()
             self.widget.put(self._png(), "image/png")
