@@ -168,7 +168,8 @@ def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Array, Array]:
 
     0 where that is no matter.  A parabola's, where a piece ends next to the maximum.
     """
-    far = (inner & np.roll(inner, 1) & np.roll(inner, -1))[at % len(inner)]
+    column = at % len(inner)
+    far = inner[column - 1] & inner[column] & inner[(column + 1) % len(inner)]
     left, mid, right = flat[at - 1], flat[at], flat[at + 1]
     parabola, bend = mid + _summit(left, mid, right)[1], 2 * mid - left - right
     left2, right2 = flat[np.where(far, at - 2, at)], flat[np.where(far, at + 2, at)]
@@ -189,10 +190,12 @@ def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Array, Array]:
 def _quartic_top(*slopes: Any) -> Value:
     """How far the top of a quartic with those four derivatives at 0 lies above its value there, by Newton's method."""
     a, b, c, d = slopes
-    x = 0.0
+    half, sixth = d / 2, d / 6
     with np.errstate(divide="ignore", invalid="ignore"):
-        for _ in range(3):
-            x = np.clip(x - (a + x * (b + x * (c / 2 + x * d / 6))) / (b + x * (c + x * d / 2)), -1, 1)
+        x = np.minimum(np.maximum(-a / b, -1), 1)
+        for _ in range(2):
+            x = x - (a + x * (b + x * (c / 2 + x * sixth))) / (b + x * (c + x * half))
+            x = np.minimum(np.maximum(x, -1), 1)
     return x * (a + x * (b / 2 + x * (c / 6 + x * d / 24)))
 
 

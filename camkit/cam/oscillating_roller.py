@@ -163,6 +163,11 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
         return self.cam.centre_distance * self._sin
 
     @cached_property
+    def _size(self) -> np.ndarray:
+        """``sqrt(G^2 + D^2)``: the length of that normal."""
+        return np.sqrt(self._along * self._along + self._across * self._across)
+
+    @cached_property
     def pressure_angle(self) -> np.ndarray:
         """``alpha``, signed: ``tan alpha = G / D``, rad."""
         return np.arctan2(self._along, self._across)
@@ -171,9 +176,9 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     def curvature(self) -> np.ndarray:
         """Curvature of the pitch curve, convex > 0, 1/m."""
         a, l = self.cam.centre_distance, self.cam.arm_length
-        gain, w = self._gain, self.acceleration
-        top = a**2 + l**2 * gain**3 - a * l * gain * (1 + gain) * self._cos - w * a * l * self._sin
-        return top / (self._along**2 + self._across**2) ** 1.5
+        gain, w, size = self._gain, self.acceleration, self._size
+        top = a**2 + l**2 * gain * gain * gain - a * l * gain * (1 + gain) * self._cos - w * a * l * self._sin
+        return top / (size * size * size)
 
     @cached_property
     def roller_centre(self) -> np.ndarray:
@@ -186,12 +191,12 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
         """The contact normal, a unit vector from cam to roller in the frame of the machine."""
         a, l = self.cam.centre_distance, self.cam.arm_length
         direction = np.stack(np.broadcast_arrays(a - l * self._gain * self._cos, l * self._gain * self._sin))
-        return direction / np.sqrt(self._along**2 + self._across**2)
+        return direction / self._size
 
     @property
     def lever(self) -> np.ndarray:
-        """``l cos alpha``, m."""
-        return self.cam.arm_length * np.cos(self.pressure_angle)
+        """``l cos alpha``, m: ``cos alpha = D / sqrt(G^2 + D^2)``."""
+        return self.cam.arm_length * self._across / self._size
 
     @cached_property
     def _contact(self) -> Contact:

@@ -183,6 +183,11 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
         return self.velocity - self.cam.rotation * self.cam.offset
 
     @cached_property
+    def _size(self) -> np.ndarray:
+        """``sqrt(h^2 + (v - sigma e)^2)``: the length of the normal that is `height` high."""
+        return np.sqrt(self.height * self.height + self.across * self.across)
+
+    @cached_property
     def pressure_angle(self) -> np.ndarray:
         """``alpha``: ``tan alpha = (v - sigma e) / h``, > 0 where the normal leans as the cam's surface runs, rad."""
         return np.arctan2(self.across, self.height)
@@ -193,8 +198,8 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
 
         ``kappa = [h^2 - h w + (v - sigma e)(2 v - sigma e)] / [h^2 + (v - sigma e)^2]^1.5``
         """
-        h, g = self.height, self.across
-        return (h**2 - h * self.acceleration + g * (g + self.velocity)) / (h**2 + g**2) ** 1.5
+        h, g, size = self.height, self.across, self._size
+        return (h * h - h * self.acceleration + g * (g + self.velocity)) / (size * size * size)
 
     def height_for(self, min_radius: Any) -> np.ndarray:
         """Height ``h`` from which on the profile is nowhere more convex than ``min_radius``, angle by angle, m.
@@ -216,7 +221,7 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
     def normal(self) -> np.ndarray:
         """The contact normal, a unit vector from cam to roller in the frame of the machine."""
         direction = np.stack(np.broadcast_arrays(-self.cam.rotation * self.across, self.height))
-        return direction / np.hypot(self.across, self.height)
+        return direction / self._size
 
     @property
     def follower(self) -> tuple[Body, ...]:
@@ -227,7 +232,7 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
     @property
     def lever(self) -> np.ndarray:
         """``cos alpha``."""
-        return np.cos(self.pressure_angle)
+        return self.height / self._size
 
 
 TranslatingRollerCam.measures = ROLLER_CURVE

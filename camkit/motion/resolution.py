@@ -147,8 +147,14 @@ def _inside(low: Value, high: Value, steps: int) -> Array:
     return low + hair + (high - low - 2 * hair) * np.linspace(0, 1, steps + 1)
 
 
+_LOW = np.array([1, 1, 1 / 2, 1 / 6])
+_AT_END = np.array([[perm(i, k) for i in range(4)] for k in range(4)])
 _HIGHER = np.array([[35, -15, 2.5, -1 / 6], [-84, 39, -7, 0.5], [70, -34, 6.5, -0.5], [-20, 10, -2, 1 / 6]])
-"""Coefficients of ``x^4 .. x^7`` from what position and three derivatives still lack at ``x = 1``."""
+"""Of a polynomial's coefficients: ``x^0 .. x^3`` from ``s, v, a, j`` at 0, what these give at 1, and ``x^4 .. x^7``
+from what is lacking there."""
+_TERM = np.minimum(np.add.outer(range(8), range(4)), 7)
+_FACTOR = np.array([[perm(i + k, k) * (i + k < 8) for k in range(4)] for i in range(8)])
+"""Which coefficient stands at ``x^i`` in its derivative of order ``k``, and times what."""
 
 
 def between(first: Kinematics, second: Kinematics, step: Any, x: Value) -> Kinematics:
@@ -161,9 +167,9 @@ def between(first: Kinematics, second: Kinematics, step: Any, x: Value) -> Kinem
     >>> float(abs(between(law(0.25), law(0.26), 0.01, 0.3).a - law(0.253).a)) < 1e-9
     True
     """
-    start, end = ([value * step**k for k, value in enumerate(motion)] for motion in (first, second))
-    low = [start[0], start[1], start[2] / 2, start[3] / 6]
-    lack = [end[k] - sum(perm(i, k) * low[i] for i in range(k, 4)) for k in range(4)]
-    c = [*low, *(sum(weight * lack[k] for k, weight in enumerate(row)) for row in _HIGHER)]
-    powers = [x**0, x, x**2, x**3, x**4, x**5, x**6, x**7]
-    return Kinematics(*(sum(perm(i, k) * c[i] * powers[i - k] for i in range(k, 8)) / step**k for k in range(4)))
+    x, powers = np.expand_dims(x, -1), np.expand_dims(step, -1) ** np.arange(4)
+    low, end = np.stack(first, -1) * powers * _LOW, np.stack(second, -1) * powers
+    lack = end - (low[..., None, :] * _AT_END).sum(-1)
+    terms = np.concatenate([low, (lack[..., None, :] * _HIGHER).sum(-1)], -1)[..., _TERM] * _FACTOR
+    values = sum(terms[..., i, :] * x**i for i in range(8))
+    return Kinematics(*np.moveaxis(values / powers, -1, 0))
