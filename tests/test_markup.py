@@ -273,10 +273,10 @@ def test_judgements_and_fronts(explorer, front, tmp_path, monkeypatch):
 
 
 def test_the_survey_and_the_program(explorer):
-    def make(start, weights):
-        return Study(start, {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}, (FIRST,), at_most={LIMITED: 5 * mm})
-
-    assert_panel_harmless(contour_panel(explorer, {EVIL: make}, {"first": 1.0}, steps=7))
+    plane = Study(
+        explorer.start, {"x": (0.5 * mm, 3 * mm), "y": (0.5 * mm, 3 * mm)}, (FIRST,), at_most={LIMITED: 5 * mm}
+    )
+    assert_panel_harmless(contour_panel(explorer, {EVIL: plane}, {"first": 1.0}, steps=7))
     segments = (Rise(90 * deg, 10 * mm, EvilLaw()), Dwell(90 * deg), Return(180 * deg, 10 * mm, EvilLaw()))
     assert_panel_harmless(edit_program(MotionProgram(segments)), 0)
 

@@ -143,21 +143,8 @@ TUBES = standard_tubes()
 TRIALS = measured_trials("tension spring")
 
 
-def two(start, reference=None, space=SPACE):
-    return TWO.replace(start=start, free=space)
-
-
-def one(start, method="slsqp"):
-    return STUDY.replace(start=start)
-
-
-def plain_lever(start, **_):
-    return LEVER(start)
-
-
-def over_two(start, weights):
-    """One objective over two quantities."""
-    return STUDY.replace(start=start, free={**SPACE, "roller_radius": (0.005, 0.01)})
+OVER_TWO = STUDY.replace(free={**SPACE, "roller_radius": (0.005, 0.01)})
+"""One objective over two quantities."""
 
 
 @cache
@@ -188,7 +175,6 @@ GOOD = {
     "box": lambda: BOX,
     "cam": camkit.ValveCam,
     "cam_angle": lambda: np.linspace(0, 2 * np.pi, 31),
-    "choices": dict,
     "columns": lambda: {"angle": [0.0, 1.0]},
     "count": lambda: 3,
     "curve": lambda: AnalysisCurve("pressure_angle", "deg", "pressure angle"),
@@ -212,7 +198,6 @@ GOOD = {
     "limit": lambda: 1e6,
     "lift": lambda: 10.0,
     "longest": lambda: 1.0,
-    "make": lambda: one,
     "matrices": lambda: [[1, 3], [1 / 3, 1]],
     "most": lambda: 100.0,
     "names": lambda: ("a", "b"),
@@ -257,7 +242,7 @@ GOOD = {
     "shown": lambda: CAM,
     "start": lambda: None,
     "thing": lambda: CAM,
-    "ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
+    "ways": lambda: {"nsga2": (TWO, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
@@ -266,21 +251,23 @@ GOOD = {
     "AnalysisCurve.name": lambda: "pressure_angle",
     "AnalysisCurve.label": lambda: "pressure angle",
     "CycleTimePanel.explorer": lambda: app("lever"),
-    "CycleTimePanel.make": lambda: plain_lever,
+    "CycleTimePanel.studies": lambda: LEVER(),
     "Front.f": lambda: FRONT.f,
     "Front.x": lambda: FRONT.x,
-    "ContourPanel.studies": lambda: {"one": over_two},
+    "ContourPanel.studies": lambda: {"one": OVER_TWO},
     "ContourPanel.weights": lambda: {"height": 1.0},
-    "FrontsPanel.ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
+    "FrontsPanel.ways": lambda: {"nsga2": (TWO, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "data.load.name": lambda: "door_handle",
     "optimise_panel.explorer": app,
     "cycle_time_panel.explorer": lambda: app("lever"),
-    "cycle_time_panel.make": lambda: plain_lever,
+    "cycle_time_panel.studies": lambda: LEVER(),
     "shortest_interval.study": lambda: LEVER(),
     "cycle_time_steps.study": lambda: LEVER(),
-    "contour_panel.studies": lambda: {"one": over_two},
+    "contour_panel.studies": lambda: {"one": OVER_TWO},
+    "OptimisePanel.studies": lambda: STUDY,
+    "optimise_panel.studies": lambda: STUDY,
     "contour_panel.weights": lambda: {"height": 1.0},
-    "compare_fronts.ways": lambda: {"nsga2": (two, partial(nsga2_steps, population=4, generations=1, seed=1))},
+    "compare_fronts.ways": lambda: {"nsga2": (TWO, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "TolerancePanel.study": lambda: STUDY,
     "Session.search": dict,
     "Session.judgements": dict,

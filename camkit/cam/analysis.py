@@ -24,6 +24,7 @@ from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from . import bodies, statics
 from .force_closure import ContactPair, contact_along
+from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
 """The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
@@ -51,6 +52,11 @@ class CamAnalysis(ABC):
     def offers(self) -> tuple[str, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
         return (*OFFERS, *self.cam.contact.offers)
+
+    @property
+    def trouble(self) -> str:
+        """What is lost of the profile, in a sentence; empty if nothing is."""
+        return undercut_in_words(self)
 
     @property
     @abstractmethod

@@ -28,6 +28,7 @@ from .oscillating_roller import OscillatingRollerCam
 from .slide import SlideLoad
 from .translating_flat import TranslatingFlatCam
 from .translating_roller import TranslatingRollerCam
+from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force")
 SLIDE, ARM = SlideLoad(spring_rate=0, preload=0), ArmLoad(mass=0.5, speed=300 * rpm)
@@ -125,6 +126,11 @@ class ConjugatePairAnalysis:
     def offers(self) -> tuple[str, ...]:
         """The shapes and curves that are shown of it where nobody chooses; a force below 0 is that of the other cam."""
         return (*OFFERS, *self.cam.first.contact.offers)
+
+    @property
+    def trouble(self) -> str:
+        """What is lost of either profile, in a sentence; empty if nothing is."""
+        return undercut_in_words(self)
 
     @cached_property
     def first(self) -> CamAnalysis:

@@ -28,7 +28,17 @@ from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_cam import FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
-from .high_speed_measures import CLEAR, COMMON, laws_free, min_lead, min_radius, overrun, peak, undercut_margin
+from .high_speed_measures import (
+    CLEAR,
+    COEFFICIENTS,
+    COMMON,
+    laws_free,
+    min_lead,
+    min_radius,
+    overrun,
+    peak,
+    undercut_margin,
+)
 
 
 @dataclass(frozen=True)
@@ -217,7 +227,7 @@ def cam_lever_study(
     """
     refuse_arguments(cam_lever_study, locals())
     start = start or CamLever()
-    start = start.shaped() if free_laws else start
+    start = start.ready_for(COEFFICIENTS) if free_laws else start
     return Study(
         start=start,
         free=LEVER_SIZES | {"max_radius": (80 * mm, max_radius)} | (laws_free(start) if free_laws else {}),

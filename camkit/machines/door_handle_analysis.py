@@ -14,6 +14,7 @@ import numpy as np
 from ..cam import bodies, groove
 from ..cam.analysis import OFFERS
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
+from ..cam.undercut import undercut_in_words
 from ..geometry import Body, end_to_end, rotated
 from ..quantities.types import Value
 
@@ -33,6 +34,11 @@ class DoorHandleAnalysis:
     k: int
     rough: bool = field(default=False, kw_only=True)
     """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
+
+    @property
+    def trouble(self) -> str:
+        """What is lost of the profile, in a sentence; empty if nothing is."""
+        return undercut_in_words(self)
 
     @cached_property
     def lift(self) -> OscillatingRollerAnalysis:

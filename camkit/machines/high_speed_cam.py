@@ -11,6 +11,7 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.  The geometry is that
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -23,7 +24,7 @@ from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
 from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
-from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities import Design, choice, counted, fails, quantities_of, quantity
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
@@ -33,6 +34,8 @@ HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
 
 
+STRONG = 12.0
+"""The strongest closing spring ``K`` that a slider or a study offers."""
 LOADS = InertialSpringLoad(), ConstantTorque(), SliderLoad()
 """What the arm can resist with, for a menu."""
 
@@ -53,10 +56,11 @@ class FreeLawCam(Design):
     contact: ContactPair = field(default_factory=lambda: ContactPair(width=20 * mm))
     """The materials of cam and roller and the length of the line on which they touch."""
 
-    def shaped(self) -> Self:
-        """The same cam with laws that coefficients shape, at 0 where there were none."""
-        rise, back = (law if isinstance(law, ShapedLaw) else ShapedLaw(law) for law in (self.rise_law, self.return_law))
-        return self.replace(rise_law=rise, return_law=back)
+    def ready_for(self, paths: Iterable[str]) -> Self:
+        """The same cam; a law without a coefficient that is free becomes one that coefficients shape, all of them 0."""
+        lacking = {path.partition(".")[0] for path in {*paths} - quantities_of(self).keys()}
+        laws = {name: ShapedLaw(getattr(self, name)) for name in ("rise_law", "return_law") if name in lacking}
+        return self.replace(**laws)
 
 
 @dataclass(frozen=True)
@@ -83,7 +87,7 @@ class HighSpeedCam(FreeLawCam):
     return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back")
     speed: float = quantity("n", 100, 10, 200, "%", "share of the rated speed, for which load and spring are given")
     spring_factor: float = quantity(
-        "K", 0, 0, 12, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
+        "K", 0, 0, STRONG, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
     )
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
 
@@ -137,6 +141,17 @@ class HighSpeedCam(FreeLawCam):
                 f"the roller of {self.roller_radius / mm:.4g} mm covers the cam axis"
             )
         self._keep(reaches & starts & clear)
+
+    def ready_for(self, paths: Iterable[str]) -> Self:
+        """The same cam, its laws shaped where they are free; a spring that is free has a rate, the weakest that holds.
+
+        Where none holds, because the arm passes its start, it is the strongest that a slider offers.
+        """
+        ready = super().ready_for(paths)
+        if "spring_factor" not in paths or ready.spring_factor:
+            return ready
+        weakest = float(ready.analyse().least_spring_factor) * self.speed**2
+        return ready.replace(spring_factor=min(weakest, STRONG))
 
     @property
     def end_angle(self) -> Value:

@@ -16,7 +16,7 @@ from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..study.study import Space, Study
 from ..units import mm
-from .high_speed_cam import FreeLawCam, HighSpeedCam
+from .high_speed_cam import STRONG, FreeLawCam, HighSpeedCam
 from .high_speed_load import InertialSpringLoad
 
 
@@ -76,8 +76,8 @@ GEOMETRY = {
 """The paper's three free sizes; ``l >= 40``, ``r >= 20`` and ``r_k2 <= 140 mm`` are its limits, the others are wide."""
 COEFFICIENTS = tuple(f"{way}_law.c{i}" for way in ("rise", "return") for i in range(4))
 """Paths of what shapes both laws."""
-WEAK, STRONG = 0.2, 12.0
-"""Between these the closing spring ``K`` is free."""
+WEAK = 0.2
+"""From here to ``STRONG`` the closing spring ``K`` is free."""
 CLEAR = 1e-3
 """Least margin of undercut within a search: where it is 0 the stress is infinite."""
 
@@ -112,21 +112,19 @@ def high_speed_study(
     """
     refuse_arguments(high_speed_study, locals())
     start = start or HighSpeedCam()
-    start = start.shaped() if free_laws else start
+    start = start.ready_for(COEFFICIENTS) if free_laws else start
     free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}
     least: dict[Measure, float] = {min_radius: 30 * mm, undercut_margin: CLEAR, min_force: 0.0}
     if free_laws:
         least[min_lead] = 0.0
     if free_laws and free_spring and isinstance(start.load, InertialSpringLoad):
-        weakest = float(start.analyse().least_spring_factor) * start.speed**2  # inf where the arm passes its start
-        start = start.replace(spring_factor=start.spring_factor or min(weakest, STRONG))
         free["spring_factor"] = (WEAK, STRONG)
         most[spring_use] = 1.0
     if free_laws and not free_spring:
         start = start.replace(spring_factor=0.0)
     return Study(
-        start=start,
+        start=start.ready_for(free),
         free=free,
         minimise=(objective,),
         at_most=most | dict(at_most or {}),

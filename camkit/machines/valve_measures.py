@@ -52,7 +52,6 @@ STUDY_ANGLES = 91
 
 listed_deceleration = Measure("nose deceleration as listed", "", lambda a: abs(a.nose_acceleration) / mm * deg**2)
 """In the units of the paper's listing: mm and seconds, but the half angle in degrees."""
-ValveCam.measures = (*VALVE_MEASURES, nose_deceleration, listed_deceleration)
 
 
 def in_paper_units(cam: ValveCam) -> ValveCam:
@@ -68,19 +67,47 @@ def in_paper_units(cam: ValveCam) -> ValveCam:
     return cam.replace(seating_velocity=cam.seating_velocity * mm / deg)
 
 
-def _corner(start: ValveCam, end: int) -> ValveAnalysis:
-    """The cam at the lower (0) or upper (1) corner of the paper's box."""
-    return start.replace(**{name: bounds[end] for name, bounds in PAPER_BOX.items()}).analyse()
+LOWER, UPPER = 0, 1
+"""Ends of the paper's ranges, and corners of its box."""
 
 
-def _against_fullness(wear: Measure, weights: Sequence[float], most: Measure, at: ValveAnalysis) -> WeightedSum:
-    """``W1 (-xi / K1) + W2 (wear / K2)``: ``K1`` the fullness at the upper corner, ``K2`` what ``most`` is ``at``."""
+def corner(cam: ValveCam, end: int) -> ValveAnalysis:
+    """The cam at the lower or upper corner of the paper's box: where the normalisers ``K1`` and ``K2`` come from."""
+    analysis: ValveAnalysis = cam.replace(**{name: bounds[end] for name, bounds in PAPER_BOX.items()}).analyse()
+    return analysis
+
+
+def _share(measure: Measure, end: int) -> Measure:
+    """A measure over its largest value in the paper's box, which it has at a corner."""
+    return Measure(f"{measure.name} / largest in the box", "", lambda a: measure(a) / measure(corner(a.cam, end)))
+
+
+def _listed(measure: Measure) -> Measure:
+    """A measure of the cam that the paper's listing computes (see `in_paper_units`)."""
+    return Measure(f"{measure.name}, listed", measure.unit, lambda a: measure(in_paper_units(a.cam).analyse()))
+
+
+fullness_share, deceleration_share = _share(fullness, UPPER), _share(nose_deceleration, LOWER)
+acceleration_share = _share(peak_acceleration, UPPER)
+AS_STATED = fullness_share, deceleration_share, nose_radius
+AS_LISTED = tuple(_listed(measure) for measure in AS_STATED)
+"""What the paper weighs and limits, as it states it and as its listing computes it."""
+ValveCam.measures = (
+    *VALVE_MEASURES,
+    nose_deceleration,
+    listed_deceleration,
+    *AS_STATED[:2],
+    acceleration_share,
+    *AS_LISTED,
+)
+
+
+def _against_fullness(name: str, full: Measure, wear: Measure, weights: Sequence[float]) -> WeightedSum:
+    """``W1 (-xi / K1) + W2 (wear / K2)``: both are measured over their largest values."""
     weights = listed(weights, "the weights", "objective")
     if len(weights) != 2:
         raise ValueError(f"there are {len(weights)} weights; there must be one of the fullness and one of the wear")
-    parts = dict(zip((-fullness, wear), weights, strict=True))
-    name = f"fullness against {most.name}{'' if wear.sign > 0 else ', sign as printed'}"
-    return weighted(name, parts, (fullness.one(_corner(at.cam, 1)), most.one(at)))
+    return weighted(f"fullness against {name}", dict(zip((-full, wear), weights, strict=True)), (1.0, 1.0))
 
 
 def valve_study(
@@ -92,19 +119,21 @@ def valve_study(
 ) -> Study:
     """The paper's problem: ``W1 (-xi / K1) + W2 (|a| / K2)`` small, radius at the nose at least 4.5 mm.
 
-    ``K1`` and ``K2`` are the largest fullness and the largest nose deceleration ``|a|`` in the box.
-    ``printed_sign`` takes ``a`` as printed, without the bars: being negative, it is then rewarded for its size.
-    ``paper_units`` computes as the paper's listing does (see `in_paper_units`): K1 = 0.637143792, K2 = 599.758.
+    ``K1`` and ``K2`` are the largest fullness and the largest nose deceleration ``|a|`` in the box, of a cam that is
+    otherwise the same.  ``printed_sign`` takes ``a`` as printed, without the bars: being negative, it is then rewarded
+    for its size.  ``paper_units`` measures what the paper's listing computes (see `in_paper_units`): there
+    K1 = 0.637143792, K2 = 599.758.
 
-    >>> study = valve_study(paper_units=True)
-    >>> [f"{k:.9g}" for k in study.minimise[0].reference]
-    ['0.637143792', '599.758095']
+    >>> listed = in_paper_units(ValveCam())
+    >>> print(f"{fullness(corner(listed, UPPER)):.9f}, {listed_deceleration(corner(listed, LOWER)):.6f}")
+    0.637143792, 599.758095
     """
     refuse_arguments(valve_study, locals())
-    start = start or ValveCam()
-    start, size = (in_paper_units(start), listed_deceleration) if paper_units else (start, nose_deceleration)
-    objective = _against_fullness(-size if printed_sign else size, weights, size, _corner(start, 0))
-    return Study(start, PAPER_BOX, (objective,), at_least={nose_radius: PAPER_MIN_RADIUS}, angles=STUDY_ANGLES)
+    full, size, radius = AS_LISTED if paper_units else AS_STATED
+    name = f"nose deceleration{' as listed' * paper_units}{', sign as printed' * printed_sign}"
+    objective = _against_fullness(name, full, -size if printed_sign else size, weights)
+    limit = {radius: PAPER_MIN_RADIUS}
+    return Study(start or ValveCam(), PAPER_BOX, (objective,), at_least=limit, angles=STUDY_ANGLES)
 
 
 def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float] = (0.5, 0.5)) -> Study:
@@ -119,9 +148,9 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
     [True, False]
     """
     refuse_arguments(corrected_valve_study, locals())
-    start = start or ValveCam()
-    objective = _against_fullness(peak_acceleration, weights, peak_acceleration, _corner(start, 1))
-    return Study(start, PAPER_BOX, (objective,), at_least={min_radius: PAPER_MIN_RADIUS}, angles=STUDY_ANGLES)
+    objective = _against_fullness(peak_acceleration.name, fullness_share, acceleration_share, weights)
+    limit = {min_radius: PAPER_MIN_RADIUS}
+    return Study(start or ValveCam(), PAPER_BOX, (objective,), at_least=limit, angles=STUDY_ANGLES)
 
 
 def keeping_least_radius(cam: ValveCam, least: float = PAPER_MIN_RADIUS) -> ValveCam:

@@ -8,11 +8,11 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..quantities import Measure, Quantity, value_of, with_quantities, words
-from ..quantities.kinds import a_number, refuse_arguments, refuse_empty
+from ..quantities import Measure, Quantity, with_quantities, words
+from ..quantities.kinds import a_number, refuse_arguments
 from ..quantities.markup import html, joined
 from ..study.design_map import DesignMap
-from ..study.study import Study, WeightedSum, made_study
+from ..study.study import Study, WeightedSum, named_studies
 from ..units import factor
 from ..views.design_map import ShownPlane, objective_plane
 from .explore import Explorer
@@ -22,7 +22,6 @@ from .kit.latest_only import Debounced
 from .kit.layout import button, column, menu, wrapped
 from .kit.panel import IMPOSSIBLE, Panel
 from .kit.picture import SETTLE, LivePicture
-from .kit.runner import MakeStudy
 
 
 def optimum(plane: DesignMap) -> np.ndarray | None:
@@ -48,19 +47,21 @@ def _quarters(study: Study) -> list[Study]:
 class ContourPanel(Panel):
     """The objective over two quantities of the design of an `Explorer`, where limits are missed, and the optimum.
 
-    ``studies`` maps a name in the menu to a function ``make(start, weights)`` that gives a `Study` with two free
-    quantities; ``weights`` names the parts of its weighted objective, a slider each (they are shared out so as to add
-    to 1).  The best design of the grid is marked at once, the optimum itself a moment after the last move.  A click
-    loads the design under it.
+    ``studies`` is a `Study` with two free quantities, or maps names in a menu to several; ``weights`` names the parts
+    of the weighted objective, a slider each (they are shared out so as to add to 1).  The best design of the grid is
+    marked at once, the optimum itself a moment after the last move.  A click loads the design under it.
     """
 
     def __init__(
-        self, explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], steps: int = 41
+        self,
+        explorer: Explorer,
+        studies: Study | Mapping[str, Study],
+        weights: Mapping[str, float],
+        steps: int = 41,
     ) -> None:
         refuse_arguments(ContourPanel.__init__, locals())
-        refuse_empty(studies, "studies")
-        self.explorer, self.studies, self.steps = explorer, studies, steps
-        self.menu = menu(list(studies), "problem", "auto", "66px")
+        self.explorer, self.studies, self.steps = explorer, named_studies(studies, explorer.start), steps
+        self.menu = menu(list(self.studies), "problem", "auto", "66px")
         self.menu.observe(lambda _: self._changed(), "value")
         self.verdict, self.banner = w.HTML(), Banner()
         self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
@@ -84,7 +85,8 @@ class ContourPanel(Panel):
 
     def _body(self) -> w.Widget:
         take = w.HBox([self.take])
-        left = [self.menu, *(knob.row for knob in self.knobs), take, self.banner, self.verdict]
+        problem = [self.menu] if len(self.studies) > 1 else []
+        left = [*problem, *(knob.row for knob in self.knobs), take, self.banner, self.verdict]
         return wrapped(column(left, 340, 560), column([self.picture.widget], 480, 740))
 
     @property
@@ -97,11 +99,9 @@ class ContourPanel(Panel):
 
     @property
     def study(self) -> Study:
-        """The problem of the menu under these weights, around the design in the sliders."""
-        make, first = self.studies[self.menu.value], self.explorer.start
-        free = made_study(make, first, weights=self.weights).free
-        around = with_quantities(self.explorer.design, {n: value_of(first, n) for n in free})
-        return made_study(make, around, weights=self.weights)
+        """The problem of the menu under these weights, around the design in the sliders but for what is free."""
+        first = self.studies[self.menu.value]
+        return first.around(self.explorer.design, first.x0).with_weights(self.weights)
 
     def _changed(self) -> None:
         """Another problem or other weights: shown at once, the optimum a moment later."""
@@ -195,7 +195,7 @@ def _text(measure: Measure, analysis: object) -> str:
 
 
 def contour_panel(
-    explorer: Explorer, studies: Mapping[str, MakeStudy], weights: Mapping[str, float], **options: Any
+    explorer: Explorer, studies: Study | Mapping[str, Study], weights: Mapping[str, float], **options: Any
 ) -> ContourPanel:
     """A panel that shows an objective over two quantities of the design in ``explorer`` (see `ContourPanel`)."""
     return ContourPanel(explorer, studies, weights, **options)

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
 
 import ipywidgets as w
 
 from ..quantities import Measure, Quantity
 from ..quantities.kinds import a_number, refuse_arguments
-from ..search.cycle_time import IntervalStep, cycle_time_steps
+from ..search.cycle_time import INTERVALS, IntervalStep, cycle_time_steps
 from ..search.protocol import Step
-from ..study.study import Study, made_study
+from ..study.study import Study, named_studies
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
 from .explore import Explorer
 from .kit.controls import NumberRow
-from .kit.layout import button
+from .kit.layout import button, menu
 from .kit.picture import LivePicture
-from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
+from .kit.runner import JobPanel, Runner, told
 
 TOLERANCE = 0.1 * deg
 """To which the interval is found."""
@@ -27,27 +26,28 @@ TOLERANCE = 0.1 * deg
 class CycleTimePanel(JobPanel):
     """How short the intervals may be for the optimum of a study to keep a limit, and what that gains in output.
 
-    ``make(start, **choices)`` gives the `Study` around the design of an `Explorer`; its objective is limited to
-    ``limit``.  Intervals between ``shortest`` and ``longest`` (rad) are tried, each search starting where the last one
-    ended; gains count from the longest.  ``step`` holds the best so far, also after Stop.
+    ``studies`` is a `Study`, or maps names in a menu to several, searched around the design of an `Explorer`; the
+    objective is limited to ``limit``.  ``intervals`` between ``shortest`` and ``longest`` (rad) are tried, each search
+    starting where the last one ended; gains count from the longest.  ``step`` holds the best so far, also after Stop.
     """
 
     def __init__(
         self,
         explorer: Explorer,
-        make: MakeStudy,
+        studies: Study | Mapping[str, Study],
         limit: float,
         shortest: float,
         longest: float,
-        choices: Mapping[str, Mapping[str, Any]],
+        intervals: Sequence[str] = INTERVALS,
     ) -> None:
         refuse_arguments(CycleTimePanel.__init__, locals())
         a_number(limit, "the limit", "be a finite number above 0", lambda most: most > 0)
-        self.explorer, self.make = explorer, make
-        self.choices = Choices(choices)
+        self.explorer, self.studies = explorer, named_studies(studies, explorer.start)
+        self.intervals = tuple(intervals)
+        self.problem = menu(list(self.studies), "problem", "100%", "112px")
         self.measure: Measure = self._study().minimise[0]
-        cycle_time_steps(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
-        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, explorer.start, make)
+        self._search(limit, shortest, longest)  # refuses at once what cannot be searched
+        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, self.studies)
         self.limit = self._limit_knob(limit)
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
@@ -73,10 +73,11 @@ class CycleTimePanel(JobPanel):
         runner = self.runner
         knobs = [knob.row for knob in (self.limit, self.longest, self.shortest)]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.take, self.progress])
-        return [*self.choices.menus.values(), *knobs, buttons, runner.status, runner.banner, self.verdict]
+        problem = [self.problem] if len(self.studies) > 1 else []
+        return [*problem, *knobs, buttons, runner.status, runner.banner, self.verdict]
 
     def _study(self) -> Study:
-        return made_study(self.make, self.explorer.design, **self.choices.values)
+        return self.studies[self.problem.value].around(self.explorer.design)
 
     @property
     def step(self) -> IntervalStep | None:
@@ -89,11 +90,16 @@ class CycleTimePanel(JobPanel):
             self.explorer.load(self.step.best.design)
 
     def _prepare(self) -> Iterator[Step]:
-        study, limit, ends = self._study(), self.limit.value, (self.shortest.value, self.longest.value)
-        return self._steps(study, limit, cycle_time_steps(study, limit, *ends, tolerance=TOLERANCE))
+        limit = self.limit.value
+        return self._steps(
+            self._study().minimise[0], limit, self._search(limit, self.shortest.value, self.longest.value)
+        )
 
-    def _steps(self, study: Study, limit: float, steps: Iterator[Step]) -> Iterator[Step]:
-        self.measure, self._tried_limit, self.steps = study.minimise[0], limit, []
+    def _search(self, limit: float, *ends: float) -> Iterator[Step]:
+        return cycle_time_steps(self._study(), limit, *ends, intervals=self.intervals, tolerance=TOLERANCE)
+
+    def _steps(self, measure: Measure, limit: float, steps: Iterator[Step]) -> Iterator[Step]:
+        self.measure, self._tried_limit, self.steps = measure, limit, []
         self.take.disabled, self.verdict.value = True, ""
         for step in steps:
             if isinstance(step, IntervalStep):
@@ -113,11 +119,16 @@ class CycleTimePanel(JobPanel):
 
     def summary(self) -> str:
         """What was asked, and what was found."""
-        return "\n".join([*filter(None, [self.choices.words]), self.step.message if self.step else "not run yet"])
+        return f"problem: {self.problem.value}\n{self.step.message if self.step else 'not run yet'}"
 
 
 def cycle_time_panel(
-    explorer: Explorer, make: MakeStudy, limit: float, shortest: float, longest: float, **choices: Any
+    explorer: Explorer,
+    studies: Study | Mapping[str, Study],
+    limit: float,
+    shortest: float,
+    longest: float,
+    intervals: Sequence[str] = INTERVALS,
 ) -> CycleTimePanel:
-    """A panel that finds how short the intervals may be (see `CycleTimePanel`); each choice maps words to values."""
-    return CycleTimePanel(explorer, make, limit, shortest, longest, choices)
+    """A panel that finds how short the intervals may be (see `CycleTimePanel`)."""
+    return CycleTimePanel(explorer, studies, limit, shortest, longest, intervals)

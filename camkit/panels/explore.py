@@ -8,7 +8,6 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..cam.undercut import undercut_in_words
 from ..files import designs, profiles
 from ..quantities import (
     Analysable,
@@ -87,34 +86,43 @@ class Explorer(Panel):
         upper, lower = dict(at_most or {}), dict(at_least or {})
         self._limits = {m: (v, 1) for m, v in upper.items()} | {m: (v, -1) for m, v in lower.items()}
         self._first = [m.one(self.analysis) for m in self.measures]
+        self._offers = None if views else self._offered()
+        self._stands: dict[str, float] = {}
         views = tuple(views) or default_views(self.analysis)
         self.picture = LivePicture(views, f"Pictures of the {type(design).__name__}", width=width, height=height)
-        self.banner, self._undercut = Banner(), Banner()
-        self._impossible = ""
+        self.banner, self.trouble, self._impossible = Banner(), Banner(), ""
         self._free = Paths(design, free).declared if free is not None and len(free) else None
         self.controls: dict[str, NumberRow | Menu] = {}
         self._grid = w.Box()
         self._grid.add_class("camkit-grid")
-        self.positions = self._make_positions({"turn": turn, "azimuth": azimuth, "elevation": elevation})
+        self.positions: dict[str, NumberRow] = {}
+        self._fit_positions(views, {"turn": turn, "azimuth": azimuth, "elevation": elevation})
+        Orbit(self.picture, self.positions, self._turned)
         self._fit_controls(design)
         self.numbers = w.HTML()
-        super().__init__([self._grid, self._buttons(), self.banner, self._undercut, self.picture.widget, self.numbers])
+        super().__init__([self._grid, self._buttons(), self.banner, self.trouble, self.picture.widget, self.numbers])
         self._show()
 
-    def _make_positions(self, first: Mapping[str, float | None]) -> dict[str, NumberRow]:
-        """The controls of the positions that the views can show, at their ``first`` values."""
-        wanted = dict.fromkeys(name for view in self.picture.views for name in positions_of(view))
-        positions = {name: self._position(name, first[name]) for name in wanted}
-        if {"azimuth", "elevation"} <= positions.keys():
-            self._orbit = Orbit(self.picture, positions, self._turned)
-        return positions
+    def _offered(self) -> tuple[object, ...]:
+        """What the analysis offers."""
+        return tuple(getattr(self.analysis, "offers", ()))
+
+    def _fit_positions(self, views: Sequence[View], first: Mapping[str, float | None]) -> None:
+        """The controls of the positions that the views can show; one that is new stands at its ``first`` value."""
+        there = dict(self.positions)
+        wanted = dict.fromkeys(name for view in views for name in positions_of(view))
+        made = {name: there.get(name) or self._position(name, first.get(name)) for name in wanted}
+        self.positions.clear()
+        self.positions.update(made)
 
     def _fit_controls(self, design: object) -> None:
         """Controls for the paths that ``design`` has: another law has other coefficients."""
         declared = {path: d for path, d in declared_in(design).items() if self._free is None or path in self._free}
         if declared != {path: knob.declared for path, knob in self.controls.items()}:
             self.controls = {path: self._control(path, d, value_of(design, path)) for path, d in declared.items()}
-            self._grid.children = [c.row for c in (*self.controls.values(), *self.positions.values())]
+        rows = tuple(c.row for c in (*self.controls.values(), *self.positions.values()))
+        if rows != self._grid.children:
+            self._grid.children = rows
         for path, knob in self.controls.items():
             if isinstance(knob, Menu):  # what is chosen may have changed below: a coefficient of the law
                 knob.set(value_of(design, path))
@@ -239,17 +247,13 @@ class Explorer(Panel):
         except IMPOSSIBLE as error:
             self._go_back(*last, error)
             return
-        for act in self._followers:  # each of them, whatever the others make of the design
-            try:
-                act(self.design)
-            except IMPOSSIBLE as error:
-                self.banner.show_message(f"What belongs to this design cannot be shown everywhere: {reason(error)}.")
+        self._tell_followers(self.design)
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture and the numbers, which would belong to another design."""
         self._impossible = f"This cannot be built: {sentence}."
         self.refuse_picture(self._impossible)
-        self._undercut.show_message("")
+        self.trouble.show_message("")
 
     def _refuse_number(self, sentence: str) -> None:
         """Say why a number was not taken; what is shown stays."""
@@ -281,19 +285,35 @@ class Explorer(Panel):
         """Everything is made before anything is shown."""
         numbers = self._table_html()
         self._fit_turn()
-        position = {name: knob.value for name, knob in self.positions.items()}
         limits = {measure: value for measure, (value, _) in self._limits.items()}
-        self.picture.show(self.analysis, limits=limits, **position)
+        before = self.picture.views
+        try:
+            views = self._fit_views()
+            position = {name: knob.value for name, knob in self.positions.items()}
+            self.picture.show(self.analysis, views, limits=limits, **position)
+        except Exception:
+            self._fit_positions(before, self._stands)
+            raise
+        if self._offers is not None:
+            self._offers = self._offered()
         self._stands = position
         self._fit_controls(self.design)
         self.numbers.value = numbers
         self._reveal()
 
+    def _fit_views(self) -> tuple[View, ...]:
+        """The views that there are, or where nobody chose them, those of what the analysis offers now."""
+        if self._offers is None or self._offers == self._offered():
+            return self.picture.views
+        views = default_views(self.analysis)
+        self._fit_positions(views, {})
+        return views
+
     def _reveal(self) -> None:
         """Picture and numbers belong to the design."""
         self._impossible = ""
         self.refuse_picture("")
-        self._undercut.show_message(undercut_in_words(self.analysis), "status")
+        self.trouble.show_message(getattr(self.analysis, "trouble", ""), "status")
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

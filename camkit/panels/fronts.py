@@ -14,7 +14,7 @@ from ..quantities.markup import Html, escaped, table
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
 from ..search.protocol import Step
-from ..study.study import Study, made_study
+from ..study.study import Study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .explore import Explorer
 from .kit.controls import tables_html
@@ -26,8 +26,8 @@ from .kit.runner import JobPanel, Runner
 
 Search = Callable[[Study], Iterator[Step]]
 """Looks for the front of a study step by step, as `search` does with one of its methods."""
-Way = tuple[Callable[[Any], Study], Search]
-"""How a study is made around a design, and how it is searched."""
+Way = tuple[Study, Search]
+"""A study, and how it is searched around a design."""
 
 
 class FrontsPanel(JobPanel):
@@ -44,7 +44,8 @@ class FrontsPanel(JobPanel):
         self, explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
     ) -> None:
         refuse_arguments(FrontsPanel.__init__, locals())
-        self.explorer, self.ways = explorer, dict(ways or {})
+        self.explorer = explorer
+        self.ways = {name: (study.around(explorer.start), search) for name, (study, search) in (ways or {}).items()}
         self.fronts = self._empty_fronts(dict(given or {}))
         self._refuse_other_objectives()
         self.start = self._objectives(explorer.start.analyse())
@@ -60,9 +61,8 @@ class FrontsPanel(JobPanel):
     def _empty_fronts(self, given: dict[str, Front]) -> dict[str, Front]:
         """A front for each way, without a design where none is given."""
         fronts = dict(given)
-        for name, (make, _) in self.ways.items():
+        for name, (study, _) in self.ways.items():
             if name not in fronts:
-                study = made_study(make, self.explorer.start)
                 fronts[name] = Front(study, np.zeros((0, len(study.free))), np.zeros((0, len(study.minimise))))
         return fronts
 
@@ -93,11 +93,11 @@ class FrontsPanel(JobPanel):
 
     # ------------------------------------------------------------ the searches
 
-    def _steps(self, design: object) -> Iterator[Step]:
+    def _steps(self, design: Any) -> Iterator[Step]:
         try:
-            for name, (make, search) in self.ways.items():
+            for name, (study, search) in self.ways.items():
                 self._name, began = name, time.monotonic()
-                for step in search(made_study(make, design)):
+                for step in search(study.around(design)):
                     self.seconds[name] = time.monotonic() - began
                     yield step
                 self.fronts[name] = step.front

@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..quantities import value_of, with_quantities
+from ..quantities import with_quantities
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, html, joined
 from ..search.fast_front import quick_front
@@ -48,9 +48,9 @@ class LiveParetoPanel(FrontPanel):
         importance: AhpPanel | None = None,
     ) -> None:
         refuse_arguments(LiveParetoPanel.__init__, locals())
-        named = named_studies(studies)
+        named = named_studies(studies, explorer.start)
         self.space = dict(next(iter(named.values())).free if space is None else space)
-        self.studies = {name: study.around(explorer.start).freeing(self.space) for name, study in named.items()}
+        self.studies = {name: study.freeing(self.space) for name, study in named.items()}
         self.explorer = explorer
         self.criteria, self.importance = criteria, importance
         self._lock = threading.RLock()
@@ -103,9 +103,8 @@ class LiveParetoPanel(FrontPanel):
 
     def _asked(self) -> Study:
         """The problem of the menu around the design in the sliders; its free quantities do not count."""
-        first = self.explorer.start
-        start = with_quantities(self.explorer.design, {name: value_of(first, name) for name in self.space})
-        study = self.studies[self.menu.value].around(start)
+        first = self.studies[self.menu.value]
+        study = first.around(self.explorer.design, first.x0)
         return study.with_weights(self.criteria.weights) if self.criteria else study
 
     def _changed(self) -> None:

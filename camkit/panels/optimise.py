@@ -14,39 +14,36 @@ from ..quantities.markup import escaped
 from ..search.minimise import METHODS
 from ..search.minimum import Minimum
 from ..search.protocol import Evaluated, Step, search
-from ..study.study import Study, made_study
+from ..study.study import Study, named_studies
 from ..views.progress import ShownLooks, best_so_far
 from .explore import Explorer
-from .kit.layout import button
+from .kit.layout import button, menu
 from .kit.number import WholeBox, staying
 from .kit.picture import LivePicture
-from .kit.runner import Choices, JobPanel, MakeStudy, Runner, told
+from .kit.runner import JobPanel, Runner, told
 
 
 class OptimisePanel(JobPanel):
     """*Optimise from here*: `minimise` from the design of an `Explorer`, whose sliders then show what was found.
 
-    ``make(start, method, **choices)`` gives the `Study`; there is a menu for each of the ``choices``, and one for the
-    ``methods`` if there are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so
-    far is then in the sliders.  *Put back* loads the design from which the search began.
+    ``studies`` is a `Study`, or maps names in a menu to several; there is a menu for the ``methods``, too, if there
+    are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so far is then in the
+    sliders.  *Put back* loads the design from which the search began.
     """
 
     def __init__(
-        self,
-        explorer: Explorer,
-        make: MakeStudy,
-        choices: Mapping[str, Mapping[str, Any]],
-        methods: Sequence[str],
+        self, explorer: Explorer, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
     ) -> None:
         refuse_arguments(OptimisePanel.__init__, locals())
         if not len(methods) or any(method not in METHODS for method in methods):
             raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
-        self.explorer, self.make = explorer, make
-        self.choices = Choices(dict(choices) | {"method": {name: name for name in methods}})
-        self.runner = Runner("Optimise from here", self._prepare, self._show, explorer.start, make)
+        self.explorer, self.studies = explorer, named_studies(studies, explorer.start)
+        self.problem = menu(list(self.studies), "problem", "100%", "112px")
+        self.method = menu(list(methods), "method", "100%", "112px")
+        self.runner = Runner("Optimise from here", self._prepare, self._show, self.studies)
         layout, refused = w.Layout(width="190px"), staying("starts", self.runner.banner.show_message, "stay")
         self.starts = WholeBox(1, 1, 100, refused, description="starts", description_width="112px", layout=layout)
-        self.choices.menus["method"].observe(lambda _: self._fit_starts(), "value")
+        self.method.observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
@@ -60,20 +57,20 @@ class OptimisePanel(JobPanel):
         super().__init__([self._beside_picture(self._asked())])
 
     def _asked(self) -> list[w.Widget]:
-        runner, menus = self.runner, self.choices.menus
-        asked = [menu for menu in menus.values() if len(menu.options) > 1]
+        runner = self.runner
+        asked = [menu for menu in (self.problem, self.method) if len(menu.options) > 1]
         buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
         return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""
-        self.starts.disabled = self.choices.values["method"] != "slsqp"
+        self.starts.disabled = self.method.value != "slsqp"
 
     def _study(self) -> Study:
-        return made_study(self.make, self.explorer.design, **self.choices.values)
+        return self.studies[self.problem.value].around(self.explorer.design)
 
     def _prepare(self) -> Iterator[Step]:
-        return self._steps(self._study(), self.explorer.design, self.choices.values["method"], self.starts.value)
+        return self._steps(self._study(), self.explorer.design, self.method.value, self.starts.value)
 
     def _steps(self, study: Study, before: object, method: str, starts: int) -> Iterator[Step]:
         self.study, self.before, self.back.disabled = study, before, False
@@ -112,11 +109,11 @@ class OptimisePanel(JobPanel):
     def summary(self) -> str:
         """What was asked, and what was found."""
         lines = self._lines or ("not run yet",)
-        return "\n".join([self.choices.words, *lines])
+        return "\n".join([f"problem: {self.problem.value}, method: {self.method.value}", *lines])
 
 
 def optimise_panel(
-    explorer: Explorer, make: MakeStudy, *, methods: Sequence[str] = ("slsqp",), **choices: Any
+    explorer: Explorer, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
 ) -> OptimisePanel:
-    """A panel that optimises from the design in ``explorer``; each choice maps words to values."""
-    return OptimisePanel(explorer, make, choices, methods)
+    """A panel that optimises from the design in ``explorer`` (see `OptimisePanel`)."""
+    return OptimisePanel(explorer, studies, methods)

@@ -67,7 +67,7 @@ class ParetoPanel(JobPanel, FrontPanel):
     ) -> None:
         refuse_arguments(ParetoPanel.__init__, locals())
         self.explorer, self.criteria, self.importance = explorer, criteria, importance
-        studies = named_studies(studies)
+        studies = named_studies(studies, explorer.start)
         first, *others = (study.free for study in studies.values())
         if space is None:
             space = {path: bounds for each in (first, *others) for path, bounds in each.items()} | dict(first)

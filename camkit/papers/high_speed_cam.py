@@ -126,10 +126,9 @@ def problems() -> tuple[Problem, ...]:
     )
 
 
-def trade_off_studies(free_laws: bool = False, start: HighSpeedCam | None = None) -> tuple[Study, Study]:
+def trade_off_studies(free_laws: bool = False) -> tuple[Study, Study]:
     """Contact stress against wear, for a method that follows slopes and for one without (see `high_speed_study`)."""
-    start = (start or HighSpeedCam()).replace(spring_factor=0.0)  # the weakest that holds whatever law there will be
-    smooth, plain = (high_speed_study(start, free_laws=free_laws, free_spring=spring) for spring in (True, False))
+    smooth, plain = (high_speed_study(free_laws=free_laws, free_spring=spring) for spring in (True, False))
     both = (peak_stress, peak_wear)
     return smooth.replace(minimise=both), plain.replace(minimise=both)
 

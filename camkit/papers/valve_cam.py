@@ -12,7 +12,16 @@ import numpy as np
 
 from ..data import as_printed
 from ..machines.valve_cam import ValveCam
-from ..machines.valve_measures import PAPER_MIN_RADIUS, in_paper_units, valve_study
+from ..machines.valve_measures import (
+    LOWER,
+    PAPER_MIN_RADIUS,
+    UPPER,
+    corner,
+    fullness,
+    in_paper_units,
+    listed_deceleration,
+    nose_deceleration,
+)
 from ..units import deg, mm
 from .published import Comparison, Row
 
@@ -26,10 +35,17 @@ def _of_formulas(name: str) -> Any:
     return as_printed("valve")["formulas"][name]
 
 
+def _normalisers() -> tuple[float, float]:
+    """``K1`` and ``K2`` of the paper's cam, SI."""
+    return fullness.one(corner(ValveCam(), UPPER)), nose_deceleration.one(corner(ValveCam(), LOWER))
+
+
 def normalisers() -> Comparison:
     """The two normalisers, in the units of the paper's listing and in SI."""
     printed = as_printed("valve")["paper"]
-    listed, si = (valve_study(paper_units=units).minimise[0].reference for units in (True, False))  # type: ignore[attr-defined]
+    cam = in_paper_units(ValveCam())
+    listed = fullness.one(corner(cam, UPPER)), listed_deceleration.one(corner(cam, LOWER))
+    si = _normalisers()
     unit = "mm (rad/s)^2/deg^2"
     rows = [
         Row("K1, units mixed as in the listing", "", printed["K1"], listed[0]),
@@ -103,10 +119,10 @@ def sign_as_printed(found: ValveCam) -> Comparison:
 
     The objective is linear in ``W1``, so both candidates are equal where ``W1 gain = (1 - W1) loss``.
     """
-    value, a, corner = _of_formulas("sign_as_printed"), found.analyse(), ValveCam(n=20, m=20).analyse()
-    K1, K2 = valve_study().minimise[0].reference  # type: ignore[attr-defined]
-    gain = (corner.fullness - a.fullness) / K1
-    loss = (corner.nose_acceleration - a.nose_acceleration) / K2
+    value, a, far = _of_formulas("sign_as_printed"), found.analyse(), corner(ValveCam(), UPPER)
+    K1, K2 = _normalisers()
+    gain = (far.fullness - a.fullness) / K1
+    loss = (far.nose_acceleration - a.nose_acceleration) / K2
     rows = [
         Row("n, with m = 20", "", value["n"], found.n),
         Row("fullness", "", value["fullness"], float(a.fullness)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
+from typing import Any, ClassVar, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -55,6 +55,13 @@ class Design(Declared):
         super().__post_init__()
         refuse_kinds(self, declarations(self))
         refuse_lengths(self)
+
+    def ready_for(self, paths: Iterable[str]) -> Self:
+        """The same design, made so that the quantities at ``paths`` can vary from where they stand: as it is.
+
+        One that lacks some of them, or has a number that stands for "whatever is needed", says here what it becomes.
+        """
+        return self
 
     def _repr_mimebundle_(self, **wanted: object) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""

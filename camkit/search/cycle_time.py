@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Paths, Quantity
+from ..quantities import Paths, Quantity, with_quantities
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..units import deg
@@ -22,7 +22,7 @@ from .minimum import Minimum
 from .protocol import Step
 
 INTERVALS = ("rise_angle", "return_angle")
-"""The fields of a design that hold the cam angles of its moves."""
+"""The paths of the cam angles of a design's moves, unless others are named."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,9 +83,9 @@ def shortest_interval(
 ) -> Iterator[IntervalStep]:
     """The shortest interval with which the optimum of ``study`` is at most ``limit``, step by step.
 
-    The fields ``intervals`` of the design are set alike, from ``longest`` down to ``shortest`` (rad), until they are
-    known to ``tolerance``.  Leave the loop to stop: every step holds the best so far.  ``search`` goes to `minimise`.
-    Gains count from ``longest``.
+    The quantities ``intervals`` of the design are set alike, from ``longest`` down to ``shortest`` (rad), until they
+    are known to ``tolerance``.  Leave the loop to stop: every step holds the best so far.  ``search`` goes to
+    `minimise`.  Gains count from ``longest``.
 
     >>> from camkit.machines import cam_lever_study
     >>> from camkit.units import cm
@@ -131,7 +131,7 @@ def _bisection(
     best: Minimum | None = None
     of = 2 + ceil(log2(max((high - low) / tolerance, 1)))
     while high - max(too_short, low) > tolerance or best is None:
-        start = (best.design if best else study.start).replace(**dict.fromkeys(intervals, tried))
+        start = with_quantities(best.design if best else study.start, dict.fromkeys(intervals, tried))
         for step in minimise_steps(study.replace(start=start), **search):
             if not step.message:
                 yield replace(step, number=number, of=of, evaluated=evaluated + step.evaluated, best=best)

@@ -5,10 +5,9 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from inspect import signature
 from typing import Any, Generic, Self
 
 import numpy as np
@@ -17,6 +16,7 @@ from numpy.typing import ArrayLike
 from ..quantities import (
     Analysable,
     D,
+    Design,
     Measure,
     Paths,
     Quantity,
@@ -134,6 +134,22 @@ def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> Non
     declared.remark(name, float(high))
 
 
+def refuse_objectives(minimise: object) -> None:
+    """``ValueError`` in a sentence for what is no tuple of measures, each of them once."""
+    if not isinstance(minimise, (tuple, list)) or not minimise:
+        raise ValueError("a study needs a tuple of one or more measures to minimise")
+    for i, measure in enumerate(minimise):
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
+        if measure in minimise[:i]:
+            raise ValueError(f"the study minimises the {measure.name} twice; each measure can be an objective once")
+        if -measure in minimise[:i]:
+            raise ValueError(
+                f"the study minimises the {measure.name} and its opposite; one of two designs is always better in "
+                "one of them, so that no design would be better than another"
+            )
+
+
 def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, float]) -> None:
     """``ValueError`` in a sentence for limits that are no finite number for a measure, or that nothing can keep."""
     for measure, limit in (*at_most.items(), *at_least.items()):
@@ -154,25 +170,12 @@ def _sides(limits: Mapping[Measure, float], sense: int) -> list[tuple[Measure, f
     return [(m if m.sign > 0 else -m, m.sign * limit, m.sign * sense) for m, limit in limits.items()]
 
 
-def named_studies(studies: Study | Mapping[str, Study]) -> dict[str, Study]:
-    """Studies by their names in a menu; one that is given alone is named by its objectives."""
+def named_studies(studies: Study | Mapping[str, Study], start: Analysable) -> dict[str, Study]:
+    """Studies around ``start`` by their names in a menu; one that is given alone is named by its objectives."""
     if isinstance(studies, Study):
-        return {", ".join(measure.name for measure in studies.minimise): studies}
+        studies = {", ".join(measure.name for measure in studies.minimise): studies}
     refuse_empty(studies, "studies")
-    return dict(studies)
-
-
-def made_study(make: Callable[..., object], *given: object, **named: object) -> Study:
-    """The study that ``make(*given, **named)`` gives; ``ValueError`` where it cannot, or gives something else."""
-    name = getattr(make, "__name__", "that is given")
-    try:
-        signature(make).bind(*given, **named)
-    except TypeError as unfit:
-        raise ValueError(f"the function {name} cannot make a study for this panel: {unfit}") from None
-    study = make(*given, **named)
-    if not isinstance(study, Study):
-        raise ValueError(f"the function {name} makes {shown(study)}; it must make a Study")
-    return study
+    return {name: study.around(start) for name, study in studies.items()}
 
 
 @dataclass(frozen=True)
@@ -230,8 +233,7 @@ class Study(Generic[D]):
         if not isinstance(self.free, Mapping):
             ranges = {path: (q.low * q.factor, q.high * q.factor) for path, q in self.declared.items()}
             object.__setattr__(self, "free", ranges)
-        if not isinstance(self.minimise, (tuple, list)) or not self.minimise:
-            raise ValueError("a study needs a tuple of one or more measures to minimise")
+        refuse_objectives(self.minimise)
         object.__setattr__(self, "minimise", tuple(self.minimise))
         counted(self.angles, "cam angles of a study")
         refuse_kinds(self, but=("minimise", "angles"))
@@ -239,9 +241,6 @@ class Study(Generic[D]):
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
         refuse_bounds(self.declared, self.free)
         object.__setattr__(self, "free", {name: (float(low), float(high)) for name, (low, high) in self.free.items()})
-        for measure in self.minimise:
-            if not isinstance(measure, Measure):
-                raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
         refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
         refuse_unmeasured(self.start, self.measures, "the start of the study")
 
@@ -332,16 +331,21 @@ class Study(Generic[D]):
         bound = "at most" if sense > 0 else "at least"
         return f"the {measure.name} of {bound} {measure.text(limit)} by {measure.text(missed)}"
 
-    def around(self, design: D) -> Self:
-        """The same study of another design of the same kind, where a search then begins.
+    def around(self, design: D, free: ArrayLike | None = None) -> Self:
+        """The same study of another design of the same kind, where a search then begins; with other ``free`` values.
+
+        The design is made so that what is free can vary (see `Design.ready_for`): a plain motion law whose
+        coefficients are free becomes one that they shape, a spring as strong as needed gets the rate that is needed.
 
         >>> from camkit import door_handle_study
         >>> study = door_handle_study()
         >>> study.around(study.start.replace(lift_arm=0.05)).x0[0]
         np.float64(0.05)
         """
-        self.x_of(design)
-        return replace(self, start=design)
+        refuse_design(design, "the design")
+        Paths(self.start, ()).values(design)  # refuses another kind
+        study = replace(self, start=design.ready_for(self.free) if isinstance(design, Design) else design)
+        return study if free is None else study.around(study.design(free))
 
     def freeing(self, free: Sequence[str] | Space) -> Self:
         """The same study with other free quantities, as ``free`` of a study names them.

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ..quantities import words
 from ..quantities.kinds import refuse_arguments
-from ..study.study import Study, made_study
+from ..study.study import Study
 from ..study.sweep import Sweep
 from .picture import Axes, Band, Line, Picture, Polygon, Text, View
 
@@ -50,12 +49,18 @@ def _bands(x: np.ndarray, kept: np.ndarray) -> np.ndarray:
     return np.array([[x[0], *across, x[-1]], [LOWEST, *top, LOWEST]])
 
 
-def sweep_view(make: Callable[[Any], Study]) -> View:
-    """A view for a live panel: the sweep of ``make(cam)``, a study with one free quantity around the design shown."""
+def sweep_view(study: Study) -> View:
+    """A view for a live panel: the sweep of ``study``, which has one free quantity, around the design shown.
 
+    ``ValueError`` for an analysis of another kind of design.
+    """
     refuse_arguments(sweep_view, locals())
+    kind = type(study.start)
 
     def view(analysis: Any) -> Picture:
-        return limit_sweep(Sweep(made_study(make, analysis.cam)))
+        design = next((held for held in vars(analysis).values() if isinstance(held, kind)), None)
+        if design is None:
+            raise ValueError(f"the sweep is of a {kind.__name__}; the analysis is of another design")
+        return limit_sweep(Sweep(study.around(design)))
 
     return view

@@ -68,8 +68,7 @@ PANELS = (
     "choose_panel(found)",
     "live_pareto_panel(app, {EVIL: study()}, space)",
     "compare_fronts(app, given={EVIL: found.front})",
-    "make = lambda start, weights: Study(start, space, (first,), at_most={limited: 5 * mm})\n"
-    "contour_panel(app, {EVIL: make}, {'x': 1.0})",
+    "contour_panel(app, {EVIL: Study(Evil(), space, (first,), at_most={limited: 5 * mm})}, {'x': 1.0})",
     "tolerance_panel(app, study())",
     "presets(app, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design})",
     "edit_program(MotionProgram((Rise(2.0, 0.01, EvilLaw()), Dwell(1.0), Return(2.0, 0.01, EvilLaw()))))",

@@ -30,7 +30,7 @@ from camkit.machines.high_speed_measures import (
     peak_wear,
     undercut_margin,
 )
-from camkit.motion import LAWS, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
+from camkit.motion import LAWS, Cycloidal, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.families.shaped import KNOTS, SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import lever_problems, problems, table, table_3, trade_off_studies, with_printed_sizes
 from camkit.quantities import quantities_of, with_quantities
@@ -704,13 +704,37 @@ def test_printed_sizes_leave_the_laws_alone_free():
 
 
 def test_the_trade_off_is_of_the_same_cams_with_either_spring():
-    smooth, plain = trade_off_studies(free_laws=True, start=FIRST.replace(spring_factor=9.0))
+    smooth, plain = trade_off_studies(free_laws=True)
     assert smooth.minimise == plain.minimise == (peak_stress, peak_wear)
     assert set(smooth.free) - set(plain.free) == {"spring_factor"}
     assert smooth.start.spring_factor == pytest.approx(2.544160, abs=5e-7)
     assert plain.start.spring_factor == 0
     # the one spring is the weakest at 401 angles, the other at the study's 201
     assert_allclose(smooth.evaluate(smooth.x0).f, plain.evaluate(plain.x0).f, rtol=1e-6)
+
+
+def test_a_study_around_a_cam_makes_it_ready_for_what_is_free():
+    """Plain laws become shaped, the weakest spring a number; what is there already stays as it is."""
+    study, plain = high_speed_study(free_laws=True), FIRST.replace(rise_law=Cycloidal(), speed=1.2)
+    ready = study.around(plain).start
+    assert (ready.rise_law, ready.return_law) == (ShapedLaw(Cycloidal()), FIRST.return_law)
+    assert ready.spring_factor == pytest.approx(1.44 * plain.analyse().least_spring_factor, rel=1e-12)
+    assert study.around(ready).start == ready
+    own = FIRST.replace(rise_law=Degree9((0.1, 0.0, 0.0, 0.0)), spring_factor=9.0)
+    assert study.around(own).start == own
+    assert high_speed_study().around(plain).start == plain
+    lost = FIRST.replace(rise_law=ShapedLaw(c=(-0.6, 0.0, 0.0, 0.0)))  # the arm passes its start: no spring holds it
+    assert study.around(lost).start.spring_factor == 12
+    press = CamLever(rise_law=Cycloidal())
+    assert cam_lever_study().around(press).start == press.replace(rise_law=ShapedLaw(Cycloidal()))
+    assert cam_lever_study(free_laws=False).around(press).start == press
+
+
+def test_under_a_constant_torque_a_spring_that_is_free_changes_no_optimum():
+    """The panels' study frees it, whatever load is in the sliders; the paper's problem for this load has none."""
+    spring = minimise(high_speed_study(free_laws=True).around(HighSpeedCam(load=TORQUE)))
+    none = minimise(high_speed_study(HighSpeedCam(load=TORQUE), free_laws=True))
+    assert spring.f == pytest.approx(none.f, rel=1e-6)
 
 
 def test_more_limits_can_be_set():

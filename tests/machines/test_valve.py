@@ -19,15 +19,20 @@ from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import (
+    LOWER,
     PAPER_BOX,
     PAPER_MIN_RADIUS,
+    UPPER,
     VALVE_MEASURES,
+    corner,
     corrected_valve_study,
     fullness,
     in_paper_units,
     keeping_least_radius,
+    listed_deceleration,
     min_radius,
     nose_acceleration,
+    nose_deceleration,
     nose_radius,
     peak_acceleration,
     valve_front_study,
@@ -506,11 +511,27 @@ def test_the_listing_mixes_units():
     cam = in_paper_units(ValveCam())
     assert_allclose(cam.seating_slope * cam.half_angle / mm, 0.0657840, atol=5e-8)
     assert_allclose(cam.seating_slope * cam.half_angle / mm, 0.2 * 62 / (1800 * rpm))
-    listed = valve_study(paper_units=True).minimise[0]
-    assert_allclose(listed.reference, (0.637143792, 599.758), rtol=1e-6)
+    K = fullness(corner(cam, UPPER)), listed_deceleration(corner(cam, LOWER))
+    assert_allclose(K, (0.637143792, 599.758), rtol=1e-6)
     a = cam.replace(n=3, m=1).analyse()
     assert_allclose(599.758, -2 * a.coefficients[0] / mm / 62**2 * (1800 * rpm) ** 2, rtol=1e-6)
-    assert_allclose(valve_study().minimise[0].reference, (0.638392546, 1912.441), rtol=1e-6)
+    K = fullness(corner(ValveCam(), UPPER)), nose_deceleration(corner(ValveCam(), LOWER))
+    assert_allclose(K, (0.638392546, 1912.441), rtol=1e-6)
+
+
+@pytest.mark.parametrize("cam", [ValveCam(), ValveCam(max_lift=9 * mm, half_angle=70 * deg, seating_velocity=0.4)])
+def test_what_is_weighed_is_over_the_largest_of_the_same_cam_in_the_box(cam):
+    """Whatever else the cam is: the box is searched with a grid that holds its corners."""
+    x = grid(9)
+    for study, at in ((valve_study(), cam), (valve_study(paper_units=True), in_paper_units(cam))):
+        e = study.around(cam).evaluate(x)
+        plain = Study(at, PAPER_BOX, (fullness, nose_deceleration), at_least={nose_radius: PAPER_MIN_RADIUS}, angles=91)
+        known = plain.evaluate(x)
+        assert_allclose(e.f[:, 0], 0.5 * (known.f * [-1, 1] / known.f.max(0)).sum(1), rtol=1e-12)
+        assert_allclose(e.g, known.g, rtol=1e-12)
+    e, known = corrected_valve_study(cam).evaluate(x), Study(cam, PAPER_BOX, (fullness, peak_acceleration), angles=91)
+    known = known.evaluate(x).f
+    assert_allclose(e.f[:, 0], 0.5 * (known * [-1, 1] / known.max(0)).sum(1), rtol=1e-7)
 
 
 def test_fullness_and_wear_agree():
@@ -539,13 +560,13 @@ def at_the_limit(m: float) -> float:
 
 def test_with_the_printed_sign_the_optimum_jumps():
     n = at_the_limit(20)
-    sharp, corner = ValveCam(n=n, m=20).analyse(), ValveCam(n=20, m=20).analyse()
+    sharp, far = ValveCam(n=n, m=20).analyse(), ValveCam(n=20, m=20).analyse()
     assert_allclose(n, 4.827593, atol=5e-7)
     assert_allclose(sharp.fullness, 0.5893091, atol=5e-8)
     assert_allclose(sharp.nose_acceleration, -1048.152, atol=5e-4)
-    K1, K2 = valve_study(printed_sign=True).minimise[0].reference
-    gain = (corner.fullness - sharp.fullness) / K1
-    loss = (corner.nose_acceleration - sharp.nose_acceleration) / K2
+    K1, K2 = fullness(corner(ValveCam(), UPPER)), nose_deceleration(corner(ValveCam(), LOWER))
+    gain = (far.fullness - sharp.fullness) / K1
+    loss = (far.nose_acceleration - sharp.nose_acceleration) / K2
     switch = loss / (gain + loss)
     assert_allclose(switch, 0.5577, atol=5e-5)
 

@@ -2,7 +2,6 @@
 
 import itertools
 from dataclasses import dataclass
-from functools import partial
 
 import ipywidgets as w
 import numpy as np
@@ -144,9 +143,9 @@ def test_an_optimum_inside_the_plane_and_one_that_is_not_there():
 # --- the panel --------------------------------------------------------------------------------------------------------
 
 PROBLEMS = {
-    "nose deceleration": valve_study,
-    "sign as printed": partial(valve_study, printed_sign=True),
-    "corrected": corrected_valve_study,
+    "nose deceleration": valve_study(),
+    "sign as printed": valve_study(printed_sign=True),
+    "corrected": corrected_valve_study(),
 }
 
 
@@ -195,8 +194,8 @@ def test_it_opens_with_the_optimum(panel):
     assert_allclose(mark(panel, "optimum"), (20, 20))
     assert_allclose(mark(panel, "in the sliders"), (6, 16))
     assert panel.summary() == (
-        "nose deceleration: W_1 0.5, W_2 0.5\noptimum: n 20, m 20\nfullness: 0.6384\n"
-        "nose deceleration: 862.7 m/s^2\nradius at the nose (flat follower): 9.719 mm"
+        "nose deceleration: W_1 0.5, W_2 0.5\noptimum: n 20, m 20\nfullness / largest in the box: 1\n"
+        "nose deceleration / largest in the box: 0.4511\nradius at the nose (flat follower): 9.719 mm"
     )
 
 
@@ -287,8 +286,6 @@ def test_every_control_comes_back(panel):
 
 def test_a_study_of_three_quantities_is_refused():
     app = explore(ValveCam(), lift, free=["n"], width=4, height=3)
-    three = {
-        "three": lambda start, weights: Study(start, ("n", "m", "load.speed"), valve_study(start, weights).minimise)
-    }
+    three = valve_study().freeing(("n", "m", "max_lift"))
     with pytest.raises(ValueError, match="a plane shows two free quantities; this study has 3"):
         contour_panel(app, three, weights={"fullness": 0.5, "wear": 0.5})

@@ -48,8 +48,8 @@ def distance(name, x):
 here, there = distance("from here", 0.0), distance("from there", 2 * mm)
 
 
-def places(start=None, **limits):
-    return Study(start or Place(), ("x", "y"), (here, there), **limits)
+def places(**limits):
+    return Study(Place(), ("x", "y"), (here, there), **limits)
 
 
 def view(analysis):
@@ -221,8 +221,8 @@ def close(*panels):
 
 
 WAYS = {
-    "limits": (places, partial(epsilon_constraint_steps, points=5)),
-    "NSGA-II": (places, partial(nsga2_steps, population=20, generations=15, seed=1)),
+    "limits": (places(), partial(epsilon_constraint_steps, points=5)),
+    "NSGA-II": (places(), partial(nsga2_steps, population=20, generations=15, seed=1)),
 }
 
 
@@ -268,7 +268,7 @@ def test_a_click_loads_the_nearest_design_of_any_front(panel, app, fronts):
 
 
 def test_the_searches_run_around_the_design_in_the_sliders(app):
-    panel = compare_fronts(app, {"limits": (lambda start: places(start, at_most={here: 9 * mm**2}), WAYS["limits"][1])})
+    panel = compare_fronts(app, {"limits": (places(at_most={here: 9 * mm**2}), WAYS["limits"][1])})
     assert len(panel.fronts["limits"]) == 0
     assert panel.pick.disabled
     app.controls["x"].box.value = 2.5
@@ -289,7 +289,7 @@ def test_the_searches_run_around_the_design_in_the_sliders(app):
 
 def test_stop_keeps_the_fronts_so_far(app):
     endless = partial(nsga2_steps, population=8, generations=10**6, seed=1)
-    panel = compare_fronts(app, {"endless": (places, endless), "never": (places, endless)})
+    panel = compare_fronts(app, {"endless": (places(), endless), "never": (places(), endless)})
     panel.run()
     until = time.monotonic() + 20
     while panel.progress.value < 3 and time.monotonic() < until:
@@ -307,7 +307,7 @@ def test_stop_keeps_the_fronts_so_far(app):
 
 
 def test_what_cannot_be_searched_is_said(app):
-    broken = (places, lambda study: nsga2_steps(study, 1, 5, 1))
+    broken = (places(), lambda study: nsga2_steps(study, 1, 5, 1))
     panel = compare_fronts(app, {"broken": broken})
     panel.run()
     panel.wait(20)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from functools import partial
 
 import ipywidgets as w
 import numpy as np
@@ -22,9 +21,10 @@ from camkit import (
     explore,
     mm,
 )
+from camkit.cam.force_closure import ContactPair
 from camkit.cam.measures import max_pressure_angle
 from camkit.cam.undercut import undercut_in_words
-from camkit.decision import side_by_side
+from camkit.decision import Judgements, side_by_side
 from camkit.linkage.universal_joint import DoubleUniversalJoint
 from camkit.machines.cabin_door import CabinDoorLinkage
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever
@@ -35,6 +35,7 @@ from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import VALVE_MEASURES
 from camkit.motion import Cycloidal, Dwell, HalfCycloidalStart, MotionProgram, Return, Rise, ShapedLaw
 from camkit.panels import (
+    ahp_panel,
     compare_fronts,
     contour_panel,
     cycle_time_panel,
@@ -45,6 +46,7 @@ from camkit.panels import (
     presets,
     shortlist,
     tolerance_panel,
+    try_everything,
 )
 from camkit.panels.kit.number import NumberBox, WholeBox
 from camkit.quantities import Measure, PeakMeasure, value_of
@@ -52,9 +54,9 @@ from camkit.render.picture import picture
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.units.typed import typed_number, typed_whole
-from camkit.views import contact_force, curvature, efficiency, mechanism, pressure_angle
+from camkit.views import contact_force, contact_pressure, curvature, efficiency, mechanism, pressure_angle
 from camkit.views.beside import Beside, cams_beside, curves_beside
-from camkit.views.defaults import default_views
+from camkit.views.defaults import VIEW_OF, default_views
 from camkit.views.overlay import Kept, measures_overlaid
 from camkit.views.picture import Axes, Line, Picture
 from camkit.views.sweep import limit_sweep
@@ -336,12 +338,54 @@ def test_a_follower_that_fails_stops_no_other():
     assert "too large" in sentence(panel.banner)
 
 
-def plane_study(start=None):
-    return door_handle_study(start, space=SPACE)
+def panel_to_follow(name):
+    """A panel with a function that changes what it shows."""
+    if name == "ahp":
+        judged = ahp_panel(Judgements(("a", "b"), [1]), "judgements")
+        return judged, lambda number: setattr(judged.boxes[0, 1], "value", str(number))
+    cam, program = (
+        TranslatingFlatCam(),
+        (Rise(2.0, 20 * mm, Cycloidal()), Dwell(1.0), Return(2.0, 20 * mm, Cycloidal())),
+    )
+    panel = {
+        "app": lambda: explore(cam, mechanism, free=["base_radius"], measures=cam.measures, width=4, height=3),
+        "program": lambda: edit_program(MotionProgram(program)),
+    }[name]()
+    box = inside(panel, NumberBox)[0]
+    return panel, lambda number: setattr(box, "value", box.value + number)
 
 
-def one_goal(start, weights):
-    return plane_study(start).replace(minimise=plane_study(start).minimise[:1])
+@pytest.mark.parametrize("name", ["app", "ahp", "program"])
+def test_a_follower_with_a_slip_leaves_the_panel_whole_and_is_said(name):
+    """An error of Python in somebody's own function, not a number's: all that the panel shows is of the new design."""
+    panel, change = panel_to_follow(name)
+    seen, slip = [], [True]
+
+    def slips(*_):
+        if slip[0]:
+            {}["arm"]
+
+    panel.on_change(slips)
+    panel.on_change(lambda *given: seen.append(given))
+    before = panel.summary()
+    change(3)
+    assert len(seen) == 1
+    assert "What follows this panel cannot be computed: KeyError: 'arm'." in sentence(panel.banner)
+    assert panel.summary() != before
+    assert panel.picture.widget.layout.display != "none"
+    with pytest.raises(AssertionError, match="KeyError"):
+        try_everything(panel)
+    slip[0] = False
+    change(2)
+    assert sentence(panel.banner) == ""
+
+
+def plane_study():
+    return door_handle_study(space=SPACE)
+
+
+def one_goal():
+    return plane_study().replace(minimise=plane_study().minimise[:1])
 
 
 SPACE = {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
@@ -350,15 +394,16 @@ SPACE = {"lift_arm": (45 * mm, 55 * mm), "lift_start_angle": (0.3, 0.46)}
 def other_panels(app):
     """Every panel that belongs to a door handle's, by name."""
     fast = explore(HighSpeedCam(), mechanism, free=["rise_angle"])
-    make = partial(high_speed_study)
     program = (Rise(2.0, 20 * mm, Cycloidal()), Dwell(1.0), Return(2.0, 20 * mm, Cycloidal()))
     return {
-        "survey": lambda: contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7),
+        "survey": lambda: contour_panel(
+            app, {"door": one_goal()}, {"angle": 0.7, "efficiency": 0.2, "force": 0.1}, steps=7
+        ),
         "tolerate": lambda: tolerance_panel(app, door_handle_study(space=SPACE)),
         "live front": lambda: live_pareto_panel(app, plane_study()),
         "search": lambda: pareto_panel(app, plane_study(), free=["lift_arm"]),
-        "improve": lambda: optimise_panel(fast, lambda design, method: make(design)),
-        "shorten": lambda: cycle_time_panel(fast, lambda design: make(design), 2.0, 40 * deg, 120 * deg),
+        "improve": lambda: optimise_panel(fast, high_speed_study()),
+        "shorten": lambda: cycle_time_panel(fast, high_speed_study(), 2.0, 40 * deg, 120 * deg),
         "program": lambda: edit_program(MotionProgram(program)),
     }
 
@@ -392,7 +437,11 @@ def test_no_number_in_the_explorer_breaks_what_follows_it(tmp_path, monkeypatch)
     space = {"lift_arm": (40 * mm, 50 * mm), "relief_cam_angle": (50 * deg, 75 * deg)}  # some of it is feasible
     study = door_handle_study(space=space)
     kept, made = shortlist(app, study), live_pareto_panel(app, plane_study(), space)
-    panels = [contour_panel(app, {"door": one_goal}, {"effort": 1.0}, steps=7), tolerance_panel(app, study), made]
+    panels = [
+        contour_panel(app, one_goal(), {"angle": 0.7, "efficiency": 0.2, "force": 0.1}, steps=7),
+        tolerance_panel(app, study),
+        made,
+    ]
     compare_fronts(app, given={"quick": made.front})
     presets(app, {"arm": {"long": lambda cam: cam.replace(lift_arm=60 * mm)}})
     for knob in app.controls.values():
@@ -517,18 +566,53 @@ def test_walls_that_merge_are_told():
 
 def test_the_panel_says_it_and_takes_it_back():
     panel = explore(TranslatingFlatCam(), mechanism, free=["base_radius"])
-    assert sentence(panel._undercut) == ""
+    assert sentence(panel.trouble) == ""
     panel.controls["base_radius"].box.text = "8"
-    assert sentence(panel._undercut) == f"<div role='status'>{undercut_in_words(panel.analysis)}</div>"
+    assert sentence(panel.trouble) == f"<div role='status'>{undercut_in_words(panel.analysis)}</div>"
     assert math.isclose(panel.design.base_radius, 8 * mm)
     press(panel, "Reset")
-    assert sentence(panel._undercut) == ""
+    assert sentence(panel.trouble) == ""
 
 
 def test_a_groove_names_its_flanks():
     said = undercut_in_words(DoorHandleCam(roller_radius=12 * mm).analyse())
     assert "the inner flank of the relief curve at" in said
     assert "the outer flank of the relief curve at" in said
+
+
+def test_the_views_that_nobody_chose_follow_what_a_menu_brings(monkeypatch):
+    """A contact is another curve; what cannot be drawn through them leaves the last picture with its views."""
+    panel = explore(OscillatingRollerCam(), free=["contact", "roller_radius"])
+    first, figure, menu = panel.picture.views, panel.picture.figure, panel.controls["contact"].menu
+    assert contact_pressure not in first
+    menu.value = pair = ContactPair()
+    assert panel.design.contact == pair
+    assert panel.picture.views == default_views(panel.analysis) == (*first, contact_pressure)
+    assert len(panel.picture.axes) == len(panel.picture.views)
+    assert panel.picture.figure.get_size_inches().tolist() == figure.get_size_inches().tolist()
+    assert sentence(panel.banner) == ""
+    lines = [line.get_ydata() for line in panel.picture.axes[-1].lines]
+    assert np.nanmax(np.concatenate(lines)) == pytest.approx(np.nanmax(panel.analysis.contact_pressure) / 1e6, rel=1e-9)
+    press(panel, "Reset")
+    assert panel.picture.views == first
+    assert_shows_its_design(panel)
+
+    def broken(analysis):
+        raise ValueError("no such picture")
+
+    monkeypatch.setitem(VIEW_OF, "contact_pressure", broken)
+    menu.value = pair
+    assert panel.picture.views == first
+    assert panel.design.contact == panel.start.contact
+    assert "so the last one stays: no such picture" in sentence(panel.banner)
+    panel.controls["roller_radius"].slider.value += 1
+    assert sentence(panel.banner) == ""
+
+
+def test_views_that_somebody_chose_stay():
+    panel = explore(OscillatingRollerCam(), mechanism, free=["contact"], width=4, height=3)
+    panel.controls["contact"].menu.value = ContactPair()
+    assert panel.picture.views == (mechanism,)
 
 
 def test_without_views_a_panel_shows_what_the_design_offers():

@@ -344,7 +344,7 @@ REFUSALS = [
     (lambda: Paths(CAM, "lift_arm"), "the paths are 'lift_arm'; they must be a tuple of paths"),
     (lambda: Paths(CAM, ["lift_arm"]).values(DoorHandleCam),
      "the design is the class DoorHandleCam; it must be a DoorHandleCam"),
-    (lambda: contour_panel(explore(CAM, pressure_angle), {"a": lambda start, weights: a_study()}, {3: 1.0}),
+    (lambda: contour_panel(explore(CAM, pressure_angle), {"a": a_study()}, {3: 1.0}),
      "the argument weights is {3: 1.0}; it must be a mapping such as {name: value}, each name a text"),
 
     # names

@@ -4,7 +4,6 @@ import subprocess
 import sys
 import threading
 import time
-from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -14,7 +13,6 @@ from camkit.machines.cam_lever import CamLever, cam_lever_study
 from camkit.panels.cycle_time import cycle_time_panel
 from camkit.panels.fronts import compare_fronts
 from camkit.panels.kit import running
-from camkit.panels.kit.runner import named
 from camkit.panels.kit.running import RUNNING, Job, Place, here, left_behind
 from camkit.panels.optimise import optimise_panel
 from camkit.search.protocol import search
@@ -38,16 +36,9 @@ def view(analysis):
     return Picture.of(Axes())
 
 
-def one_wish(start, method="de"):
-    return Study(start, GEOMETRY, (least,), angles=31)
-
-
-def two_wishes(start):
-    return one_wish(start).replace(minimise=(least, Measure("largest radius", "mm", slow)))
-
-
-def interval(start):
-    return cam_lever_study(start, free_laws=False, angles=31).replace(minimise=(least,))
+ONE_WISH = Study(CamLever(), GEOMETRY, (least,), angles=31)
+TWO_WISHES = ONE_WISH.replace(minimise=(least, Measure("largest radius", "mm", slow)))
+INTERVAL = cam_lever_study(free_laws=False, angles=31).replace(minimise=(least,))
 
 
 def endless(study):
@@ -55,9 +46,9 @@ def endless(study):
 
 
 PANELS = {
-    "improve": lambda app: optimise_panel(app, one_wish, methods=("de",)),
-    "shorten": lambda app: cycle_time_panel(app, interval, 1 * mm, 50 * deg, 61 * deg),
-    "trade": lambda app: compare_fronts(app, {"all at once": (two_wishes, endless)}),
+    "improve": lambda app: optimise_panel(app, ONE_WISH, methods=("de",)),
+    "shorten": lambda app: cycle_time_panel(app, INTERVAL, 1 * mm, 50 * deg, 61 * deg),
+    "trade": lambda app: compare_fronts(app, {"all at once": (TWO_WISHES, endless)}),
 }
 
 
@@ -103,10 +94,10 @@ def test_a_panel_that_is_made_anew_ends_the_job_of_the_one_before(make, cell, mo
 
 
 def test_another_panel_leaves_a_job_alone():
-    panel = optimise_panel(an_explorer(), one_wish, methods=("de",))
+    panel = optimise_panel(an_explorer(), ONE_WISH, methods=("de",))
     job = underway(panel)
-    optimise_panel(an_explorer(lever=251 * mm), one_wish, methods=("de",))
-    optimise_panel(an_explorer(), lambda start, method: one_wish(start), methods=("de",))
+    optimise_panel(an_explorer(lever=251 * mm), ONE_WISH, methods=("de",))
+    optimise_panel(an_explorer(), {"another": ONE_WISH}, methods=("de",))
     assert not panel.runner.job.stopping
     assert RUNNING[:] == [job]
     panel.stop()
@@ -153,20 +144,6 @@ def test_a_cell_is_known_by_what_the_notebook_says(monkeypatch):
     assert here() == Place("", "7")
     monkeypatch.setattr(running, "get_ipython", lambda: SimpleNamespace())
     assert here() == Place("", "")
-
-
-def test_a_function_is_the_same_when_its_cell_runs_again():
-    def one():
-        pass
-
-    two = one
-
-    def one():
-        pass
-
-    assert one is not two
-    assert named(one) == named(two) == named(partial(one, 1))
-    assert named(3 * mm) == "0.003"
 
 
 ENDS = """

@@ -5,6 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from camkit import Study, TranslatingRollerCam
+from camkit.cam.measures import max_pressure_angle as pressure
 from camkit.machines.cam_lever import CamLever, cam_lever_study, closing_share, lever_stress, reach
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
@@ -20,6 +22,7 @@ from camkit.machines.high_speed_measures import (
 )
 from camkit.motion.families.shaped import SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import STRESS_CAP, lever_problems, problems, with_printed_sizes
+from camkit.quantities import value_of, with_quantities
 from camkit.search.cycle_time import shortest_interval
 from camkit.search.epsilon_constraint import trade_off
 from camkit.search.minimise import minimise
@@ -264,6 +267,22 @@ def test_the_search_for_an_interval_ends_at_once_if_there_is_none_or_nothing_to_
     assert len(both) == 2
     assert both[-1].high == 55 * deg
     assert both[-1].message.startswith("An interval of 55 deg keeps the contact stress F_sigma of at most 20")
+
+
+def test_the_intervals_of_any_cam_can_be_shortened():
+    """A sliding roller's rise and return, by their paths; the least pressure angle is that of the best base circle."""
+    moves = ("motion.rise.angle", "motion.return.angle")
+    study = Study(TranslatingRollerCam(), {"offset": (-10 * mm, 10 * mm)}, (pressure,), angles=181)
+    *_, last = shortest_interval(study, 35 * deg, 40 * deg, 120 * deg, intervals=moves)
+    assert 40 * deg < last.high < 120 * deg
+
+    def least(interval):
+        cam = with_quantities(TranslatingRollerCam(), dict.fromkeys(moves, interval))
+        offsets = np.linspace(-10, 10, 401)[:, None] * mm
+        return study.around(cam).evaluate(offsets).f.min()
+
+    assert least(last.low) > 35 * deg >= least(last.high) * (1 - 1e-6)
+    assert [value_of(last.best.design, move) for move in moves] == [last.high, last.high]
 
 
 def test_the_search_for_an_interval_can_be_left():

@@ -1,6 +1,6 @@
 """A study against a design simple enough to work out by hand: a tin can, its area, volume and slenderness."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -262,9 +262,19 @@ def test_a_study_goes_around_another_design():
     assert_allclose(moved.x0, [30 * mm, 90 * mm])
     assert moved.design([40 * mm, 50 * mm]).sheet == 0.4 * mm
     assert (moved.minimise, moved.limits, moved.free) == (study.minimise, study.limits, study.free)
+    assert study.around(other, study.x0).start == TinCan(sheet=0.4 * mm)
     assert study.start == TinCan()
     with pytest.raises(ValueError, match=r"^the design is a TranslatingRollerCam; it must be a TinCan$"):
         study.around(TranslatingRollerCam())
+
+
+def test_an_objective_stands_once_and_not_against_its_opposite():
+    """Else every design were on the front; a measure of the same name is the same to files, reports and judgements."""
+    with pytest.raises(ValueError, match=r"^the study minimises the .* twice; each measure can be an objective once$"):
+        can_study().replace(minimise=(area, volume, replace(area, function=volume.function)))
+    with pytest.raises(ValueError, match=r"^the study minimises the volume and its opposite; .* no design would be "):
+        can_study().replace(minimise=(volume, area, -volume))
+    assert can_study().replace(minimise=(-area, volume), at_most={area: 1.0}).minimise == (-area, volume)
 
 
 def test_a_study_frees_other_quantities():

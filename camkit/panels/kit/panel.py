@@ -60,8 +60,14 @@ class Panel(w.VBox):
         self._followers.append(act)
 
     def _tell_followers(self, *given: Any) -> None:
+        """Each of them, whatever the others make of it; what one cannot do the banner says."""
         for act in self._followers:
-            act(*given)
+            try:
+                act(*given)
+            except IMPOSSIBLE as error:
+                self.banner.show_message(f"What follows this panel cannot be shown everywhere: {reason(error)}.")
+            except Exception as error:  # somebody's own function: what this panel shows stays whole
+                self.banner.show_message(f"What follows this panel cannot be computed: {raised(error)}.")
 
     def refuse_picture(self, sentence: str) -> None:
         """Show a sentence in place of the picture and the numbers, which would belong to something else.

@@ -75,16 +75,22 @@ class LivePicture:
         self._later = Debounced(self._settle_and_describe, SETTLE)
         self._moved = 0.0
 
-    def show(self, analysis: object, **position: Any) -> None:
+    def show(self, analysis: object, views: tuple[View, ...] | None = None, **position: Any) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit.
 
-        What cannot be drawn raises ``ValueError`` or ``ArithmeticError``, and the picture stays as it was.
+        Through other ``views`` it is another figure of the same size.  What cannot be drawn raises ``ValueError`` or
+        ``ArithmeticError``, and the picture stays as it was.
         """
         with DRAWING:
+            before = self.views, self.figure, self.axes, self._background, self._last
+            if views is not None and views != self.views:
+                self.views, (self.figure, self.axes) = views, layout(views, *self.figure.get_size_inches())
+                self._background = self._last = None
             try:
                 draw(analysis, self.axes, self.views, **position)
                 self._refuse_far_points()
             except (ValueError, ArithmeticError):
+                self.views, self.figure, self.axes, self._background, self._last = before
                 if self._last:
                     draw(self._last[0], self.axes, self.views, **self._last[1])
                 raise

@@ -1,58 +1,26 @@
-"""`Runner`: two buttons around a search in a thread of its own; `Choices`: the menus that say what the job is.
+"""`Runner`: two buttons around a search in a thread of its own.
 
 `JobPanel`: a panel with a `Runner` on the left and its picture on the right.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import ipywidgets as w
 
-from ...quantities import words
 from ...quantities.markup import Html, html
 from ...search.protocol import Step
-from ...study.study import Study
 from .banner import Banner
 from .layout import button, column, wrapped
 from .panel import IMPOSSIBLE, Panel, reason
 from .running import Job, here, left_behind
 
-MakeStudy = Callable[..., Study]
-"""Makes a study around a design, from what is chosen."""
-
 
 def told(result: str, why: str) -> Html:
     """A result and what there is to say about it, for a page."""
     return html("<div style='line-height: 1.45'><b>{}</b><br>{}</div>", result, why)
-
-
-def named(thing: object) -> str:
-    """A function by its name, since it is another one whenever its cell runs; anything else by what it is."""
-    return str(getattr(getattr(thing, "func", thing), "__qualname__", None) or repr(thing))
-
-
-class Choices:
-    """A menu for each of some questions; ``values`` are the answers by the question's name."""
-
-    def __init__(self, choices: Mapping[str, Mapping[str, Any]]) -> None:
-        self.menus = {name: self._menu(name, options) for name, options in choices.items()}
-
-    def _menu(self, name: str, options: Mapping[str, Any]) -> w.Dropdown:
-        style = {"description_width": "112px"}
-        layout = w.Layout(width="100%", max_width="400px")
-        return w.Dropdown(options=list(options.items()), description=words(name), layout=layout, style=style)
-
-    @property
-    def values(self) -> dict[str, Any]:
-        """What is chosen in each menu."""
-        return {name: menu.value for name, menu in self.menus.items()}
-
-    @property
-    def words(self) -> str:
-        """What is chosen, in the menus' words."""
-        return ", ".join(f"{menu.description}: {menu.label}" for menu in self.menus.values())
 
 
 class Runner:
@@ -71,7 +39,7 @@ class Runner:
         *page: Any,
         ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self.kind, self.place = f"{description} {[named(thing) for thing in page]}", here()
+        self.kind, self.place = f"{description} {page}", here()
         self._prepare, self.show, self._ended = prepare, show, ended
         self.job: Job | None = None
         self.run_button = button(description, self.run, "play", button_style="primary")
