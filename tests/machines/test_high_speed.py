@@ -715,15 +715,15 @@ def test_the_trade_off_is_of_the_same_cams_with_either_spring():
 
 def test_a_study_around_a_cam_makes_it_ready_for_what_is_free():
     """Plain laws become shaped, the weakest spring a number; what is there already stays as it is."""
-    study, plain = high_speed_study(free_laws=True), FIRST.replace(rise_law=Cycloidal(), speed=1.2)
+    study, plain = high_speed_study(free_laws=True), HighSpeedCam(rise_law=Cycloidal(), speed=1.2)
     ready = study.around(plain).start
-    assert (ready.rise_law, ready.return_law) == (ShapedLaw(Cycloidal()), FIRST.return_law)
+    assert (ready.rise_law, ready.return_law) == (ShapedLaw(Cycloidal()), ShapedLaw())
     assert ready.spring_factor == pytest.approx(1.44 * plain.analyse().least_spring_factor, rel=1e-12)
     assert study.around(ready).start == ready
-    own = FIRST.replace(rise_law=Degree9((0.1, 0.0, 0.0, 0.0)), spring_factor=9.0)
+    own = HighSpeedCam(rise_law=Degree9((0.1, 0.0, 0.0, 0.0)), spring_factor=9.0)
     assert study.around(own).start == own
     assert high_speed_study().around(plain).start == plain
-    lost = FIRST.replace(rise_law=ShapedLaw(c=(-0.6, 0.0, 0.0, 0.0)))  # the arm passes its start: no spring holds it
+    lost = HighSpeedCam(rise_law=ShapedLaw(c=(-0.6, 0.0, 0.0, 0.0)))  # the arm passes its start: no spring holds it
     assert study.around(lost).start.spring_factor == 12
     press = CamLever(rise_law=Cycloidal())
     assert cam_lever_study().around(press).start == press.replace(rise_law=ShapedLaw(Cycloidal()))
