@@ -5,11 +5,13 @@ Source: Johnson, Contact Mechanics (1985), sections 4.2(c) and 4.1(b).
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .quantities.kinds import numbers, refuse_shapes
+from .quantities.known import fails
 from .quantities.types import Value
 
 GOLDEN = (np.sqrt(5) - 1) / 2
@@ -43,14 +45,12 @@ def contact_modulus(first: Value, second: Value, first_poisson: Value = 0.3, sec
     names = ("moduli", "other moduli", "Poisson's ratios", "other ratios")
     refuse_shapes(dict(zip(names, (*moduli, *ratios), strict=True)))
     for modulus in moduli:
-        if np.ndim(modulus) == 0 and not (np.isfinite(modulus) and modulus > 0):
+        if fails(np.isfinite(modulus) & (modulus > 0)):
             raise ValueError(f"the elastic modulus is {modulus / 1e9:.6g} GPa; it must be a finite number above 0 GPa")
     for ratio in ratios:
-        if np.ndim(ratio) == 0 and not 0 <= ratio <= 0.5:
+        if fails((ratio >= 0) & (ratio <= 0.5)):
             raise ValueError(f"Poisson's ratio is {ratio:.6g}; it must lie between 0 and 0.5")
-    possible = np.logical_and.reduce(
-        np.broadcast_arrays(*(E > 0 for E in moduli), *((nu >= 0) & (nu <= 0.5) for nu in ratios))
-    )
+    possible = reduce(np.logical_and, (*(E > 0 for E in moduli), *((nu >= 0) & (nu <= 0.5) for nu in ratios)))
     with np.errstate(divide="ignore", invalid="ignore"):
         compliance = sum((1 - nu**2) / E for E, nu in zip(moduli, ratios, strict=True))
         return np.where(possible, 1 / compliance, np.nan)[()]
