@@ -16,8 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Design, Quantity, counted, declarations, quantity
+from ..quantities import Design, Quantity, counted, declarations, fails, quantity
 from ..quantities.kinds import numbers, one_number, shown
+from ..quantities.known import certain
 from ..quantities.types import Array, Value
 from . import limits
 from .load import RockerLoad
@@ -30,7 +31,7 @@ FEWEST = 61
 def _angles(crank_angle: Value) -> np.ndarray:
     """Crank angles as an array, ``nan`` for those that are not finite."""
     angles = numbers(crank_angle, "the crank angles")
-    return angles if np.isfinite(angles).all() else np.where(np.isfinite(angles), angles, np.nan)
+    return angles if certain(np.isfinite(angles)) else np.where(np.isfinite(angles), angles, np.nan)
 
 
 def _vector(*components: Any) -> np.ndarray:
@@ -198,7 +199,7 @@ class RSSR(Links):
             angles = np.atleast_1d(_angles(crank_angle))
         except ValueError:
             angles = np.zeros(0)
-        if not (angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
+        if not angles.size or (angles.ndim == 1 and fails(np.isfinite(angles).all())):
             raise ValueError("the crank angles must be one or more finite numbers")
         analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)
         analysis.refuse_impossible()

@@ -81,10 +81,21 @@ def test_a_quartic_that_loses_its_leading_terms(numbers, degrees):
 
 def test_a_population_is_its_members_and_one_that_is_not_a_number_disturbs_nobody():
     rng = np.random.default_rng(5)
-    c = rng.normal(size=(50, 3)) + 1j * rng.normal(size=(50, 3))
+    c = rng.normal(size=(50, 5))
     c[7] = np.nan
     together = zeros(c)
     assert together.shape == (50, 4)
     assert np.isnan(together[7]).all()
     for one, row in zip(c, together, strict=True):
         np.testing.assert_allclose(row, zeros(one), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("touch", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_zeros_that_are_about_to_merge_are_told_from_none(touch):
+    c = np.random.default_rng(3).normal(size=(200, 5))
+    lowest = np.nanmin(value(c, zeros(slope(c))), axis=-1)
+    lift = np.zeros(5)
+    lift[0] = 1
+    above, below = (zeros(c - np.multiply.outer(lowest - side * touch, lift)) for side in (1, -1))
+    assert np.isnan(above).all()
+    assert (np.isfinite(below).sum(-1) >= 2).all()
