@@ -65,7 +65,8 @@ def end_to_end(*stretches: Any) -> Array:
            [1., 2., 4.]])
     """
     lead = np.broadcast_shapes(*(values.shape[:-1] for values in stretches))
-    return np.concatenate([np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches], axis=-1)
+    full = (v if v.shape[:-1] == lead else np.broadcast_to(v, (*lead, v.shape[-1])) for v in stretches)
+    return np.concatenate(list(full), axis=-1)
 
 
 def rotated(points: Array, angle: Value) -> np.ndarray:

@@ -173,7 +173,7 @@ class MotionProgram(Declared):
     def over(self, shown: Resolution) -> Kinematics:
         """``s, v, a, j`` at the cam angles of a resolution: a law is asked once for all of a population."""
         with np.errstate(all="ignore"):
-            pieces = [np.broadcast_arrays(*self._moved(i, u), u)[:4] for i, u in shown.shares]
+            pieces = [[_along(u, values) for values in self._moved(i, u)] for i, u in shown.shares]
             joined = (end_to_end(*values) for values in zip(*pieces, strict=True))
             return self._if_possible(*np.broadcast_arrays(*joined, shown.angle)[:4])
 
@@ -276,6 +276,11 @@ class MotionProgram(Declared):
         if certain(self.possible):
             return Kinematics(*motion)
         return Kinematics(*(np.where(self.possible, values, np.nan) for values in motion))
+
+
+def _along(u: Array, values: Value) -> Array:
+    """``values`` at each of ``u``, also where a law gives one for all."""
+    return values if np.shape(values)[-1:] == u.shape[-1:] else np.broadcast_to(values, u.shape)
 
 
 def program_between(
