@@ -278,7 +278,7 @@ class MotionProgram(Declared):
         return Kinematics(*(np.where(self.possible, values, np.nan) for values in motion))
 
 
-def _along(u: Array, values: Value) -> Array:
+def _along(u: Array, values: Any) -> Array:
     """``values`` at each of ``u``, also where a law gives one for all."""
     return values if np.shape(values)[-1:] == u.shape[-1:] else np.broadcast_to(values, u.shape)
 

@@ -9,27 +9,24 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .operations import POWERS, TABLE, Along, Each, Fold, Move, Pick, as_type
+from .operations import POWERS, TABLE, Along, Each, Fold, Move, Pick
 from .program import Program
 from .record import Call, Ref, mapped
 
-CHAIN = 32
-"""So many numbers, at most, are folded by one operation after the other for all columns at once."""
 LONGEST = 80
 """So many steps, at most, are in one loop: an engine optimises no function that is too long."""
 TRUTHS: dict[Any, Any] = {np.add: np.logical_or, np.multiply: np.logical_and}
 """What sum and product of truths are."""
 
 
-@dataclass(frozen=True)
-class Span:
-    """Addresses: the first, and the step from each to the next, 0 or 1 in a loop."""
+class Span(NamedTuple):
+    """What an operand reads: as many addresses as there are elements from ``first`` on, or (``step`` 0) this one."""
 
     first: int
     step: int
@@ -37,178 +34,144 @@ class Span:
 
 @dataclass(eq=False)
 class Step:
-    """A part of a loop: ``code`` of operands for ``count`` results from the address ``out`` on.
+    """``code`` of operands for each of ``count`` elements, with results from the address ``out`` on.
 
-    With a ``start`` the results are folded into one; a ``call`` goes along its one operand, of ``count`` numbers.
+    With a ``start`` they are folded into one result.  A step without ``count`` is a call, which reads whole rows.
     """
 
     code: str
     out: int
     count: int
-    operands: Sequence[Span | float]
+    operands: Sequence[Any]
+    results: int
     start: float | None = None
-    call: bool = False
-    results: int = 1
-    stage: int = 0
-    group: Any = None
-    stored: bool = True
+    group: tuple[int, ...] = ()
+    stored: bool = False
 
-    def reads(self, span: Span) -> range:
-        """The addresses that an operand stands for."""
-        return range(span.first, span.first + (self.count - 1) * span.step + 1, span.step or 1)
+    def reads(self) -> Iterator[tuple[Any, range]]:
+        """Each operand that is read, and its addresses."""
+        for x in self.operands:
+            if isinstance(x, Span):
+                yield x, range(x.first, x.first + (self.count - 1) * x.step + 1)
+            elif isinstance(x, range):
+                yield x, x
 
-
-@dataclass
-class Heap:
-    """What has an address: inputs first, then constants and results."""
-
-    size: int = 0
-    constants: dict[int, np.ndarray] = field(default_factory=dict)
-    _known: dict[Any, np.ndarray] = field(default_factory=dict)
-
-    def new(self, shape: tuple[int, ...]) -> np.ndarray:
-        """Addresses for an array."""
-        count = int(np.prod(shape))
-        self.size += count
-        return np.arange(self.size - count, self.size).reshape(shape)
-
-    def constant(self, value: Any) -> np.ndarray:
-        """The addresses of a constant."""
-        value = np.asarray(value, dtype=float)
-        key = value.shape, value.tobytes()
-        if key not in self._known:
-            self._known[key] = self.new(value.shape)
-            self.constants[self.size - value.size] = value.ravel()
-        return self._known[key]
+    def beside(self, made: Step, operand: object) -> bool:
+        """Whether each element needs only the one beside it of what has been ``made``: both can go in one loop."""
+        return made.start is None and made.count == self.count > 1 and operand == Span(made.out, 1)
 
 
 class Loops:
-    """The steps of a program in their stages, and where inputs, constants and outputs stand on the heap."""
+    """The steps of a program, and where its constants and outputs stand on a heap of a ``size``; inputs come first."""
 
     def __init__(self, program: Program) -> None:
-        self.heap, self.steps = Heap(), []
-        self._program, self._at = program, {}
+        self.size, self.constants = 0, dict[int, np.ndarray]()
+        self._steps, self._at, self._known = (list[Step](), dict[int, np.ndarray](), dict[Any, np.ndarray]())
         for k in range(len(program.inputs)):
-            self._at[k] = self.heap.new(program.calls[k].shape)
+            self._at[k] = self._new(program.calls[k].shape)
         for k in program.needed:
             self._at[k] = self._lowered(program.calls[k])
         self.outputs = [self._in_a_row(np.ravel(self._addresses(out))) for out in program.outputs.values()]
-        _schedule(self.steps, self.heap.size, self.outputs)
-
-    steps: list[Step]
-    outputs: list[np.ndarray]
-    _at: dict[int, np.ndarray]
 
     @cached_property
     def groups(self) -> list[list[Step]]:
         """The steps that go together, in the order in which they run: single numbers, loops, calls of each stage."""
+        _schedule(self._steps, self.size, self.outputs)
         found = defaultdict(list)
-        for step in self.steps:
+        for step in self._steps:
             found[step.group].append(step)
         return [found[key] for key in sorted(found)]
 
+    def _new(self, shape: tuple[int, ...]) -> np.ndarray:
+        first, self.size = self.size, self.size + int(np.prod(shape))
+        return np.arange(first, self.size).reshape(shape)
+
     def _addresses(self, argument: Any) -> np.ndarray:
-        return self._at[argument.number] if isinstance(argument, Ref) else self.heap.constant(argument)
+        if isinstance(argument, Ref):
+            return self._at[argument.number]
+        value = np.asarray(argument, dtype=float)
+        key = value.shape, value.tobytes()
+        if key not in self._known:
+            self._known[key] = self._new(value.shape)
+            self.constants[self.size - value.size] = value.ravel()
+        return self._known[key]
 
     def _lowered(self, call: Call) -> np.ndarray:
         """The addresses of the result of a call; its steps are noted."""
-        row = TABLE[call.function]
-        if call.function is as_type:
-            row = self._converted(call)
+        row, first, others = TABLE[call.function], call.arguments[0], call.arguments[1:]
         if isinstance(row, Move):
-            data, *others = call.arguments
-            moved = mapped(self._addresses, data) if isinstance(data, (tuple, list)) else self._addresses(data)
+            moved = mapped(self._addresses, first) if isinstance(first, (tuple, list)) else self._addresses(first)
             assert call.function
             return np.asarray(call.function(moved, *others, **call.named))
-        out = self.heap.new(call.shape)
+        out = self._new(call.shape)
         if isinstance(row, Each):
-            self._each(row, call, out)
-        elif isinstance(row, Fold):
-            self._fold(row, _rows(self._addresses(call.arguments[0]), _axis(call, 0)), out.ravel())
+            self._each(row, call, out.ravel())
+            return out
+        values = self._addresses(first)
+        if isinstance(row, Fold):
+            self._fold(row, _rows(values, _axis(call, 0)), out.ravel())
         elif isinstance(row, Along):
-            self._along(row, call, out)
+            rows = _rows(values, _axis(call, row.axis))
+            into = _rows(out, _axis(call, row.axis)) if out.shape == values.shape else out.reshape(-1, 1)
+            for one, to in zip(rows, into, strict=True):
+                self._call(row.javascript, one, to)
         else:
             assert isinstance(row, Pick)
-            self._pick(call, out.ravel())
+            for one, to, place in zip(*_picked(call, values, self._addresses(others[0])), strict=True):
+                self._call("pick", one, out.ravel()[to : to + 1], place)
         return out
 
-    def _converted(self, call: Call) -> Each | Move:
-        before = self._program.calls[call.arguments[0].number].dtype.kind
-        if call.dtype.kind == before or call.dtype.kind == "f" or before == "b":
-            return Move()
-        return Each("+({0}!==0)") if call.dtype.kind == "b" else Each("M.trunc({0})")
-
     def _each(self, row: Each, call: Call, out: np.ndarray) -> None:
-        function, given = call.function, call.arguments[: row.operands]
-        if call.dtype.kind == "b" and function in TRUTHS:
-            row = TABLE[TRUTHS[function]]  # type: ignore[assignment]
+        given, truths = (call.arguments, call.dtype.kind == "b" and call.function in TRUTHS)
+        code = TABLE[TRUTHS[call.function]].javascript if truths else row.javascript  # type: ignore[union-attr]
         operands = [x if _literal(x) else _spread(self._addresses(x), call.shape) for x in given]
         if row is TABLE[np.power] and _literal(given[1]) and given[1] in POWERS:
-            row, operands = Each(POWERS[given[1]]), operands[:1]
-        self._loop(row.javascript, out.ravel(), operands)
+            code, operands = POWERS[given[1]], operands[:1]
+        self._loop(code, out, operands)
 
     def _loop(self, code: str, out: np.ndarray, operands: Sequence[Any]) -> None:
         """Steps for each stretch in which the addresses of all operands grow by 0 or 1."""
         for low, high in _stretches([x for x in operands if not _literal(x)], len(out)):
             spans = [float(x) if _literal(x) else _span(x[low:high]) for x in operands]
-            self.steps.append(Step(code, int(out[low]), high - low, spans, results=high - low))
+            self._steps.append(Step(code, int(out[low]), high - low, spans, high - low))
 
     def _fold(self, row: Fold, rows: np.ndarray, out: np.ndarray) -> None:
+        """A loop along each row or, where there are more rows than columns, one over the rows for each column."""
         code = TABLE[row.by].javascript  # type: ignore[union-attr]
-        if rows.shape[1] > CHAIN or len(rows) == 1 < rows.shape[1]:
-            for address, one in zip(out, rows, strict=True):
-                span = _span(self._in_a_row(one))
-                self.steps.append(Step(code, int(address), len(one), [span], row.start))
+        if len(rows) < rows.shape[1]:
+            for to, one in zip(out, map(self._in_a_row, rows), strict=True):
+                self._steps.append(Step(code, int(to), len(one), [_span(one)], 1, row.start))
             return
-        so_far: Any = rows[:, 0] if rows.shape[1] else row.start
-        for column in rows.T[1:-1]:
-            so_far, before = self.heap.new(out.shape), so_far
+        so_far: Any = row.start
+        for column in rows.T:
+            so_far, before = self._new(out.shape), so_far
             self._loop(code, so_far, [before, column])
-        self._loop(code if rows.shape[1] > 1 else "{0}", out, [so_far, rows[:, -1]] if rows.size else [so_far])
+        self._loop("{0}", out, [so_far])
 
-    def _along(self, row: Along, call: Call, out: np.ndarray) -> None:
-        axis = _axis(call, -1 if call.function is np.sort else None if call.function is np.argmax else 0)
-        rows = _rows(self._addresses(call.arguments[0]), axis)
-        if not row.many:
-            for address, one in zip(out.ravel(), rows, strict=True):
-                self._call(f"H[{address}]={row.javascript}({{0}},{len(one)})", int(address), one)
-            return
-        sorted_out = _rows(out, axis)
-        for into, one in zip(sorted_out, rows, strict=True):
-            found = self.heap.new(one.shape)
-            self._call(f"{row.javascript}({{0}},{len(one)},{found[0]})", int(found[0]), one, len(one))
-            self._loop("{0}", into, [found])
-
-    def _pick(self, call: Call, out: np.ndarray) -> None:
-        values, places = (self._addresses(x) for x in call.arguments[:2])
-        axis = call.named.get("axis", call.arguments[2] if len(call.arguments) > 2 else None)
-        if call.function is np.take:
-            rows = np.repeat(_rows(values, axis), places.size, axis=0)
-            places = np.tile(places.ravel(), len(rows) // places.size)
-        else:
-            lead = np.broadcast_shapes(values.shape[:-1], places.shape[:-1])
-            rows = np.broadcast_to(values[..., None, :], (*lead, places.shape[-1], values.shape[-1]))
-            rows = rows.reshape(-1, values.shape[-1])
-            places = np.broadcast_to(places, (*lead, places.shape[-1])).ravel()
-        for address, one, place in zip(out, rows, places, strict=True):
-            self._call(f"H[{address}]=pick({{0}},{len(one)},H[{place}])", int(address), one, place=int(place))
-
-    def _call(self, code: str, out: int, row: np.ndarray, results: int = 1, place: int | None = None) -> None:
-        """A call of a function of the page that goes along a row."""
-        operands = [_span(self._in_a_row(row))] + ([] if place is None else [Span(place, 0)])
-        self.steps.append(Step(code, out, len(row), operands, call=True, results=results))
+    def _call(self, name: str, row: np.ndarray, to: np.ndarray, *more: np.ndarray) -> None:
+        """A call of a function of the page's library, which goes along a row."""
+        row, into = self._in_a_row(row), to if _even(to) else self._new(to.shape)
+        places = [row[0], len(row), into[0], *more]
+        reads = [range(row[0], row[-1] + 1), *(range(place, place + 1) for place in more)]
+        self._steps.append(Step(f"{name}({','.join(map(str, places))});", int(into[0]), 0, reads, len(into)))
+        if into is not to:
+            self._loop("{0}", to, [into])
 
     def _in_a_row(self, addresses: np.ndarray) -> np.ndarray:
         """The addresses one after the other; copied where they are not."""
-        if (np.diff(addresses) == 1).all():
+        if _even(addresses):
             return addresses
-        copied = self.heap.new(addresses.shape)
+        copied = self._new(addresses.shape)
         self._loop("{0}", copied, [addresses])
         return copied
 
 
 def _literal(argument: Any) -> bool:
     return not isinstance(argument, (Ref, np.ndarray)) and np.ndim(argument) == 0
+
+
+def _even(addresses: np.ndarray) -> bool:
+    return bool((np.diff(addresses) == 1).all())
 
 
 def _spread(addresses: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
@@ -225,6 +188,17 @@ def _rows(addresses: np.ndarray, axis: Any) -> np.ndarray:
     axes = tuple(range(addresses.ndim)) if axis is None else axis if isinstance(axis, tuple) else (axis,)
     last = np.moveaxis(addresses, axes, range(-len(axes), 0))
     return last.reshape(int(np.prod(last.shape[: last.ndim - len(axes)])), -1)
+
+
+def _picked(call: Call, values: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, range, np.ndarray]:
+    """For each result the row from which it is picked, its number, and the address of its place in the row."""
+    if call.function is np.take:
+        rows, places = (np.repeat(_rows(values, _axis(call, None)), places.size, 0), places.ravel())
+        places = np.tile(places, len(rows) // len(places))
+    else:
+        places = np.broadcast_to(places, (*np.broadcast_shapes(values.shape[:-1], places.shape[:-1]), places.shape[-1]))
+        rows = np.broadcast_to(values[..., None, :], (*places.shape, values.shape[-1])).reshape(places.size, -1)
+    return rows, range(places.size), places.ravel()
 
 
 def _span(addresses: np.ndarray) -> Span:
@@ -248,41 +222,28 @@ def _stretches(operands: Sequence[np.ndarray], count: int) -> Iterator[tuple[int
 
 
 def _schedule(steps: Sequence[Step], size: int, outputs: Sequence[np.ndarray]) -> None:
-    """The stage and the group of each step, and which results are read from the heap."""
-    maker = np.full(size, -1)
-    counts: dict[Any, int] = defaultdict(int)
+    """The group of each step, its stage first, and which results are read from the heap."""
+    maker, counts = np.full(size, -1), defaultdict[Any, int](int)
     for k, step in enumerate(steps):
-        step.stage = max((_earliest(steps[m], step, span) for m, span in _made(maker, step)), default=0)
+        stage = max((_earliest(steps[m], step, x) for m, x in _made(maker, step)), default=0)
         maker[step.out : step.out + step.results] = k
-        kind = 2 if step.call else 1 if step.count > 1 else 0
-        key = step.stage, kind, step.count if kind == 1 else 0
-        step.group = (*key, counts[key] // LONGEST)
-        counts[key] += 1
-        step.stored = kind != 1 or step.start is not None
+        kind = (stage, 2 if step.count == 0 else int(step.count > 1), step.count)
+        step.group = (*kind, counts[kind] // LONGEST)
+        counts[kind] += 1
     for step in steps:
-        for m, span in _made(maker, step):
-            if not (steps[m].group == step.group and _beside(steps[m], step, span)):
-                steps[m].stored = True
-    for addresses in outputs:
-        for m in set(maker[addresses].tolist()) - {-1}:
-            steps[m].stored = True
+        for m, x in _made(maker, step):
+            steps[m].stored |= steps[m].group != step.group or not step.beside(steps[m], x)
+    for m in {m for addresses in outputs for m in maker[addresses].tolist() if m >= 0}:
+        steps[m].stored = True
 
 
-def _made(maker: np.ndarray, step: Step) -> Iterator[tuple[int, Span]]:
+def _made(maker: np.ndarray, step: Step) -> Iterator[tuple[int, Any]]:
     """The steps that make what a step reads, with the operand that reads it."""
-    for span in step.operands:
-        if isinstance(span, Span):
-            last = span.first + (step.count - 1) * span.step + 1
-            yield from ((m, span) for m in set(maker[span.first : last].tolist()) if m >= 0)
+    for x, addresses in step.reads():
+        yield from ((m, x) for m in set(maker[addresses.start : addresses.stop].tolist()) if m >= 0)
 
 
-def _beside(made: Step, step: Step, span: Span) -> bool:
-    """Whether each element needs only the one beside it of what has been made: both can go in one loop."""
-    looped = made.start is None and not made.call and not step.call
-    return looped and made.count == step.count > 1 and span == Span(made.out, 1)
-
-
-def _earliest(made: Step, step: Step, span: Span) -> int:
+def _earliest(made: Step, step: Step, operand: object) -> int:
     """The first stage in which a step can stand; single numbers come before the loops of a stage, calls after them."""
-    single = made.count == 1 and not made.call and made.start is None
-    return made.stage if single or _beside(made, step, span) else made.stage + 1
+    single = made.count == 1 and made.start is None
+    return made.group[0] + (not single and not step.beside(made, operand))

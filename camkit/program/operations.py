@@ -39,15 +39,15 @@ class Fold:
 
 @dataclass(frozen=True)
 class Along:
-    """A function of page's library that works along one axis, and gives one number or as many as there are."""
+    """A function of the page's library that goes along an axis (that one, unless another is asked for)."""
 
     javascript: str
-    many: bool = False
+    axis: int | None
 
 
 @dataclass(frozen=True)
 class Pick:
-    """Numbers are picked from an array by a computed place along an axis."""
+    """Numbers are picked from rows, at computed places."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +65,6 @@ class Written:
 Row = Each | Fold | Along | Pick | Move | Written
 
 
-def as_type(values: Any, dtype: Any) -> Any:
-    """``values.astype(dtype)``; of what becomes an integer the fraction is cut off."""
-    return values.astype(dtype)
-
-
 def _library(*names: str) -> dict[Any, Row]:
     """Functions of one number that JavaScript has by the same name."""
     spelled = {name: name.replace("arc", "a").replace("absolute", "abs") for name in names}
@@ -83,6 +78,12 @@ def _truth(test: str) -> Each:
 _POWER = Each("pow({0},{1})")
 POWERS = {-1: "1/{0}", 0: "1", 0.5: "M.sqrt({0})", 1: "{0}", 2: "{0}*{0}", 3: "{0}*{0}*{0}"}
 """Powers that need no logarithm; all but the cube are worked out in this way by numpy, too."""
+
+_MOVES: tuple[Any, ...] = (
+    *(operator.getitem, np.broadcast_to, np.stack, np.concatenate, np.expand_dims, np.squeeze, np.reshape, np.ravel),
+    *(np.transpose, np.moveaxis, np.swapaxes, np.repeat, np.tile, np.roll, np.flip, np.vstack, np.hstack),
+    *(np.column_stack, np.atleast_1d, np.atleast_2d, np.copy, np.diagonal),
+)
 
 TABLE: dict[Any, Row] = {
     np.add: Each("{0}+{1}"),
@@ -140,35 +141,12 @@ TABLE: dict[Any, Row] = {
     np.logical_or.reduce: Fold(np.logical_or, 0.0),
     np.bitwise_and.reduce: Fold(np.logical_and, 1.0),
     np.bitwise_or.reduce: Fold(np.logical_or, 0.0),
-    np.argmax: Along("argmax"),
-    np.add.accumulate: Along("accumulate", many=True),
-    np.sort: Along("sorted", many=True),
-    np.take: Pick(),
-    np.take_along_axis: Pick(),
-    as_type: Move(),
-    operator.getitem: Move(),
-    np.broadcast_to: Move(),
-    np.stack: Move(),
-    np.concatenate: Move(),
-    np.expand_dims: Move(),
-    np.squeeze: Move(),
-    np.reshape: Move(),
-    np.ravel: Move(),
-    np.transpose: Move(),
-    np.moveaxis: Move(),
-    np.swapaxes: Move(),
-    np.repeat: Move(),
-    np.tile: Move(),
-    np.roll: Move(),
-    np.flip: Move(),
-    np.vstack: Move(),
-    np.hstack: Move(),
-    np.column_stack: Move(),
-    np.atleast_1d: Move(),
-    np.atleast_2d: Move(),
-    np.copy: Move(),
-    np.append: Move(),
-    np.diagonal: Move(),
+    np.argmax: Along("argmax", None),
+    np.add.accumulate: Along("accumulate", 0),
+    np.sort: Along("sorted", -1),
+    written.picked: Pick(),
+    written.whole: Each("M.trunc({0})"),
+    **dict.fromkeys(_MOVES, Move()),
     **{function: Written(by) for function, by in written.BY.items()},
 }
 """Each function of numpy that can be recorded, and what it is elsewhere."""

@@ -22,11 +22,10 @@ div=(a,b)=>{if(b===0)return a/b;const m=a%b,d=(a-m)/b-+(m!==0&&(m<0)!==(b<0)),f=
 pow=(a,b)=>a===1||b===0||a===-1&&M.abs(b)===Infinity?1:M.pow(a,b),
 copysign=(a,b)=>b<0||Object.is(b,-0)?-M.abs(a):M.abs(a),
 rint=a=>{const f=M.floor(a),d=a-f;return d<0.5||d===0.5&&f%2===0?f:f+1},
-argmax=(at,step,n)=>{let k=0;for(let j=1;j<n&&H[at+k*step]===H[at+k*step];j++){const x=H[at+j*step];
-if(x>H[at+k*step]||x!==x)k=j}return k},
-accumulate=(at,step,n,out)=>{let sum=0;for(let j=0;j<n;j++)H[out+j]=sum+=H[at+j*step]},
-sorted=(at,step,n,out)=>{for(let j=0;j<n;j++)H[out+j]=H[at+j*step];H.subarray(out,out+n).sort()},
-pick=(at,step,n,k)=>H[at+step*(k<0?k+n:k)];
+argmax=(at,n,out)=>{let k=0;for(let j=1;j<n&&H[at+k]===H[at+k];j++){const x=H[at+j];if(x>H[at+k]||x!==x)k=j}H[out]=k},
+accumulate=(at,n,out)=>{let sum=0;for(let j=0;j<n;j++)H[out+j]=sum+=H[at+j]},
+sorted=(at,n,out)=>{for(let j=0;j<n;j++)H[out+j]=H[at+j];H.subarray(out,out+n).sort()},
+pick=(at,n,out,place)=>{const k=H[place];H[out]=H[at+(k<0?k+n:k)]};
 """
 """What the operations of the table need."""
 
@@ -43,8 +42,8 @@ def javascript(program: Program) -> str:
     loops = Loops(program)
     functions = list(_functions([_text(group) for group in loops.groups]))
     lines = [
-        f"(()=>{{{LIBRARY}const H=new Float64Array({loops.heap.size});",
-        *(f"H.set([{','.join(map(_number, values))}],{at});" for at, values in loops.heap.constants.items()),
+        f"(()=>{{{LIBRARY}const H=new Float64Array({loops.size});",
+        *(f"H.set([{','.join(map(_number, values))}],{at});" for at, values in loops.constants.items()),
         *(f"function f{k}(){{{text}}}" for k, text in enumerate(functions)),
     ]
     slices = ",".join(f"H.slice({at[0]},{at[-1] + 1})" for at in loops.outputs)
@@ -66,17 +65,9 @@ def _functions(texts: Sequence[list[str]]) -> Iterator[str]:
 
 def _text(group: Sequence[Step]) -> list[str]:
     """The statements of steps that go together."""
-    if group[0].count > 1 and not group[0].call:
+    if group[0].count > 1:
         return [_loop(group)]
-    return [_single(step) for step in group]
-
-
-def _single(step: Step) -> str:
-    if not step.call:
-        return f"H[{step.out}]={_said(step, {})};"
-    (span, *_) = step.operands
-    assert isinstance(span, Span)
-    return step.code.format(f"{span.first},{span.step}") + ";"
+    return [f"H[{step.out}]={_said(step, {})};" if step.count else step.code for step in group]
 
 
 def _loop(group: Sequence[Step]) -> str:

@@ -39,8 +39,6 @@ class Program:
         with np.errstate(all="ignore"):
             for k in self.needed:
                 results[k] = _run(self.calls[k], results)
-                for used in self._used_up[k]:
-                    del results[used]
         return {name: _found(out, results) for name, out in self.outputs.items()}
 
     @cached_property
@@ -53,17 +51,6 @@ class Program:
                 found.add(k)
                 waiting += _refs(self.calls[k])
         return sorted(k for k in found if self.calls[k].function is not None)
-
-    @cached_property
-    def _used_up(self) -> dict[int, list[int]]:
-        """After which call which results are not needed any more."""
-        last = {used: k for k in self.needed for used in _refs(self.calls[k])}
-        outputs = {out.number for out in self.outputs.values() if isinstance(out, Ref)}
-        found: dict[int, list[int]] = {k: [] for k in self.needed}
-        for used, k in last.items():
-            if used not in outputs:
-                found[k].append(used)
-        return found
 
 
 def _run(call: Call, results: Mapping[int, Any]) -> Any:

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from ..quantities.known import known
-from .operations import TABLE, Each, Move, Written, as_type
+from .operations import TABLE, Each, Move, Written
+from .written import whole
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 
@@ -23,7 +24,7 @@ class CannotRecord(ValueError):
 
 
 def cannot(what: str) -> CannotRecord:
-    """``what`` cannot be recorded, at the line that asked for it: the last one outside of this wing and numpy."""
+    """``what`` cannot be recorded, at the line that asked for it: the last outside of this wing, numpy, scipy."""
     frame = sys._getframe(1)
     while frame.f_back and _of_the_machinery(frame.f_code.co_filename):
         frame = frame.f_back
@@ -33,7 +34,9 @@ def cannot(what: str) -> CannotRecord:
 
 
 def _of_the_machinery(file: str) -> bool:
-    return Path(file).is_relative_to(HERE) or "numpy" in Path(file).parts or file.startswith("<")
+    return (
+        Path(file).is_relative_to(HERE) or file.startswith("<") or not {"numpy", "scipy"}.isdisjoint(Path(file).parts)
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +141,7 @@ class Recorded(NDArrayOperatorsMixin):
 
     def __init__(self, recording: Recording, number: int, value: Any) -> None:
         self.recording, self.number, self.value = recording, number, value
-        self.shape, self.dtype, self.ndim, self.size = value.shape, value.dtype, value.ndim, value.size
+        self.shape, self.dtype, self.ndim, self.size = (value.shape, value.dtype, value.ndim, value.size)
 
     @property
     def T(self) -> Any:
@@ -189,8 +192,9 @@ class Recorded(NDArrayOperatorsMixin):
         return self.recording.call(function, *arguments, **named)
 
     def astype(self, dtype: Any, copy: bool = True) -> Any:
-        """As an array of numbers of another kind."""
-        return self.recording.call(as_type, self, np.dtype(dtype))
+        """As whole numbers, as truths, or as they are."""
+        kind = np.dtype(dtype).kind
+        return self.recording.call(whole, self) if kind == "i" else self != 0 if kind == "b" else self + 0.0
 
     def reshape(self, *shape: Any) -> Any:
         """The same numbers in another shape."""

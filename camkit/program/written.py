@@ -1,4 +1,4 @@
-"""Functions of numpy as numpy writes them with others: to the last digit the same."""
+"""Functions of numpy as numpy writes them with others, to the last digit the same; and two that it has as methods."""
 
 from __future__ import annotations
 
@@ -10,29 +10,28 @@ import numpy as np
 from ..quantities.known import known
 
 
-def _broadcast_arrays(*arrays: Any) -> tuple[Any, ...]:
-    shape, recording = np.broadcast_shapes(*map(np.shape, arrays)), next(a for a in arrays if not known(a)).recording
-    return tuple(recording.call(np.broadcast_to, array, shape) for array in arrays)
+def whole(values: Any) -> Any:
+    """``values`` as integers: the fraction is cut off."""
+    return values.astype(int)
+
+
+def picked(values: Any, places: Any) -> Any:
+    """What stands in each row at the places of that row."""
+    return np.take_along_axis(values, places, axis=-1)
 
 
 def _folded(ufunc: Any) -> Any:
-    def fold(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
-        return ufunc.reduce(a, axis=axis, keepdims=keepdims)
-
-    return fold
+    return lambda a, axis=None, *, keepdims=False: ufunc.reduce(a, axis=axis, keepdims=keepdims)
 
 
-def _ptp(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
-    return np.max(a, axis, keepdims=keepdims) - np.min(a, axis, keepdims=keepdims)
+def _broadcast_arrays(*arrays: Any) -> tuple[Any, ...]:
+    shape, recording = (np.broadcast_shapes(*map(np.shape, arrays)), next(a for a in arrays if not known(a)).recording)
+    return tuple(recording.call(np.broadcast_to, array, shape) for array in arrays)
 
 
 def _mean(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
     total = np.sum(a, axis, keepdims=keepdims)
     return total / (np.size(a) // np.size(total))
-
-
-def _argmin(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
-    return np.argmax(-a, axis=axis, keepdims=keepdims)
 
 
 def _cumsum(a: Any, axis: Any = None) -> Any:
@@ -52,20 +51,17 @@ def _diff(a: Any, n: int = 1, axis: int = -1) -> Any:
 
 
 def _trapezoid(y: Any, x: Any = None, dx: float = 1.0, axis: int = -1) -> Any:
-    if axis not in (-1, np.ndim(y) - 1):
-        raise TypeError("the axis must be the last one")
-    step = dx if x is None else np.diff(x)
+    step, y = dx if x is None else np.diff(x), _last(y, axis)
     return (step * (y[..., 1:] + y[..., :-1]) / 2.0).sum(-1)
 
 
 def _unwrap(p: Any, *, axis: int = -1) -> Any:
-    along = np.moveaxis(p, axis, -1)
-    step = np.diff(along)
+    p = _last(p, axis)
+    step = np.diff(p)
     wrapped = np.mod(step + np.pi, 2 * np.pi) - np.pi
     wrapped = np.where((wrapped == -np.pi) & (step > 0), np.pi, wrapped)
     more = np.where(abs(step) < np.pi, 0.0, wrapped - step)
-    turned = np.concatenate([along[..., :1], along[..., 1:] + np.cumsum(more, axis=-1)], axis=-1)
-    return np.moveaxis(turned, -1, axis)
+    return np.concatenate([p[..., :1], p[..., 1:] + np.cumsum(more, axis=-1)], axis=-1)
 
 
 def _select(conditions: Sequence[Any], values: Sequence[Any], default: Any = 0) -> Any:
@@ -84,32 +80,29 @@ def _interp(x: Any, xp: Any, fp: Any) -> Any:
 
 def _cross(a: Any, b: Any, *, axis: int = -1) -> Any:
     (a0, a1, a2), (b0, b1, b2) = np.moveaxis(a, axis, 0), np.moveaxis(b, axis, 0)
-    parts = (a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0)
-    return np.stack(np.broadcast_arrays(*parts), axis=axis)
-
-
-def _norm(x: Any, *, axis: Any) -> Any:
-    return np.sqrt(np.add.reduce(x * x, axis=axis))
-
-
-def _zeros_like(a: Any) -> Any:
-    return np.zeros(a.shape, dtype=a.dtype)
-
-
-def _ones_like(a: Any) -> Any:
-    return np.ones(a.shape, dtype=a.dtype)
-
-
-def _full_like(a: Any, value: Any) -> Any:
-    return np.broadcast_to(value, a.shape)
+    return np.stack(np.broadcast_arrays(a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0), axis=axis)
 
 
 def _append(a: Any, values: Any, axis: int | None = None) -> Any:
     return np.concatenate([np.ravel(a), np.ravel(values)] if axis is None else [a, values], axis=axis or 0)
 
 
-def _outer(a: Any, b: Any) -> Any:
-    return np.ravel(a)[:, None] * np.ravel(b)
+def _take(a: Any, indices: Any, axis: int | None = None) -> Any:
+    a, size, shape = (np.ravel(a) if axis is None else _last(a, axis), np.size(indices), np.shape(indices))
+    places = np.broadcast_to(np.ravel(indices), (*a.shape[:-1], size))
+    return np.reshape(a.recording.call(picked, a, places), (*a.shape[:-1], *shape))
+
+
+def _take_along_axis(arr: Any, indices: Any, axis: int = -1) -> Any:
+    recording = (indices if known(arr) else arr).recording
+    found = recording.call(picked, np.moveaxis(arr, axis, -1), np.moveaxis(indices, axis, -1))
+    return np.moveaxis(found, -1, axis)
+
+
+def _last(a: Any, axis: int) -> Any:
+    if axis not in (-1, np.ndim(a) - 1):
+        raise TypeError("the axis must be the last one")
+    return a
 
 
 BY: dict[Any, Any] = {
@@ -120,9 +113,9 @@ BY: dict[Any, Any] = {
     np.prod: _folded(np.multiply),
     np.any: _folded(np.logical_or),
     np.all: _folded(np.logical_and),
-    np.ptp: _ptp,
+    np.ptp: lambda a, axis=None, **more: np.max(a, axis, **more) - np.min(a, axis, **more),
     np.mean: _mean,
-    np.argmin: _argmin,
+    np.argmin: lambda a, axis=None, **more: np.argmax(-a, axis=axis, **more),
     np.cumsum: _cumsum,
     np.clip: _clip,
     np.diff: _diff,
@@ -131,11 +124,13 @@ BY: dict[Any, Any] = {
     np.select: _select,
     np.interp: _interp,
     np.cross: _cross,
-    np.linalg.norm: _norm,
-    np.zeros_like: _zeros_like,
-    np.ones_like: _ones_like,
-    np.full_like: _full_like,
-    np.outer: _outer,
+    np.linalg.norm: lambda x, *, axis: np.sqrt(np.add.reduce(x * x, axis=axis)),
+    np.zeros_like: lambda a: np.zeros(a.shape, dtype=a.dtype),
+    np.ones_like: lambda a: np.ones(a.shape, dtype=a.dtype),
+    np.full_like: lambda a, value: np.broadcast_to(value, a.shape),
+    np.outer: lambda a, b: np.ravel(a)[:, None] * np.ravel(b),
     np.append: _append,
+    np.take: _take,
+    np.take_along_axis: _take_along_axis,
 }
 """What numpy offers, and how it is written."""

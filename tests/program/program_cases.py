@@ -5,25 +5,49 @@ from itertools import product
 
 import numpy as np
 
-from camkit.program.operations import TABLE, Each, as_type
+from camkit.program.operations import TABLE, Each
+from camkit.program.written import picked, whole
 from camkit.quantities import quantities_of, value_of
 
-AWKWARD = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 0.5, 1.5, 2.5, -2.5, 3.0, 1e-9, 1e9]
+AWKWARD = [
+    np.nan,
+    np.inf,
+    -np.inf,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    1.5,
+    2.5,
+    -2.5,
+    3.0,
+    1e-9,
+    1e9,
+]
 """Numbers at which functions are not what they are elsewhere; halves, which are rounded to even, and ordinary ones."""
 ONE = np.array(AWKWARD)
 PAIRS = np.array(list(product(AWKWARD, AWKWARD)))
 ROWS = np.array([[a, b, 1.5, b] for a, b in product(AWKWARD, AWKWARD)])
 ORDINARY = np.random.default_rng(5).normal(size=(4, 7))
-TRUTHS = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert, np.bitwise_and.reduce, np.bitwise_or.reduce}
+TRUTHS = {
+    np.bitwise_and,
+    np.bitwise_or,
+    np.bitwise_xor,
+    np.invert,
+    np.bitwise_and.reduce,
+    np.bitwise_or.reduce,
+}
 """What is asked of truths only."""
 SPECIAL = {
     np.where: lambda x, y: np.where(x > y, x, y),
     np.argmax: lambda m: np.argmax(m, axis=-1),
     np.add.accumulate: lambda m: np.add.accumulate(m, axis=-1),
     np.sort: lambda m: np.sort(m, axis=-1),
-    np.take: lambda x: np.take(x, np.argmax(x[3:]) - 2, axis=-1),
+    np.take: lambda m: np.take(m, np.argmax(m[:, 1:], axis=-1) - 2, axis=-1),
+    picked: lambda m: np.take_along_axis(m, np.argmax(m, axis=0, keepdims=True) - 1, 0),
     np.take_along_axis: lambda m: np.take_along_axis(m, np.argmax(m, axis=-1, keepdims=True) - 1, -1),
-    as_type: lambda x: np.where(np.isfinite(x), x, 0.0).astype(int),
+    whole: lambda x: np.where(np.isfinite(x), x, 0.0).astype(int),
     operator.getitem: lambda m: m[1:, None, ::-2],
     np.broadcast_to: lambda x: np.broadcast_to(x, (3, *x.shape)),
     np.stack: lambda x: np.stack([x, 2 * x, np.zeros(x.shape)], axis=-1),
@@ -64,6 +88,8 @@ SPECIAL = {
 }
 OF_ROWS = {np.argmax, np.argmin, np.add.accumulate, np.sort, np.take_along_axis}
 OF_ORDINARY = {
+    picked,
+    np.take,
     operator.getitem,
     np.concatenate,
     np.reshape,
@@ -136,7 +162,11 @@ STEPS = (
     lambda a, b, c: np.take(a, np.argmin(np.ravel(b), keepdims=True) % a.shape[-1], axis=-1) * 0.5 if a.ndim else a,
     lambda a, b, c: np.append(a[..., 1:], 2 * a[..., :1], axis=-1) if a.ndim else b,
 )
-INPUTS = {"x": np.float64(0.7), "y": np.array([0.3, -1.2, 2.0, 0.0, 5.5]), "z": np.arange(15.0).reshape(3, 5) / 4 - 1}
+INPUTS = {
+    "x": np.float64(0.7),
+    "y": np.array([0.3, -1.2, 2.0, 0.0, 5.5]),
+    "z": np.arange(15.0).reshape(3, 5) / 4 - 1,
+}
 
 
 def judged(study, p):
