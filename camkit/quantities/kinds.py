@@ -16,6 +16,7 @@ from functools import cache
 from typing import Any, Generic, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .known import certain, fails, floats, known
 from .types import Value
@@ -341,8 +342,8 @@ def _kind(hint: Any) -> Kind | None:
         return SIMPLE[hint]
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
-        if {*typing.get_args(Value)} <= {*parts}:  # who takes a number or a column says itself what is wrong with it
-            return None
+        if any({*typing.get_args(wide)} <= {*parts} for wide in (Value, ArrayLike)):
+            return None  # who takes a number or a column says itself what is wrong with it
         kinds = [_kind(part) for part in parts]
         sure = [kind for kind in kinds if kind is not None]
         if len(sure) < len(kinds):

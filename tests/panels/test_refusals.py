@@ -73,8 +73,8 @@ def a_study(free=("lift_arm",), minimise=(height,), **more):
 
 def a_front(f=0.5):
     """A front of one design and two objectives."""
-    level = Measure("level", "mm", lambda analysis: 0.0)
-    return Front(a_study(minimise=(level, -level)), np.array([[0.05]]), np.array([[f, 0.5]]))
+    level, depth = (Measure(name, "mm", lambda analysis: 0.0) for name in ("level", "depth"))
+    return Front(a_study(minimise=(level, depth)), np.array([[0.05]]), np.array([[f, 0.5]]))
 
 
 def a_file(**entries):
