@@ -80,17 +80,20 @@ class CamAnalysis(ABC):
         motion: MotionProgram = self.cam.motion
         return motion
 
+    def steps(self) -> int:
+        """Into how many even steps a segment that moves is divided."""
+        return ROUGH if self.rough else STEPS
+
     @cached_property
     def resolution(self) -> Resolution:
         """The cam angles that show every stretch of the motion, however narrow, with its joints from both sides.
 
         Those of the load's tables, too.
         """
-        load, motion = getattr(self.cam, "load", None), self.program
+        load, motion, steps = getattr(self.cam, "load", None), self.program, self.steps()
         angles, levels = (getattr(load, name, ()) for name in ("cam_angle_table", "travel_table"))
-        if not (self.rough or len(angles) or len(levels)):
+        if steps == STEPS and not (len(angles) or len(levels)):
             return motion.resolution
-        steps = ROUGH if self.rough else STEPS
         return resolve(motion, steps, [x for x, _ in angles], [x for x, _ in levels])
 
     @cached_property

@@ -18,7 +18,7 @@ from ..contact import line_contact
 from ..extrema import raised, with_tops
 from ..geometry import Body
 from ..motion import Kinematics
-from ..motion.resolution import STEPS, Resolution, between, resolve
+from ..motion.resolution import STEPS, between
 from ..quantities import members
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -59,11 +59,9 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         bodies: tuple[Body, ...] = self.machine.drawn(self)
         return bodies
 
-    @cached_property
-    def resolution(self) -> Resolution:
-        """Half as many steps in each interval as the analysis has angles there, if that is more than shows it."""
-        finer = self.rise_at.shape[-1] // 2
-        return resolve(self.cam.motion, finer) if finer > STEPS and not self.rough else super().resolution
+    def steps(self) -> int:
+        """Half as many in each interval as the analysis has angles there, if that is more than shows it."""
+        return super().steps() if self.rough else max(STEPS, self.rise_at.shape[-1] // 2)
 
     # ---------------------------------------------------------------- the intervals
 

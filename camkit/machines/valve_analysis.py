@@ -21,7 +21,7 @@ from ..cam.translating_roller import TranslatingRollerAnalysis, TranslatingRolle
 from ..contact import LineContact, line_contact
 from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics, MotionProgram
-from ..motion.resolution import Resolution
+from ..motion.resolution import STEPS
 from ..quantities import refuse_population, unremarked
 from ..quantities.types import Array
 from ..units import deg, mm
@@ -53,10 +53,9 @@ class ValveAnalysis(CamAnalysis):
         program: MotionProgram = self.cam.opening
         return program
 
-    @cached_property
-    def resolution(self) -> Resolution:
-        """As fine for a rough look: the acceleration of a full lift has its peak within a few degrees."""
-        return self.program.resolution
+    def steps(self) -> int:
+        """As many for a rough look: the acceleration of a full lift has its peak within a few degrees."""
+        return STEPS
 
     @cached_property
     def whole(self) -> Self:
