@@ -6,13 +6,13 @@ Source: Johnson, Contact Mechanics (1985), sections 4.2(c) and 4.1(b).
 from __future__ import annotations
 
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from .quantities.kinds import numbers, refuse_shapes
 from .quantities.known import fails
-from .quantities.types import Value
+from .quantities.types import Array, Value
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 """``(z/a)^2`` where the shear below the middle of a line contact is largest: the root of ``t^2 + t = 1``."""
@@ -21,11 +21,11 @@ GOLDEN = (np.sqrt(5) - 1) / 2
 class LineContact(NamedTuple):
     """What two cylinders do to each other; unpacks as pressure, half width, shear, depth of the shear (SI)."""
 
-    pressure: Any
+    pressure: Array
     """``p_0``: largest pressure, in the middle, Pa."""
     half_width: Value
     """``a``: half the width of the contact, m."""
-    shear: Any
+    shear: Array
     """Largest shear stress, below the middle of the contact, Pa."""
     shear_depth: Value
     """How deep that is, m."""

@@ -45,7 +45,7 @@ class Extreme(NamedTuple):
     cam_angle: Any
 
 
-def raised(values: Any, inner: Any = True) -> Array:
+def raised(values: Array, inner: Value = True) -> Array:
     """``values`` at even steps, each local maximum raised to the top of the parabola through its neighbours.
 
     ``inner`` says which of them have a neighbour at an even step on both sides.
@@ -79,7 +79,7 @@ def _maxima(values: Array, inner: Value) -> Array:
     return np.flatnonzero(top)
 
 
-def highest(f: Callable[[Any], Any], angle: Array, inner: Array) -> Extreme:
+def highest(f: Callable[[Array], Value], angle: Array, inner: Array) -> Extreme:
     """The largest value of ``f(cam_angle)``, sampled at the cam angles ``angle`` and then more closely.
 
     ``inner`` says which of them have a neighbour at the same step, without a jump in between, on both sides.
@@ -110,7 +110,7 @@ def highest(f: Callable[[Any], Any], angle: Array, inner: Array) -> Extreme:
     return Extreme(value[..., 0], place[..., 0])
 
 
-def highest_between(f: Callable[[Any], Any], ends: Sequence[Any]) -> Extreme:
+def highest_between(f: Callable[[Array], Value], ends: Sequence[Value]) -> Extreme:
     """The largest value of ``f``, which is smooth between each two of ``ends``: numbers in order, or ``(p, 1)``.
 
     >>> found = highest_between(lambda x: abs(x * (1 - x)), (0.0, 0.8))
@@ -123,7 +123,7 @@ def highest_between(f: Callable[[Any], Any], ends: Sequence[Any]) -> Extreme:
     return highest(f, np.concatenate(pieces, axis=-1), inner)
 
 
-def with_tops(values: Array, inner: Any, sample: Callable[[Any, Any], Any], but: Any = False) -> Array:
+def with_tops(values: Array, inner: Array, sample: Callable[[Array, Array], Array], but: Value = False) -> Array:
     """A curve's ``values`` at even steps, each local maximum raised to its top: to 0.1 % where it may be the largest.
 
     That of the quartic through five of them.  Where this is in doubt ``sample(at, x)`` says how high the curve is ``x``
@@ -152,7 +152,7 @@ def with_tops(values: Array, inner: Any, sample: Callable[[Any, Any], Any], but:
     return tops
 
 
-def _zoomed_top(sample: Callable[[Any, Any], Any], at: Array, low: Array, high: Array, zooms: int) -> Array:
+def _zoomed_top(sample: Callable[[Array, Array], Array], at: Array, low: Array, high: Array, zooms: int) -> Array:
     """How high a curve is between ``low`` and ``high`` steps beside each of the places ``at``."""
     x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, ZOOM)
     values, row = sample(at, x), np.arange(len(at))
@@ -169,7 +169,7 @@ def _zoomed_top(sample: Callable[[Any, Any], Any], at: Array, low: Array, high: 
     return top
 
 
-def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Array, Array]:
+def _quartic_tops(flat: Array, at: Array, inner: Array) -> tuple[Array, Array]:
     """The tops of the quartics through the local maxima ``at`` and four neighbours; by how much they may be too low.
 
     0 where that is no matter.  A parabola's, where a piece ends next to the maximum.
@@ -193,7 +193,7 @@ def _quartic_tops(flat: Any, at: Value, inner: Any) -> tuple[Array, Array]:
     return np.where(np.isfinite(top), np.maximum(top, mid), mid), np.where(sure, 0.0, room)
 
 
-def _quartic_top(*slopes: Any) -> Value:
+def _quartic_top(*slopes: Array) -> Value:
     """How far the top of a quartic with those four derivatives at 0 lies above its value there, by Newton's method."""
     a, b, c, d = slopes
     half, sixth = d / 2, d / 6
@@ -205,7 +205,7 @@ def _quartic_top(*slopes: Any) -> Value:
     return x * (a + x * (b / 2 + x * (c / 6 + x * d / 24)))
 
 
-def _tops_by_ends(values: Array, inner: Any) -> tuple[Array, Array, Array]:
+def _tops_by_ends(values: Array, inner: Array) -> tuple[Array, Array, Array]:
     """Where a piece's end is higher than its neighbour and yet the top lies between them, and how much it may be."""
     ends = np.flatnonzero(~inner)
     way = np.where(inner[(ends + 1) % len(inner)], 1, -1)
@@ -217,7 +217,7 @@ def _tops_by_ends(values: Array, inner: Any) -> tuple[Array, Array, Array]:
     return at[between], np.broadcast_to(way, at.shape)[between], bend[between]
 
 
-def roughly_highest(angle: Value, values: Value, inner: Any) -> Extreme:
+def roughly_highest(angle: Value, values: Value, inner: Array) -> Extreme:
     """As `highest`, of ``values`` at the cam angles ``angle`` alone: the top of the parabola at the highest of them."""
     angle, values, inner = np.broadcast_arrays(angle, values, inner)
     best = np.argmax(values, axis=-1, keepdims=True)
@@ -227,7 +227,7 @@ def roughly_highest(angle: Value, values: Value, inner: Any) -> Extreme:
 
 
 def _around(
-    f: Callable[[Any], Any], begin: Value, end: Value, low: Value, high: Value
+    f: Callable[[Array], Value], begin: Value, end: Value, low: Value, high: Value
 ) -> tuple[Array, Array, Array, Array]:
     """The highest of a few angles from ``begin`` to ``end``, where it is, how much it bends, and if it is at an end.
 
@@ -249,7 +249,7 @@ def _around(
     return value, place, bend, edge
 
 
-def _zoomed(f: Callable[[Any], Any], low: Value, high: Value) -> tuple[Array, Array]:
+def _zoomed(f: Callable[[Array], Value], low: Value, high: Value) -> tuple[Array, Array]:
     """The highest between two angles: each time it is evaluated again between the best angle's neighbours."""
     for _ in range(ZOOMS):
         angle = low + (high - low) * np.linspace(0, 1, ZOOM)
@@ -261,7 +261,7 @@ def _zoomed(f: Callable[[Any], Any], low: Value, high: Value) -> tuple[Array, Ar
     return _at(values, best) + np.where(best == middle, more, 0.0), _at(angle, best)
 
 
-def _summit(left: Array, mid: Array, right: Array) -> tuple[Any, Any]:
+def _summit(left: Array, mid: Array, right: Array) -> tuple[Array, Array]:
     """Where the top of the parabola through three neighbours lies beside the highest, in steps, and how far above."""
     with np.errstate(invalid="ignore"):
         bend, lean = 2 * mid - left - right, right - left

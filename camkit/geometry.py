@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, SupportsIndex
+from typing import SupportsIndex
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from .quantities.types import Array, Value
 
 
 @dataclass(frozen=True)
-class Body:
+class Body(ABC):
     """A part of a plane mechanism to scale, with its path: its place (m) and angle (rad) at each position.
 
     ``x``, ``y`` and ``angle`` are numbers, or ``(n,)`` with one for each position.  Parts of one ``name`` belong
@@ -22,9 +23,13 @@ class Body:
 
     name: str
     part: str
-    x: Any = field(default=0.0, kw_only=True)
-    y: Any = field(default=0.0, kw_only=True)
-    angle: Any = field(default=0.0, kw_only=True)
+    x: Value = field(default=0.0, kw_only=True)
+    y: Value = field(default=0.0, kw_only=True)
+    angle: Value = field(default=0.0, kw_only=True)
+
+    @abstractmethod
+    def at(self, i: SupportsIndex) -> np.ndarray:
+        """Where it is drawn at position ``i``, machine's frame, m."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +41,7 @@ class Outline(Body):
     [[1.0, 1.0], [0.0, 2.0]]
     """
 
-    points: Any
+    points: Array
     cut: Value | None = None
     """At which points it is cut away, ``(k,)``; ``None``: nowhere."""
 
@@ -50,14 +55,14 @@ class Outline(Body):
 class Disc(Body):
     """A round body of a radius (m) about its place."""
 
-    radius: Any
+    radius: Value
 
     def at(self, i: SupportsIndex) -> np.ndarray:
         """Its centre at position ``i``, ``(2,)``, m."""
         return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
 
 
-def end_to_end(*stretches: Any) -> Array:
+def end_to_end(*stretches: Array) -> Array:
     """Arrays one behind the other along their last axis, also where only some have a population axis.
 
     >>> end_to_end(np.array([1.0, 2.0]), np.array([[3.0], [4.0]]))
@@ -80,7 +85,7 @@ def rotated(points: Array, angle: Value) -> np.ndarray:
     return np.stack(np.broadcast_arrays(c * x - s * y, s * x + c * y))
 
 
-def polar_angle(point: Any) -> Value:
+def polar_angle(point: Sequence[Value] | Array) -> Value:
     """Direction of ``point`` from the origin, rad, counter-clockwise from the x axis."""
     return np.arctan2(point[1], point[0])
 

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class CamAnalysis(ABC):
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
 
-    def at(self, cam_angle: Array) -> Any:
+    def at(self, cam_angle: Array) -> Self:
         """The same cam at other cam angles."""
         other = replace(self, cam_angle=cam_angle)
         # cached properties: the cam has one resolution
@@ -97,7 +97,7 @@ class CamAnalysis(ABC):
         return resolve(motion, steps, [x for x, _ in angles], [x for x, _ in levels])
 
     @cached_property
-    def resolved(self) -> Any:
+    def resolved(self) -> Self:
         """The same cam at the cam angles of its `resolution`."""
         other = replace(self, cam_angle=self.resolution.angle)
         motion = self.program.over(self.resolution)
@@ -130,7 +130,7 @@ class CamAnalysis(ABC):
         """Least convex radius of curvature of the profile, m; at or below 0 the follower cuts the cam away."""
 
     @abstractmethod
-    def contact_point(self, flank: int = 1) -> np.ndarray:
+    def contact_point(self, flank: Value = 1) -> np.ndarray:
         """Where the follower touches the inner flank (+1) or a groove's outer one (-1), machine's frame, m."""
 
     @property
@@ -184,7 +184,7 @@ class CamAnalysis(ABC):
         """What resists the follower's travel, N, or N m for an arm."""
 
     @cached_property
-    def _found(self) -> dict[tuple[Callable[[Any], Any], int], Extreme]:
+    def _found(self) -> dict[tuple[Callable[[Self], Value], int], Extreme]:
         """What `highest` (1) and `lowest` (-1) have found: an objective and a limit often ask for the same peak."""
         return {}
 
@@ -194,7 +194,7 @@ class CamAnalysis(ABC):
         return self.cam.motion(self.cam_angle)
 
     @property
-    def curves(self) -> dict[str, Any]:
+    def curves(self) -> dict[str, CamAnalysis]:
         """Every cam curve of the machine by its name: this one."""
         return {"cam": self}
 
@@ -274,7 +274,7 @@ class CamAnalysis(ABC):
         return statics.efficiency(self, self.driving_flank)
 
     @property
-    def form_closed(self) -> Any:
+    def form_closed(self) -> Value:
         """Whether the cam holds the follower from both sides and nothing else does: it cannot jump."""
         return False
 
@@ -302,15 +302,15 @@ class CamAnalysis(ABC):
         angle = np.broadcast_to(angle, size.shape)
         return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in (size, angle)))
 
-    def highest(self, f: Callable[[Any], Any]) -> Extreme:
+    def highest(self, f: Callable[[Self], Value]) -> Extreme:
         """The largest value of ``f(analysis)`` over the cam, whichever cam angles the analysis has."""
         return self._extreme(f, 1)
 
-    def lowest(self, f: Callable[[Any], Any]) -> Extreme:
+    def lowest(self, f: Callable[[Self], Value]) -> Extreme:
         """As `highest`, for the least value."""
         return self._extreme(f, -1)
 
-    def _extreme(self, f: Callable[[Any], Any], way: int) -> Extreme:
+    def _extreme(self, f: Callable[[Self], Value], way: int) -> Extreme:
         if (f, way) not in self._found:
             found = highest(self, f) if way > 0 else lowest(self, f)
             self._found[f, way] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
@@ -324,19 +324,19 @@ def over_the_motion(kind: type[Kind], cam: Any, n: int) -> Kind:
     return analysis
 
 
-def highest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
+def highest(analysis: Kind, f: Callable[[Kind], Value]) -> Extreme:
     """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
     shown, resolution = analysis.resolved, analysis.resolution
     if analysis.rough:
         return extrema.roughly_highest(resolution.angle, f(shown), resolution.inner)
 
-    def value(angle: Array) -> Any:
+    def value(angle: Array) -> Value:
         return f(shown if angle is resolution.angle else analysis.at(angle))
 
     return extrema.highest(value, resolution.angle, resolution.inner)
 
 
-def lowest(analysis: CamAnalysis, f: Callable[[Any], Any]) -> Extreme:
+def lowest(analysis: Kind, f: Callable[[Kind], Value]) -> Extreme:
     """As `highest`, for the least value."""
     value, angle = highest(analysis, lambda at: -f(at))
     return Extreme(-value, angle)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyfit, polyval
@@ -45,7 +45,7 @@ class Node(NamedTuple):
 
     place: float
     """Along the curve: the number of the point before it, and the share of the segment from there."""
-    name: Any
+    name: object
     """The curves that meet at a node have the same."""
     point: np.ndarray
 

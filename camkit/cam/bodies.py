@@ -8,7 +8,7 @@ import numpy as np
 
 from ..geometry import Body, Disc, Outline, polar_angle
 from ..quantities import refuse_population
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 
 PIN = np.zeros((2, 1))
 """A body that is a pin: one point."""
@@ -29,7 +29,7 @@ def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
     )
 
 
-def rocker(name: str, pivot: Any, end: Value) -> tuple[Body, ...]:
+def rocker(name: str, pivot: Array, end: Value) -> tuple[Body, ...]:
     """An arm from its pivot ``(2,)`` to its end ``(2, n)``, m."""
     away = end - np.reshape(pivot, (2, 1))
     length = np.hypot(*away)[..., :1]
@@ -38,13 +38,13 @@ def rocker(name: str, pivot: Any, end: Value) -> tuple[Body, ...]:
     return Outline(name, "arm", points, angle=polar_angle(away), **place), Outline(name, "pivot", PIN, **place)
 
 
-def stem(name: str, mouth: Any, foot: Any) -> tuple[Body, ...]:
+def stem(name: str, mouth: Array, foot: Array) -> tuple[Body, ...]:
     """The stem of a sliding follower on its foot ``(2, n)``: it reaches the mouth ``(2,)`` of its guide, m."""
     reach = mouth[1] - foot[1].min(axis=-1)
     points = np.stack([np.zeros(2), np.append(0.0, reach)])
     return Outline(name, "arm", points, x=foot[0], y=foot[1]), Outline(name, "pivot", PIN, x=mouth[0], y=mouth[1])
 
 
-def roller(name: str, centre: Any, radius: Any) -> Disc:
+def roller(name: str, centre: Array, radius: Value) -> Disc:
     """A roller about its centre ``(2, n)``, m."""
     return Disc(name, "roller", radius, x=centre[0], y=centre[1])

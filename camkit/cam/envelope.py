@@ -8,12 +8,12 @@ follower's speed jumps at the start of the turn, the last point and the first ar
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.polynomial.polynomial import polyfit
 
 from ..geometry import rotated
+from ..quantities.types import Value
 from ..units import deg
 from .arcs import SAME, Curve
 
@@ -46,7 +46,7 @@ def roller_envelope(theory: dict[str, np.ndarray], pitch: np.ndarray, radius: fl
     return found
 
 
-def _same(one: Any, other: Any) -> bool:
+def _same(one: Value, other: Value) -> bool:
     return bool(np.allclose(one, other, rtol=0, atol=SAME))
 
 

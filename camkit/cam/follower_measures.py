@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from operator import attrgetter
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Measure
 from ..quantities.types import Value
+from .analysis import CamAnalysis
 from .force_closure import ContactPair, jump_speed, torque_balance
 from .measures import (
     CURVE,
@@ -30,7 +30,7 @@ face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
 min_force = Measure("least contact force", "N", lambda a: a.lowest(_force).value)
 
 
-def _mean_torque(analysis: Any) -> Value:
+def _mean_torque(analysis: CamAnalysis) -> Value:
     """Mean over the cam angle of what turns the cam, friction included, however many angles the analysis has."""
     shown = analysis.resolved
     return torque_balance(shown.cam_angle, shown.rubbing.cam_torque).mean
@@ -39,7 +39,7 @@ def _mean_torque(analysis: Any) -> Value:
 mean_torque = Measure("mean cam torque with friction", "N mm", _mean_torque)
 
 
-def _overspeed(analysis: Any) -> Value:
+def _overspeed(analysis: CamAnalysis) -> Value:
     """How much faster the cam may run before the follower jumps, as a share; ``inf`` for a cam at rest."""
     with np.errstate(divide="ignore"):
         return jump_speed(analysis) / number(analysis.cam.load.speed) - 1

@@ -92,10 +92,10 @@ class TorqueBalance(NamedTuple):
     """What the motor gives all the time, N m."""
     surplus: Value
     """Work that the torque took above the mean since the first cam angle, J."""
-    swing: Any
+    swing: Value
     """Between the largest and the least ``surplus``, J: what a flywheel has to store."""
 
-    def flywheel(self, speed: Value, unevenness: Any) -> Value:
+    def flywheel(self, speed: Value, unevenness: Value) -> Value:
         """Moment of inertia with which the speed varies by the share ``unevenness`` of its mean, kg m^2."""
         return self.swing / (unevenness * speed**2)
 

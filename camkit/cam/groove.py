@@ -14,7 +14,6 @@ pressure angle of 88 deg.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -27,7 +26,7 @@ COARSE, FINE, ROUNDS, CLOSER, ROUGH = 49, 5, 3, 3, 25
 A rough look takes the last number of places and one round."""
 
 
-def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = False) -> Value:
+def gap(path: Callable[[Array], Array], span: Value, radius: Value, rough: bool = False) -> Value:
     """The least distance between two parts of a groove's pitch curve, less ``2 radius``, m; below 0 the walls merge.
 
     Only a gap below a quarter of the radius is looked at more closely; a larger one is an estimate from above.
@@ -53,7 +52,7 @@ def gap(path: Callable[[Any], Any], span: Any, radius: Value, rough: bool = Fals
     return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
 
 
-def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Array, Array]:
+def _nearest(x: Array, y: Array, along: Array, radius: Value) -> tuple[Array, Array]:
     """The nearest two places ``(2, ..., 1)``, in coarse steps, that are not neighbours along the curve; how near, m."""
     nearest, firsts = [], []
     for k in range(1, along.shape[-1]):  # in parts that fit into the processor's own memory
@@ -69,7 +68,7 @@ def _nearest(x: Any, y: Any, along: Any, radius: Any) -> tuple[Array, Array]:
 
 
 def _closer(
-    path: Callable[[Any], Any], span: object, radius: Value, along: Any, pair: Any, least: Any, rounds: int
+    path: Callable[[Array], Array], span: object, radius: Value, along: Array, pair: Array, least: Array, rounds: int
 ) -> np.ndarray:
     """How near two places around each of ``pair`` are, at finer and finer steps."""
     last, around, reach = along.shape[-1] - 1, np.linspace(-1, 1, FINE), 1.0
@@ -88,7 +87,7 @@ def _closer(
     return least
 
 
-def _between(along: Any, step: Any) -> Array:
+def _between(along: Array, step: Array) -> Array:
     """How far along the curve a place lies, which is counted in coarse steps."""
     whole = np.minimum(step.astype(int), along.shape[-1] - 2)
     low, high = (np.take_along_axis(along, whole + k, -1) for k in (0, 1))

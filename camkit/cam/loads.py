@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -51,7 +50,7 @@ class ArmLoad(Design):
         """The table over the travel, whatever it holds."""
         return self.torque_table
 
-    def inertia(self, arm_length: Value) -> Any:
+    def inertia(self, arm_length: Value) -> Value:
         """Moment of inertia about the arm's pivot, kg m^2."""
         return self.mass * arm_length**2 / 3
 
@@ -69,7 +68,7 @@ class ArmLoad(Design):
         static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
         return self.inertia(arm_length) * self.speed**2 * acceleration + static
 
-    def opposite(self, spread: Any, arm_length: Value, other_length: Any) -> ArmLoad:
+    def opposite(self, spread: Value, arm_length: Value, other_length: Value) -> ArmLoad:
         """The same load as a second arm of ``other_length`` on the same shaft feels it, mirrored.
 
         The second arm's angle is ``spread`` less this one's, so all that resists the one helps the other.
@@ -130,14 +129,14 @@ def opposite_table(table: Table, side: int) -> Table:
 class Contact:
     """Where and how cam and roller meet; lengths in m, ``alpha`` in rad, arrays ``(n,)`` or ``(p, n)``."""
 
-    arm_length: Any
-    roller_radius: Any
+    arm_length: Value
+    roller_radius: Value
     rotation: int
-    velocity: Any
+    velocity: Array
     alpha: Value
-    offset: Any
+    offset: Array
     """``Q = R sin(alpha - beta)``: cam axis to the contact normal."""
-    reach: Any
+    reach: Array
     """``B = R cos(alpha - beta)``: along the normal to the roller's centre."""
 
     @property
@@ -164,7 +163,7 @@ class Friction(FollowerFriction):
 
     arm_pivot: float = quantity("rho_3", 1, 0, 5, "mm", "friction circle of the arm pivot", at_least=0)
 
-    def published_efficiency(self, contact: Contact) -> Any:
+    def published_efficiency(self, contact: Contact) -> Array:
         """Power out over power in as published, every friction counted as a loss: equation (21), put right.
 
         ``eta = |v| T / M`` with ``lam = arctan f`` and ``k = +1`` where the arm's angle changes against the rotation
@@ -183,7 +182,7 @@ class Friction(FollowerFriction):
         return _power_ratio(c, arm, cam)
 
 
-def _power_ratio(contact: Contact, arm: Any, cam: Any) -> Value:
+def _power_ratio(contact: Contact, arm: Array, cam: Array) -> Array:
     """``|v| arm / cam``; 0 where the arm rests, and 0 where friction jams it (``arm`` not positive)."""
     v = abs(contact.velocity)
     return np.where(v == 0, 0.0 * arm, np.maximum(v * arm, 0.0) / np.where(v == 0, 1.0, cam))

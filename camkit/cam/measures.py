@@ -7,23 +7,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import reduce
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..quantities import Measure
 from ..quantities.types import Value
 
+if TYPE_CHECKING:
+    from .analysis import CamAnalysis
+    from .pair import ConjugatePairAnalysis
+    from .roller_analysis import RollerAnalysis
+
 STILL = 1e-8
 """A follower slower than this share of its largest speed rests: what is left is rounding."""
 
 
-def peak(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
+def peak(f: Callable[[Any], Value]) -> Callable[[Any], Value]:
     """A function of an analysis: the largest value of ``f`` over the cam."""
     return lambda analysis: analysis.highest(f).value
 
 
-def _min_radius(side: int) -> Callable[[Any], Any]:
+def _min_radius(side: int) -> Callable[[RollerAnalysis], Value]:
     """The least radius of the pitch curve where it is convex (``side`` = 1) or hollow (-1); ``inf`` if nowhere."""
     return lambda analysis: radius_of(analysis.sharpest(side).value)
 
@@ -39,7 +44,7 @@ def radius_of(curvature: Value) -> Value:
         return np.where(curvature > 0, 1 / curvature, np.where(np.isnan(curvature), np.nan, np.inf))[()]
 
 
-def _groove_margin(analysis: Any) -> Value:
+def _groove_margin(analysis: RollerAnalysis) -> Value:
     """``1 - r_T kappa`` on the inner flank, ``1 + r_T kappa`` on a groove's outer one too, at its least."""
     sides = (1, -1) if analysis.groove else (1,)
     r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in sides]
@@ -49,7 +54,7 @@ def _groove_margin(analysis: Any) -> Value:
     return np.where((r == 0) & cornered, 1.0, margin)[()]  # a knife edge fits into every corner
 
 
-def mean_over(analysis: Any, name: str) -> Value:
+def mean_over(analysis: CamAnalysis | ConjugatePairAnalysis, name: str) -> Value:
     """Mean over the cam angle of what the analysis calls ``name``, over the strokes: dwells are left out.
 
     ``nan`` if the follower does not move at all.
@@ -62,7 +67,7 @@ def mean_over(analysis: Any, name: str) -> Value:
     return np.where(span > 0, total / np.where(span > 0, span, 1.0), np.nan)[()]
 
 
-def work_ratio(analysis: Any) -> Value:
+def work_ratio(analysis: CamAnalysis | ConjugatePairAnalysis) -> Value:
     """Work out over work in of a constant resisting torque: the power-weighted mean efficiency.
 
     Where a stroke begins or ends, the work in for a step of cam angle is that towards which it goes there: against
@@ -128,7 +133,7 @@ def part(measure: Measure, name: str) -> Measure:
     return Measure(f"{measure.name}, {name}", measure.unit, lambda a: measure(getattr(a, name)))
 
 
-def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Any] = np.maximum) -> Measure:
+def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = np.maximum) -> Measure:
     """The largest (``of=np.minimum``: least) value of ``measure`` over several curves of a machine."""
     return Measure(
         f"{measure.name}, worse curve",

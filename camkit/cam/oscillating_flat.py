@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -85,7 +85,7 @@ class OscillatingFlatCam(Design):
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
         return over_the_motion(OscillatingFlatAnalysis, self, n)
 
-    def face_offset_for(self, *, min_radius: Any) -> Value:
+    def face_offset_for(self, *, min_radius: Value) -> Value:
         """Least offset of the face with which no radius of curvature is below ``min_radius``, m.
 
         The offset makes the cam larger all around, `base_radius` and every radius of curvature alike.
@@ -208,12 +208,12 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
         b = self.cam.face_offset
         return np.stack([self.cam.centre_distance - along * cos + b * sin, along * sin + b * cos])
 
-    def contact_point(self, flank: Any = 1) -> np.ndarray:
+    def contact_point(self, flank: Value = 1) -> np.ndarray:
         """Where face and cam touch, machine's frame, m; ``nan`` for an outer flank."""
         return self._on_face(np.where(np.greater(flank, 0), self.contact_length, np.nan))
 
     @cached_property
-    def face_reach(self) -> tuple[Array, Array]:
+    def face_reach(self) -> tuple[Value, Value]:
         """Where along the arm the face must begin and end: least and largest distance from the pivot, m."""
         return self.lowest(lambda at: at.contact_length).value, self.highest(lambda at: at.contact_length).value
 

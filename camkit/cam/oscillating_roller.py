@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ..geometry import Body
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, quantity
 from ..quantities.kinds import a_number
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import bodies
 from .analysis import over_the_motion
@@ -69,7 +69,7 @@ class OscillatingRollerCam(Design):
         return over_the_motion(OscillatingRollerAnalysis, self, n)
 
     def conjugate(
-        self, spread: Any, arm_length: Value | None = None, roller_radius: Value | None = None
+        self, spread: Value, arm_length: Value | None = None, roller_radius: Value | None = None
     ) -> OscillatingRollerCam:
         """The second cam of a pair: it carries a second roller on the same shaft, ``spread`` (rad) from the first.
 
@@ -95,7 +95,7 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     cam: OscillatingRollerCam
 
     @property
-    def clear(self) -> Any:
+    def clear(self) -> Value:
         """Whether the arm is clear of the line of centres and the roller of the axis, ``(..., 1)``."""
         psi = self.cam.start_angle + self.motion.s
         low, high = psi.min(-1, keepdims=True), psi.max(-1, keepdims=True)  # nearest to the axis at the low end
@@ -114,7 +114,7 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
             f"{self._pitch_radius(psi).min() / mm:.4g} mm of the cam axis; it must stay outside it"
         )
 
-    def _pitch_radius(self, psi: Value) -> Any:
+    def _pitch_radius(self, psi: Value) -> Array:
         a, l = self.cam.centre_distance, self.cam.arm_length
         return np.sqrt(a**2 + l**2 - 2 * a * l * np.cos(psi))
 

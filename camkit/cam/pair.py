@@ -17,6 +17,7 @@ from ..extrema import Extreme
 from ..geometry import Body, Outline
 from ..motion.resolution import Resolution
 from ..quantities import Design, choice, counted, quantities_of, quantity, words
+from ..quantities.types import Array, Value
 from ..units import rpm
 from .analysis import CamAnalysis
 from .conjugate import PairForces, pair_forces
@@ -142,7 +143,7 @@ class ConjugatePairAnalysis:
         """The second cam, in a frame of its own."""
         return self._of(self.cam.second)
 
-    def _of(self, cam: Any) -> Any:
+    def _of(self, cam: Any) -> CamAnalysis:
         return replace(cam.analyse(2), cam_angle=self.cam_angle, rough=self.rough)
 
     @property
@@ -180,11 +181,11 @@ class ConjugatePairAnalysis:
         """The same pair at the cam angles of its `resolution`."""
         return replace(self, cam_angle=self.resolution.angle)
 
-    def highest(self, f: Callable[[Any], Any]) -> Extreme:
+    def highest(self, f: Callable[[Any], Value]) -> Extreme:
         """The largest value of ``f`` of one of both cams over the angles at which that cam pushes."""
         return _larger(*(curve.highest(_Pushing(f)) for curve in self.curves.values()))
 
-    def lowest(self, f: Callable[[Any], Any]) -> Extreme:
+    def lowest(self, f: Callable[[Any], Value]) -> Extreme:
         """The least value of ``f`` of one of both cams, wherever it pushes."""
         return _smaller(*(curve.lowest(f) for curve in self.curves.values()))
 
@@ -207,9 +208,9 @@ class ConjugatePairAnalysis:
 class _Pushing:
     """A curve of a cam where that cam pushes."""
 
-    curve: Callable[[Any], Any]
+    curve: Callable[[Any], Value]
 
-    def __call__(self, analysis: Any) -> Any:
+    def __call__(self, analysis: CamAnalysis) -> Array:
         return np.where(analysis.contact_force >= 0, self.curve(analysis), -np.inf)
 
 
@@ -223,12 +224,12 @@ def _smaller(one: Extreme, other: Extreme) -> Extreme:
     return Extreme(*(np.where(first, x, y)[()] for x, y in zip(one, other, strict=True)))
 
 
-def _half_turn(body: Any) -> Any:
+def _half_turn(body: Body) -> Body:
     """A part of the second cam of a sliding follower as it stands in the machine."""
     return replace(body, x=-np.asarray(body.x), y=-np.asarray(body.y), angle=body.angle + np.pi)
 
 
-def _mirror(body: Any) -> Any:
+def _mirror(body: Body) -> Body:
     """A part of the second cam of a rocking follower as it stands in the machine."""
     points = {"points": body.points * np.array([[1.0], [-1.0]])} if isinstance(body, Outline) else {}
     return replace(body, y=-np.asarray(body.y), angle=-np.asarray(body.angle), **points)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -94,7 +93,7 @@ class RollerAnalysis(CamAnalysis):
         found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius, self.rough)
         return np.where(number(motion.periodic) & np.isfinite(found), np.inf, found)[()]
 
-    def contact_point(self, flank: Any = 1) -> np.ndarray:
+    def contact_point(self, flank: Value = 1) -> np.ndarray:
         """Where the roller touches the inner flank (+1) or the outer one (-1), machine's frame, m."""
         away = flank * self.cam.roller_radius
         (x, y), (across, along) = self.roller_centre, self.normal
@@ -106,7 +105,7 @@ class RollerAnalysis(CamAnalysis):
         return bool(getattr(self.cam, "groove", True))
 
     @property
-    def form_closed(self) -> Any:
+    def form_closed(self) -> Value:
         """Whether the groove alone holds the roller: there is no spring."""
         if not self.groove:
             return False
@@ -153,9 +152,9 @@ class RollerAnalysis(CamAnalysis):
         return flank if self.groove else np.full_like(flank, np.nan)
 
 
-def _convex(analysis: Any) -> Array:
+def _convex(analysis: RollerAnalysis) -> Array:
     return analysis.curvature
 
 
-def _concave(analysis: Any) -> Array:
+def _concave(analysis: RollerAnalysis) -> Array:
     return -analysis.curvature

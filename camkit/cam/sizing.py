@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
+from ..extrema import Extreme
 from ..quantities import fails
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
@@ -36,7 +36,7 @@ def refuse_radius(limit: Value) -> None:
         raise ValueError(f"the least radius wanted is {radius / mm:.4g} mm; it must be at most {LARGEST / mm:.6g} mm")
 
 
-def if_possible(size: Any, drop: Any, excepted: Any = False) -> Value:
+def if_possible(size: Value, drop: Extreme, excepted: bool | Array = False) -> Value:
     """``size`` that keeps a least radius of curvature; ``nan`` in a population where the speed drops at once.
 
     ``drop`` is the largest such drop and where it is (see `CamAnalysis.corner`): the profile is cut away there,
@@ -51,7 +51,7 @@ def if_possible(size: Any, drop: Any, excepted: Any = False) -> Value:
     return np.where(possible, size, np.nan)[()]
 
 
-def min_from_which_on(keeps: Callable[[Any], Any], ample: Any) -> Array:
+def min_from_which_on(keeps: Callable[[Array], Value], ample: Array) -> Array:
     """The least size from which on up to ``ample`` every size keeps a limit, element by element.
 
     ``keeps`` says which sizes of an array do.  From ``ample`` downwards the largest that fails is found, then the

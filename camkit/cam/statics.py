@@ -8,13 +8,16 @@ the load.  All follows for a force of 1 N and is scaled afterwards, as everythin
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
 from ..quantities.types import Array, Value
 
-Vector = tuple[Any, Any]
+if TYPE_CHECKING:
+    from .analysis import CamAnalysis
+
+Vector = tuple[Value, Value] | Array
 ROUNDING = 1e-9
 """A support that bears less than this share of the forces bears nothing."""
 
@@ -28,10 +31,10 @@ class Bearing(Protocol):
     def share(self, point: Vector, force: Vector) -> Value:
         """What ``force`` in ``point`` does along the follower's motion after the bearing's friction."""
 
-    def least(self, load: object) -> Value:
+    def least(self, load: Value) -> Value:
         """What the follower resists with while nothing pushes it: ``load`` and the bearing's friction."""
 
-    def needed(self, point: Vector, force: Vector, load: object) -> Value:
+    def needed(self, point: Vector, force: Vector, load: Value) -> Value:
         """How many times ``force`` in ``point`` moves the follower against ``load``; ``inf`` where friction jams it."""
 
 
@@ -39,8 +42,8 @@ class Bearing(Protocol):
 class Pivot:
     """A rocking arm's pivot on the x axis; the arm's angle grows clockwise; its force touches a friction circle."""
 
-    distance: Any
-    velocity: Any
+    distance: Value
+    velocity: Array
     friction_circle: Value
 
     def velocity_at(self, point: Vector) -> Vector:
@@ -52,11 +55,11 @@ class Pivot:
         moment = point[1] * force[0] - (point[0] - self.distance) * force[1]
         return moment - np.sign(self.velocity) * self.friction_circle
 
-    def least(self, load: Any) -> Value:
+    def least(self, load: Value) -> Value:
         """The ``load``: a pivot that bears nothing does not rub."""
         return load
 
-    def needed(self, point: Vector, force: Vector, load: object) -> Value:
+    def needed(self, point: Vector, force: Vector, load: Value) -> Value:
         """``load`` over `share`, N per N."""
         return _pushing(load, self.share(point, force))
 
@@ -68,12 +71,12 @@ class Guide:
     ``across`` is the part of the follower's weight along +x, which acts in the middle of the guide, N.
     """
 
-    axis: Any
-    mouth: Any
-    length: Any
-    velocity: Any
-    coefficient: Any
-    across: Any = 0.0
+    axis: Value
+    mouth: Value
+    length: Value
+    velocity: Array
+    coefficient: Value
+    across: Value = 0.0
 
     def velocity_at(self, point: Vector) -> Vector:
         """Along the guide."""
@@ -92,13 +95,13 @@ class Guide:
     def share(self, point: Vector, force: Vector) -> Value:
         """Force along the guide less the friction at its ends, without the follower's weight."""
         top, bottom = self._ends(point, force)
-        return force[1] - self._rub * (abs(top) + abs(bottom))
+        return force[1] - self._rub * (np.abs(top) + np.abs(bottom))
 
-    def least(self, load: Any) -> Value:
+    def least(self, load: Value) -> Value:
         """``load`` and the friction of the weight across the guide."""
-        return load + self._rub * abs(self.across)
+        return load + self._rub * np.abs(self.across)
 
-    def needed(self, point: Vector, force: Vector, load: Any) -> Value:
+    def needed(self, point: Vector, force: Vector, load: Value) -> Value:
         """The least ``F >= 0`` with ``F y = load + mu (|F t - W / 2| + |F b + W / 2|)``, ``t, b`` borne by the ends.
 
         The sums are straight between the places where an end changes sides, so each pair of sides gives one ``F``,
@@ -110,12 +113,12 @@ class Guide:
             needed = _pushing(load + self._rub * half * (two - one), force[1] - self._rub * (one * top + two * bottom))
             with np.errstate(invalid="ignore"):
                 ends = one * (needed * top - half), two * (needed * bottom + half)
-                borne = np.minimum(*ends) >= -ROUNDING * (abs(needed) + abs(half))
+                borne = np.minimum(*ends) >= -ROUNDING * (np.abs(needed) + np.abs(half))
             best = np.where(borne, np.minimum(best, needed), best)
         return best
 
 
-def _pushing(load: Any, share: Any) -> Value:
+def _pushing(load: Value, share: Value) -> Value:
     """``load / share`` where that is a push; ``inf`` where it would have to pull."""
     with np.errstate(divide="ignore", invalid="ignore"):
         needed = load / share
@@ -125,11 +128,11 @@ def _pushing(load: Any, share: Any) -> Value:
 class Push(NamedTuple):
     """What a force of 1 N between cam and follower does."""
 
-    follower: Any
+    follower: Value
     """Along the follower's motion, N per N, or N m per N for an arm."""
-    cam: Any
+    cam: Value
     """Torque that turns the cam against it, N m per N."""
-    normal: Any
+    normal: Value
     """Its part along the contact normal."""
     point: Vector
     """Where it acts, machine's frame, m."""
@@ -137,7 +140,7 @@ class Push(NamedTuple):
     """The force itself, N per N."""
 
 
-def push(analysis: Any, flank: Any) -> Push:
+def push(analysis: CamAnalysis, flank: Value) -> Push:
     """A push by the inner flank (``flank`` +1) or by a groove's outer flank (-1), element by element."""
     x, y = point = analysis.contact_point(flank)
     (nx, ny), sigma = analysis.normal, analysis.cam.rotation
@@ -151,7 +154,7 @@ def push(analysis: Any, flank: Any) -> Push:
     return Push(analysis.bearing.share(point, force), torque, normal, point, force)
 
 
-def efficiency(analysis: Any, flank: Any) -> Array:
+def efficiency(analysis: CamAnalysis, flank: Value) -> Array:
     """Power out over power in with ``flank`` pushing; 0 where the follower rests or friction jams it.
 
     Where the follower moves with the push, the cam drives it; where it moves against the push, it drives the cam.
@@ -168,13 +171,13 @@ def efficiency(analysis: Any, flank: Any) -> Array:
 class Rubbing(NamedTuple):
     """Forces with friction; ``inf`` where friction jams the follower."""
 
-    contact_force: Any
+    contact_force: Value
     """Along the contact normal, N; < 0 at a groove's outer flank."""
-    cam_torque: Any
+    cam_torque: Value
     """N m."""
 
 
-def rubbing(analysis: Any) -> Rubbing:
+def rubbing(analysis: CamAnalysis) -> Rubbing:
     """The forces that the load on the follower calls for: by the inner flank, or the outer one where it pulls."""
     Q = analysis.resistance
     flank = np.where(analysis.bearing.least(Q) < 0, -1.0, 1.0)

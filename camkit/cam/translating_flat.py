@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -64,7 +64,7 @@ class TranslatingFlatCam(Design):
         return 0.0
 
     @property
-    def start_height(self) -> Any:
+    def start_height(self) -> Value:
         """Height of the face at the motion's level 0: the base radius, m."""
         return self.base_radius
 
@@ -72,7 +72,7 @@ class TranslatingFlatCam(Design):
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
         return over_the_motion(TranslatingFlatAnalysis, self, n)
 
-    def base_radius_for(self, *, min_radius: Any) -> Value:
+    def base_radius_for(self, *, min_radius: Value) -> Value:
         """Least base radius with which no radius of curvature is below ``min_radius``: ``rho - s - w``, m.
 
         ``ValueError`` (``nan`` in a population) where the follower's speed drops at once: none keeps it there.
@@ -86,7 +86,7 @@ class TranslatingFlatCam(Design):
         size = min_radius - lowest(analysis, lambda at: at.motion.s + at.acceleration).value
         return if_possible(size, analysis.corner(-1))
 
-    def conjugate(self, distance: Any) -> TranslatingFlatCam:
+    def conjugate(self, distance: Value) -> TranslatingFlatCam:
         """The second cam of a pair: it carries a second face below the cam axis, ``distance`` from the first.
 
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.
@@ -136,11 +136,11 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         """The contact normal: along the travel."""
         return np.stack([0.0 * self.height, 1.0 + 0.0 * self.height])
 
-    def contact_point(self, flank: int = 1) -> np.ndarray:
+    def contact_point(self, flank: Value = 1) -> np.ndarray:
         """Where face and cam touch, machine's frame, m: ``(sigma v, r_0 + s)``; ``nan`` for an outer flank."""
         return np.stack(np.broadcast_arrays(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank)))
 
-    def _on(self, flank: Any) -> Value:
+    def _on(self, flank: Value) -> Value:
         return np.where(np.greater(flank, 0), self.height, np.nan)
 
     @cached_property
@@ -149,7 +149,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         return self.contact_point()[0] - self.cam.offset
 
     @cached_property
-    def face_reach(self) -> tuple[Array, Array]:
+    def face_reach(self) -> tuple[Value, Value]:
         """How far the face has to reach to either side of the follower's axis: least and largest offset, m."""
         return self.lowest(lambda at: at.contact_offset).value, self.highest(lambda at: at.contact_offset).value
 

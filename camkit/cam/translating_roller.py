@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -92,7 +92,7 @@ class TranslatingRollerCam(Design):
         """Geometry and forces at ``n`` cam angles over the motion's whole span."""
         return over_the_motion(TranslatingRollerAnalysis, self, n)
 
-    def base_radius_for(self, *, pressure_angle: Any = None, min_radius: Value | None = None) -> Value:
+    def base_radius_for(self, *, pressure_angle: Value | None = None, min_radius: Value | None = None) -> Value:
         """Least base radius from which on every larger one keeps the limits that are given, m.
 
         ``pressure_angle``: its largest size, rad; ``h >= |v - sigma e| / tan(alpha)`` everywhere.
@@ -126,7 +126,7 @@ class TranslatingRollerCam(Design):
             return size
         return if_possible(size, analysis.corner(-1), (r == 0) & (np.asarray(min_radius) == 0))
 
-    def conjugate(self, distance: Any, roller_radius: Value | None = None) -> TranslatingRollerCam:
+    def conjugate(self, distance: Value, roller_radius: Value | None = None) -> TranslatingRollerCam:
         """The second cam of a pair: it carries a roller below the cam axis, ``distance`` from the first one's centre.
 
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.
@@ -201,7 +201,7 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
         h, g, size = self.height, self.across, self._size
         return (h * h - h * self.acceleration + g * (g + self.velocity)) / (size * size * size)
 
-    def height_for(self, min_radius: Any) -> np.ndarray:
+    def height_for(self, min_radius: Value) -> np.ndarray:
         """Height ``h`` from which on the profile is nowhere more convex than ``min_radius``, angle by angle, m.
 
         ``kappa <= (h^2 + h |w| + |c|) / h^3`` with ``c = (v - sigma e)(2 v - sigma e)``; from the ``ample`` height on

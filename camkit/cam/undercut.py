@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.types import Array
 from ..units import deg, mm
 from .flank import Cut
 
@@ -56,7 +57,7 @@ def _flanks(curve: object, name: str) -> Iterator[str]:
             yield f"{flank}{of} at {float(cam_angle) / deg:.4g} deg{deep}"
 
 
-def _margins(curve: Any) -> dict[str, tuple[Any, Any]]:
+def _margins(curve: Any) -> dict[str, tuple[Array, Array]]:
     """Least convex radius (m) of each flank, and the cam angle at which it stands."""
     if hasattr(curve, "min_radius_angle"):
         return {f"the {ONLY}": (curve.min_radius, curve.min_radius_angle)}

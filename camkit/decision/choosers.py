@@ -53,9 +53,10 @@ def _chosen(merit: np.ndarray) -> Any:
     return best if best.ndim else int(best)
 
 
-def _whatever_the_weights(index: int, weights: Any, k: int) -> Any:
+def _whatever_the_weights(index: int, weights: object, k: int) -> Any:
     """The same design for every set of weights."""
-    return index if _weights(weights, k).ndim == 1 else np.full(len(weights), index)
+    w = _weights(weights, k)
+    return index if w.ndim == 1 else np.full(len(w), index)
 
 
 def normalised(f: object) -> np.ndarray:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from ..quantities.kinds import shown
 from .ahp import SAATY_SCALE, ahp, judged_weights
 from .choosers import objectives_of, weighted_sum
 
-Chooser = Callable[[object, object], Any]
+Chooser = Callable[[object, object], int | np.ndarray]
 
 LEAST, MOST = SAATY_SCALE[0], SAATY_SCALE[-1]
 STEPS = 100

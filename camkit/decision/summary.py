@@ -98,7 +98,7 @@ def side_by_side(
     designs: Mapping[str, Any],
     measures: Sequence[Measure] = (),
     study: Study | None = None,
-    analyses: Sequence[Any] | None = None,
+    analyses: Sequence[object] | None = None,
 ) -> SideBySide:
     """Designs of one kind in columns: first the quantities in which they differ, then their measures.
 
@@ -136,7 +136,7 @@ def _senses(study: Study | None) -> dict[Measure, int]:
     return goals | {m: sense for m, _, sense in study.limits if m not in goals}
 
 
-def _differences(designs: Sequence[Any]) -> list[Line]:
+def _differences(designs: Sequence[object]) -> list[Line]:
     """Quantities that are not the same in all designs."""
     trees = [declared_in(design) for design in designs]
     lines = []
@@ -150,7 +150,12 @@ def _differences(designs: Sequence[Any]) -> list[Line]:
     return lines
 
 
-def _measured(measure: Measure, analyses: Sequence[Any], senses: Mapping[Measure, int], limits: Any) -> Line:
+def _measured(
+    measure: Measure,
+    analyses: Sequence[object],
+    senses: Mapping[Measure, int],
+    limits: Mapping[Measure, tuple[float, int]],
+) -> Line:
     """A measure of all designs; those that read like the best are best, unless all read alike."""
     values = np.array([measure.one(analysis) for analysis in analyses])
     texts = tuple(measure.text(value) for value in values)

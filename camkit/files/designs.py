@@ -40,7 +40,7 @@ def write(thing: object, path: str | Path) -> None:
     write_whole(path, text.encode())
 
 
-def _path(path: Any) -> Path:
+def _path(path: str | os.PathLike[str]) -> Path:
     """The path of a file that the system can name."""
     try:
         name = os.fspath(path)
@@ -55,7 +55,7 @@ def read(
     path: str | Path,
     kind: type | None = None,
     measures: Sequence[Measure] = (),
-    tell: Callable[[str], Any] = print,
+    tell: Callable[[str], object] = print,
 ) -> Any:
     """Read a design, a front or a `Session` from a JSON file; ``tell`` is called with each remark.
 
@@ -89,7 +89,7 @@ def to_json(thing: Any) -> str:
     return text
 
 
-def _content(thing: object) -> dict[str, Any]:
+def _content(thing: object) -> dict[str, object]:
     if isinstance(thing, Design):
         return {"design": entry_of(thing)}
     if isinstance(thing, Session):

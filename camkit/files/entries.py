@@ -30,7 +30,7 @@ MOST_THINGS = 500
 """Entries that are objects themselves, such as the segments of a program."""
 
 
-def key(name: str, declared: Any) -> str:
+def key(name: str, declared: object) -> str:
     """A field's name in a file: with its unit."""
     return f"{name} [{declared.unit}]" if isinstance(declared, Quantity) and declared.unit else name
 
@@ -47,7 +47,7 @@ def exact_in_unit(value: float, unit: str) -> float:
     return min(tried, key=lambda number: abs(number * si - value))
 
 
-def entry_of(thing: object, where: str = "value") -> Any:
+def entry_of(thing: object, where: str = "value") -> object:
     """A value as JSON knows it; ``where`` names it in the refusal of what no file can hold."""
     if isinstance(thing, (np.generic, np.ndarray)) and np.ndim(thing) == 0:
         return thing.item()
@@ -89,7 +89,7 @@ def _refuse_namesake(kind: type, read: type, where: str) -> None:
         )
 
 
-def _field_entry(value: Any, declared: Any, where: str) -> Any:
+def _field_entry(value: Any, declared: object, where: str) -> object:
     if isinstance(declared, Quantity):
         if np.ndim(value):
             raise ValueError("this is a population; one design can be saved")
@@ -157,7 +157,7 @@ class Reading:
         except (TypeError, AttributeError, IndexError, ArithmeticError):
             raise ValueError(f"the file is damaged: no {kind_words(kind)} can be built of what it says") from None
 
-    def _kind(self, entry: Mapping[str, Any], hint: object) -> type:
+    def _kind(self, entry: Mapping[str, object], hint: object) -> type:
         """The class that an entry names: a known one, or one that its field is annotated with."""
         known, name = kinds() | {k.__name__: k for k in _classes(hint)}, entry.get("kind")
         if not isinstance(name, str):
@@ -212,13 +212,13 @@ class Reading:
             for k, given in entries.items()
         }
 
-    def lacks(self, name: str, kind: str, of: Field[Any]) -> None:
+    def lacks(self, name: str, kind: str, of: Field[object]) -> None:
         """A field that is not in the file takes its default, if it has one."""
         if of.default is MISSING and of.default_factory is MISSING:
             raise ValueError(f"the file lacks {name!r} of the {kind}")
         self.missing.append(f"{name!r} of the {kind}")
 
-    def _field(self, given: Given, of: Field[Any], declared: object, hint: object) -> Any:
+    def _field(self, given: Given, of: Field[object], declared: object, hint: object) -> Any:
         if isinstance(declared, (Quantity, Choice)):
             return self._declared(given, declared)
         value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
@@ -256,7 +256,7 @@ def _unknown(name: str, kind: type) -> ValueError:
     return ValueError(f"the file has {shown(name)}, which {kind_words(kind, article=True)} does not have")
 
 
-def _refuse_both(entry: Mapping[str, Any], deeper: Mapping[str, Given]) -> None:
+def _refuse_both(entry: Mapping[str, object], deeper: Mapping[str, Given]) -> None:
     """What stands both under an earlier name and, deeper in the file, where it stands today."""
     for path, given in deeper.items():
         if _says(entry, path):
@@ -272,7 +272,7 @@ def _says(entry: object, path: str) -> bool:
     return step in entry and _says(entry[step], below + bracket + unit) if dot else path in entry
 
 
-def is_number(value: Any) -> bool:
+def is_number(value: object) -> bool:
     """Whether a file gives a number; true and false are none."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
@@ -293,7 +293,7 @@ def fits(value: Any, hint: object) -> bool:
     >>> fits(((0.0, 1.0),), tuple[tuple[float, float], ...]), fits(((),), tuple[tuple[float, float], ...])
     (True, False)
     """
-    origin: Any = get_origin(hint)
+    origin: object = get_origin(hint)
     inner = get_args(hint)
     if hint in (Any, float):
         return is_number(value)

@@ -45,7 +45,7 @@ _BRACKETS = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"|([][{}])')
 _DIGEST = re.compile(r'"digest":"[^"]*",?')
 
 
-def signed(content: dict[str, Any]) -> str:
+def signed(content: dict[str, object]) -> str:
     """``content`` as JSON text with its digest, the first entry (its schema) before it."""
     first, *rest = content
     text = json.dumps({first: content[first], "digest": "", **{k: content[k] for k in rest}}, indent=1, allow_nan=False)
@@ -116,7 +116,7 @@ def _encoding(said: str) -> str:
     return f"the file is written {said}; save it as UTF-8"
 
 
-def _parsed(text: str) -> Any:
+def _parsed(text: str) -> object:
     """The JSON of a text, each name once, each number finite and of a sane size, nothing nested too deeply."""
     if text.count(",") > MOST_ENTRIES:
         raise ValueError(f"the file has more than {MOST_ENTRIES} entries; no saved design or study has")
@@ -157,8 +157,8 @@ def _constant(text: str) -> float:
     raise ValueError(f"the file is damaged: it says {text}; every number must be finite")
 
 
-def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _each_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    found: dict[str, object] = {}
     for name, value in pairs:
         if name in found:
             raise ValueError(f"the file is damaged: it says {shown(name)} twice")

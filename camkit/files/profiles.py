@@ -13,6 +13,7 @@ from ..cam.flank import flanks
 from ..cam.undercut import INNER, ONLY, OUTER, undercut_in_words
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.markup import csv_cell
+from ..quantities.types import Array
 from ..units import in_unit
 
 FAULT = "FAULT"
@@ -21,7 +22,7 @@ TEXT = 2.5
 """Height of the sentence on that layer, mm."""
 
 
-def table_csv(columns: Mapping[str, Sequence[Any]]) -> str:
+def table_csv(columns: Mapping[str, Sequence[object] | Array]) -> str:
     """Columns of numbers (in the units that their headings name) or words as CSV text, numbers with six decimals.
 
     >>> print(table_csv({"cam angle [deg]": [0, 1], "lift [mm]": [0.0, 1 / 3]}), end="")
@@ -43,7 +44,7 @@ def table_csv(columns: Mapping[str, Sequence[Any]]) -> str:
     return out.getvalue()
 
 
-def profile_csv(analysis: object) -> str:
+def profile_csv(analysis: Any) -> str:
     """The profile of a cam as CSV text, a row for each cam angle, units in the heading.
 
     Of an analysis that covers a part of the cam it takes the ``whole``.  Where the cam is undercut, the flank is what
@@ -69,7 +70,7 @@ def _one_cam(analysis: Any) -> Any:
     return analysis
 
 
-def _profile_columns(analysis: Any) -> dict[str, Any]:
+def _profile_columns(analysis: Any) -> dict[str, Array]:
     made = flanks(analysis)
     columns = {"stretch": list(analysis.stretch), "cam_angle_deg": in_unit(analysis.profile_angle, "deg")}
     columns |= _point_columns({"pitch": analysis.pitch, **made.points})
@@ -82,7 +83,7 @@ def _profile_columns(analysis: Any) -> dict[str, Any]:
     return columns
 
 
-def _point_columns(curves: Mapping[str, np.ndarray]) -> dict[str, Any]:
+def _point_columns(curves: Mapping[str, np.ndarray]) -> dict[str, Array]:
     """Two columns for each curve, in mm, but for a curve that is not there."""
     return {
         f"{name.replace(' ', '_')}_{axis}_mm": in_unit(values, "mm")

@@ -94,7 +94,7 @@ class Renaming:
             )
         return now
 
-    def entries(self, where: str, entries: Mapping[str, Any]) -> dict[str, Given]:
+    def entries(self, where: str, entries: Mapping[str, object]) -> dict[str, Given]:
         """The entries of a file by their names of today; those of one quantity by two names are refused.
 
         >>> found = Renaming().entries("DoorHandleCam", {"handle_speed [deg/s]": 90.0})["lift_load.speed [rpm]"]

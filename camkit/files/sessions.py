@@ -24,7 +24,7 @@ COUNTS = {"population": (1, 100_000), "generations": (1, 1_000_000), "designs": 
 """What a file may say of a search."""
 
 NEEDED = ("start", "free", "minimise")
-DEFAULTS: dict[str, Any] = {
+DEFAULTS: dict[str, object] = {
     "columns": [],
     "at_most": {},
     "at_least": {},
@@ -65,13 +65,13 @@ class Session:
             object.__setattr__(self, "front", empty_front(self.study))
 
 
-def empty_front(study: Study, message: str = "", record: Mapping[str, Any] | None = None) -> Front:
+def empty_front(study: Study, message: str = "", record: Mapping[str, object] | None = None) -> Front:
     """The front of a study for which nobody has searched."""
     none = np.zeros((0, len(study.minimise)))
     return Front(study, np.zeros((0, len(study.free))), none, message, record or {})
 
 
-def session_entry(session: Session) -> dict[str, Any]:
+def session_entry(session: Session) -> dict[str, object]:
     """A session as JSON knows it."""
     judged = session.judgements.items()
     return {
@@ -82,7 +82,7 @@ def session_entry(session: Session) -> dict[str, Any]:
     }
 
 
-def front_entry(front: Front, study: Study) -> dict[str, Any]:
+def front_entry(front: Front, study: Study) -> dict[str, object]:
     """A front of a study as JSON knows it."""
     return {
         **study_entry(study),
@@ -92,7 +92,7 @@ def front_entry(front: Front, study: Study) -> dict[str, Any]:
     }
 
 
-def entries(entry: object, held: str, reading: Reading) -> dict[str, Any]:
+def entries(entry: object, held: str, reading: Reading) -> dict[str, object]:
     """All entries of a study, those that are lacking with their defaults."""
     given, known = mapping(entry, held), {*NEEDED, *DEFAULTS, *SESSION, "message"}
     known -= SESSION if held == "front" else set()
@@ -106,7 +106,7 @@ def entries(entry: object, held: str, reading: Reading) -> dict[str, Any]:
     return DEFAULTS | given
 
 
-def session_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Measure]) -> Session:
+def session_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[Measure]) -> Session:
     """The session that `session_entry` wrote, or a front alone; the objectives of its front are computed anew."""
     study = study_of(entry, reading, measures)
     reading.held.clear()  # another design
@@ -124,7 +124,7 @@ def session_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Me
     return Session(study, design, judgements, search, front)
 
 
-def _front(study: Study, entry: Mapping[str, Any], reading: Reading) -> Front:
+def _front(study: Study, entry: Mapping[str, object], reading: Reading) -> Front:
     x, record, said = x_of(entry, study, reading), _record(entry["record"]), message(entry.get("message", ""))
     if not len(x):
         return empty_front(study, said, record)
@@ -144,7 +144,7 @@ def left_out(told: int, kept: int) -> list[str]:
     return [f"{told - kept} of its {told} designs miss a limit or are dominated and were left out"]
 
 
-def _setting(name: str, value: object, renaming: Renaming) -> Any:
+def _setting(name: str, value: object, renaming: Renaming) -> object:
     if name in COUNTS and name in SETTINGS:
         return whole(value, f"the file's {name!r}", *COUNTS[name])
     if name not in SETTINGS or not isinstance(value, SETTINGS[name]):
@@ -168,7 +168,7 @@ def _judged(name: str, entry: object, method: object = None) -> Judgements:
         raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
 
 
-def _record(entry: object) -> dict[str, Any]:
+def _record(entry: object) -> dict[str, object]:
     """The record of a search by NSGA-II, or of a quick front, which has no seed."""
     if entry == {}:
         return {}

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..quantities import Design, Measure, measures_of, quantities_of
 from ..quantities.kinds import kind_words, one_number, shown, whole
+from ..quantities.types import Array
 from ..study.study import Study, WeightedSum, refuse_bounds, weighted
 from ..units import factor
 from .checks import all_numbers, listed, mapping, plain
@@ -27,7 +28,7 @@ MOST_POINTS = 5_000_000
 """Designs of a front times angles of each: more do not fit into the memory of a small machine at once."""
 
 
-def study_entry(study: Study) -> dict[str, Any]:
+def study_entry(study: Study) -> dict[str, object]:
     """A study as JSON knows it."""
     _refuse_namesakes(study)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
@@ -49,13 +50,13 @@ def study_entry(study: Study) -> dict[str, Any]:
     }
 
 
-def rows(study: Study, x: Any) -> list[list[float]]:
+def rows(study: Study, x: Array) -> list[list[float]]:
     """The designs of a front, each a row of free values in their units."""
     units = [q.unit for q in study.declared.values()]
     return [[exact_in_unit(v, unit) for unit, v in zip(units, row, strict=True)] for row in x]
 
 
-def study_of(entry: Mapping[str, Any], reading: Reading, measures: Sequence[Measure]) -> Study:
+def study_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[Measure]) -> Study:
     """The study that `study_entry` wrote; ``measures`` are those of one's own that it may have."""
     start = reading.thing(entry["start"])
     if not isinstance(start, Design):
@@ -110,7 +111,7 @@ def _bounds(start: object, path: str, given: Given, scale: float) -> tuple[float
     return bounds
 
 
-def x_of(entry: Mapping[str, Any], study: Study, reading: Reading) -> np.ndarray:
+def x_of(entry: Mapping[str, object], study: Study, reading: Reading) -> np.ndarray:
     """The free values of a front, SI."""
     n, rows = len(study.free), listed(entry["front"], "front")
     if not all(isinstance(row, list) and len(row) == n and all(map(is_number, row)) for row in rows):
@@ -145,7 +146,7 @@ def _declared_measures(start: object) -> dict[str, Measure]:
     return {_key(m): m for m in measures_of(start)}
 
 
-def _made(k: str, entry: Given, start: Any) -> Measure:
+def _made(k: str, entry: Given, start: Design) -> Measure:
     """A measure that one of the mechanism's makers makes of numbers and words."""
     name, *given = listed(entry.value, entry.name) or [None]
     how = type(start).makers.get(name) if isinstance(name, str) else None
@@ -158,7 +159,7 @@ def _made(k: str, entry: Given, start: Any) -> Measure:
     return measure
 
 
-def _given(value: object) -> Any:
+def _given(value: object) -> object:
     if isinstance(value, list):
         return tuple(all_numbers(value, "made", len(value)))
     return value if is_number(value) else plain(value)
@@ -188,7 +189,7 @@ def _relative_key(measure: Measure, known: Mapping[str, Measure]) -> str:
     return _key(measure) if measure.sign == declared else f"-{_key(measure)}"
 
 
-def _objective_entry(measure: Measure, known: Mapping[str, Measure]) -> Any:
+def _objective_entry(measure: Measure, known: Mapping[str, Measure]) -> object:
     if not isinstance(measure, WeightedSum):
         return _key(measure) if measure.sign > 0 else f"-{_key(measure)}"
     parts = [_relative_key(p, known) for p in measure.parts]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -21,7 +20,7 @@ class Cross:
     ``angle`` is ``beta``, ``input_angle`` is ``phi``, both rad.  ``nan`` where ``beta`` is not in 0 .. 90 deg.
     """
 
-    angle: Any
+    angle: Value
     input_angle: Value
 
     @cached_property

@@ -24,12 +24,12 @@ NEAR, SAME = 1e-5, 1e-14
 """By what share no rounding displaces a zero, and what of the parts of a difference is 0 but for rounding."""
 
 
-def reaches(a: Value, b: Any, k: Any) -> Array:
+def reaches(a: Array, b: Array, k: Array) -> Array:
     """Whether ``a sin(x) + b cos(x) + k = 0`` has a solution, rounding forgiven."""
     return a**2 + b**2 - k**2 >= -ROUNDING * (1 + k**2)
 
 
-def harmonics(function: Callable[[Any], Any]) -> np.ndarray:
+def harmonics(function: Callable[[Array], Array]) -> np.ndarray:
     """``c_0, c_1, c_2, s_1, s_2`` of ``function``, ``(..., 5)``.
 
     >>> harmonics(lambda angle: 1 + 2 * np.cos(angle) + 3 * np.sin(2 * angle)).round(9) + 0
@@ -66,20 +66,20 @@ def _far_from_zero(c: np.ndarray) -> Array:
     return 2 * np.pi / 5 * np.argmax(abs(value(c, SAMPLES)), axis=-1, keepdims=True) - np.pi
 
 
-def _turned(c: np.ndarray, by: Array) -> tuple[Any, ...]:
+def _turned(c: np.ndarray, by: Array) -> tuple[Array, ...]:
     """The harmonics of the function of the angle beyond ``by``."""
     c0, c1, c2, s1, s2 = np.moveaxis(c, -1, 0)
     cos, sin, cos2, sin2 = np.cos(by), np.sin(by), np.cos(2 * by), np.sin(2 * by)
     return c0, c1 * cos + s1 * sin, c2 * cos2 + s2 * sin2, s1 * cos - c1 * sin, s2 * cos2 - c2 * sin2
 
 
-def _monic_quartic(c: tuple[Any, ...]) -> tuple[Any, ...]:
+def _monic_quartic(c: tuple[Array, ...]) -> tuple[Array, ...]:
     """Of ``(1 + t^2)^2`` times the function at ``angle = 2 arctan t``, over that of ``t^4``, of ``t^3`` first."""
     c0, c1, c2, s1, s2 = c
     return tuple(x / (c0 - c1 + c2) for x in (2 * s1 - 4 * s2, 2 * c0 - 6 * c2, 2 * s1 + 4 * s2, c0 + c1 + c2))
 
 
-def _real_zeros(a: Any, b: Any, c: Any, d: Any) -> Array:
+def _real_zeros(a: Array, b: Array, c: Array, d: Array) -> Array:
     """The real ``t`` at which ``t^4 + a t^3 + b t^2 + c t + d`` is 0, ``(..., 4)``; ``nan`` where there are fewer.
 
     Ferrari: with ``t = y - a / 4`` it is ``(y^2 + u)^2 - (m y - w)^2``, where ``u`` is the largest root of a cubic.
@@ -96,7 +96,7 @@ def _real_zeros(a: Any, b: Any, c: Any, d: Any) -> Array:
     return _newton(t, a, b, c, d)
 
 
-def _largest_root(a: Any, b: Any, c: Any) -> Array:
+def _largest_root(a: Array, b: Array, c: Array) -> Array:
     """The largest real ``x`` at which ``x^3 + a x^2 + b x + c`` is 0."""
     p, q = b / 3 - a * a / 9, (a * (2 / 27 * a * a - b / 3) + c) / 2
     several = q * q + p * p * p <= SAME * q * q

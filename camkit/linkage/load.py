@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Design, quantity
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class RockerLoad(Design):
     )
     gravity: float = quantity("g", 9.81, 0, 9.81, "m/s^2", "weight of a mass; 0: none", at_least=0)
 
-    def resisting_torque(self, rocker_angle: Any) -> Array:
+    def resisting_torque(self, rocker_angle: Value) -> Array:
         """Torque about the hinge, N m, positive where it resists a growing ``rocker_angle``."""
         weight = self.mass * self.gravity * np.sin(self.lean)
         return self.torque + weight * self.reach * np.sin(rocker_angle + self.mass_angle - self.downhill)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -13,13 +12,14 @@ from ..quantities.kinds import numbers, one_number, refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.residuals import SumOfResiduals
 from ..units import deg
+from .rssr_analysis import RSSRAnalysis
 from .space import Box
 
 TARGET = 30 * deg
 """The pressure angle that the paper aims at."""
 
 
-def departures(target: float = TARGET, weights: object = None) -> Callable[[Any], np.ndarray]:
+def departures(target: float = TARGET, weights: object = None) -> Callable[[RSSRAnalysis], np.ndarray]:
     """Pressure angles less ``target``, times the weight of their position: a function of an analysis, ``(..., 2n)``.
 
     The crank's come first, then the rocker's.  The paper's weights ``1 / f_j*`` divide by nothing where a position
@@ -32,7 +32,7 @@ def departures(target: float = TARGET, weights: object = None) -> Callable[[Any]
     if not (np.isfinite(w).all() and (w >= 0).all()):
         raise ValueError("the weights of the positions must be finite, none negative")
 
-    def of(analysis: Any) -> np.ndarray:
+    def of(analysis: RSSRAnalysis) -> np.ndarray:
         both = (analysis.crank_pressure_angle, analysis.rocker_pressure_angle)
         if w.size not in (1, np.shape(both[0])[-1]):
             raise ValueError(
@@ -63,7 +63,7 @@ def max_departure(target: float = TARGET, weights: object = None) -> Measure:
     return PeakMeasure(name, "deg", lambda a: np.concatenate([of(a), -of(a)], axis=-1), made=made)
 
 
-def _made(name: str, target: float, weights: object) -> tuple[Any, ...]:
+def _made(name: str, target: float, weights: object) -> tuple[object, ...]:
     return (name, float(target)) if weights is None else ()
 
 
@@ -83,7 +83,7 @@ def clearance_from(box: Box) -> Measure:
     refuse_arguments(clearance_from, locals())
     made = ("clearance from", tuple(box.low), tuple(box.high), box.name)
 
-    def clearance(analysis: Any) -> Array:
+    def clearance(analysis: RSSRAnalysis) -> Array:
         return box.clearance(analysis.chain[:, :-1], analysis.chain[:, 1:]).min((0, -1))
 
     return Measure(f"clearance from {box.name}", "mm", clearance, made=made)

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from typing import Any
 
 import numpy as np
 
@@ -34,7 +33,7 @@ def _angles(crank_angle: Value) -> np.ndarray:
     return angles if certain(np.isfinite(angles)) else np.where(np.isfinite(angles), angles, np.nan)
 
 
-def _vector(*components: Any) -> np.ndarray:
+def _vector(*components: Value) -> np.ndarray:
     return np.stack(np.broadcast_arrays(*components))
 
 
@@ -55,7 +54,7 @@ class Links(Design):
     axis_angle: float = quantity("L", 90, 0, 180, "deg", "between both axes", above=None)
 
     @property
-    def sizes(self) -> tuple[Any, ...]:
+    def sizes(self) -> tuple[float, ...]:
         """``l_1, l_2, l_3, s_0, s_3, h_0, L``."""
         lengths = (self.crank, self.coupler, self.rocker, self.crank_offset, self.rocker_offset, self.axis_distance)
         return *lengths, self.axis_angle

@@ -69,7 +69,7 @@ class CamLever(FreeLawCam):
     stroke: float = quantity("h", 18, 5, 40, "mm", "stroke of the slider")
     slider_distance: float = quantity("A", 525, 400, 700, "mm", "cam axis to slider, level")
     pivot_height: float = quantity("B", 180, 50, 300, "mm", "cam axis to lever pivot, upright")
-    force_curve: Table | Callable[[Any], Any] = ()
+    force_curve: Table | Callable[[Value], Value] = ()
 
     offers: ClassVar[tuple[str, ...]] = ("bodies", "motion", "pressure_angle", "stress", "wear", "pressure", "way")
     """The shapes and curves that are shown of its analysis where nobody chooses, in this order."""
@@ -106,16 +106,16 @@ class CamLever(FreeLawCam):
             )
 
     @property
-    def swing(self) -> Any:
+    def swing(self) -> float:
         """Of the lever: ``2 arcsin(h / 2x)``, rad."""
         return 2 * np.arcsin(self.stroke / (2 * self.lever))
 
     @property
-    def inertia(self) -> Any:
+    def inertia(self) -> float:
         """``J = j x^2`` of the lever, kg m^2."""
         return self.lever_mass * self.lever**2
 
-    def force(self, way: Any) -> Any:
+    def force(self, way: Value) -> Value:
         """``P``: of the work on the slider at its ``way`` from the lowest position, N."""
         own = self.force_curve(way) if callable(self.force_curve) else tabulated(self.force_curve, way)
         return self.slider_force + own + 0.0 * way
@@ -168,16 +168,16 @@ def _mirror(points: Value) -> np.ndarray:
     return np.reshape([1.0, -1.0], (2,) + (1,) * (np.ndim(points) - 1))
 
 
-def _mirrored(part: Any, down: Any) -> Body:
+def _mirrored(part: Any, down: Value) -> Body:
     """A part of the cam turned over, so that the arm lies under it."""
     return replace(part, points=part.points * _mirror(part.points), angle=down - part.angle)
 
 
-def _slowing(part: Any) -> Array:
+def _slowing(part: HighSpeedAnalysis) -> Array:
     return -part.acceleration
 
 
-def _closing(analysis: Any) -> Any:
+def _closing(analysis: HighSpeedAnalysis) -> Array:
     """``-J omega^2 psi'' / (G x)`` over rise and fall: what the lever's inertia takes of the closing weight."""
     press = analysis.machine
     return press.inertia * press.shaft_speed**2 * analysis.tops(_slowing) / (press.weight * press.lever)

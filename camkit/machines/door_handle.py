@@ -8,6 +8,7 @@ Source: Gong, Liu, He, Nanjing University of Aeronautics and Astronautics, 2025 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -104,7 +105,7 @@ class DoorHandleCam(Design):
         self._keep(shares & fits & reaches)
 
     @property
-    def lift_cam_angle(self) -> Any:
+    def lift_cam_angle(self) -> Value:
         """Handle angle over which the lift crank swings."""
         return self.handle_angle - self.relief_cam_angle
 
@@ -160,7 +161,7 @@ class DoorHandleCam(Design):
         )
 
     @cached_property
-    def relief_direction(self) -> Array:
+    def relief_direction(self) -> Value:
         """Direction from the cam axis to the relief pivot; the lift pivot is at 0, the cam turns with growing angle.
 
         It follows from the order of the stretches: the transition arc ends where the lift curve begins, when
@@ -337,7 +338,7 @@ def lift_curve_study(
     return study.freeing(space) if space else study
 
 
-def _effort(of: Any, reference: DoorHandleCam, weights: object) -> Measure:
+def _effort(of: Mapping[Measure, Measure], reference: DoorHandleCam, weights: object) -> Measure:
     """The weighted sum of pressure angle, force and torque, each over its value at ``reference``."""
     parts = [of[measure] for measure in EFFORT]
     weights = listed(weights, "the weights", "part of the effort")

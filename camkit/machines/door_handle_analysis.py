@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,10 @@ from ..cam.analysis import OFFERS
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..cam.undercut import undercut_in_words
 from ..geometry import Body, end_to_end, rotated
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
+
+if TYPE_CHECKING:
+    from .door_handle import DoorHandleCam
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class DoorHandleAnalysis:
     offers: ClassVar[tuple[str, ...]] = OFFERS
     """The shapes and curves that are shown of it where nobody chooses: those of each of its curves."""
 
-    cam: Any
+    cam: DoorHandleCam
     cam_angle: np.ndarray
     k: int
     rough: bool = field(default=False, kw_only=True)
@@ -138,11 +141,11 @@ class DoorHandleAnalysis:
         return self._along("curvature")
 
     @cached_property
-    def groove_gap(self) -> Any:
+    def groove_gap(self) -> Value:
         """Least width of the wall between two parts of the whole groove, m; below 0 they merge (see `groove.gap`)."""
         cam, after = self.cam, self.cam.lift_cam_angle
 
-        def path(place: Any) -> np.ndarray:
+        def path(place: Array) -> np.ndarray:
             """The relief roller's way over the handle angle, then the lift roller's over its own."""
             lift = place - after
             relief = self.from_relief(self.relief.at(np.minimum(place, cam.handle_angle)).pitch)

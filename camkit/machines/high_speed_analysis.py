@@ -28,7 +28,7 @@ AWAY, BACK = 0, 2
 """The segments of the motion in which the arm swings, by their numbers."""
 
 
-def inverse_root(ease: Any) -> Array:
+def inverse_root(ease: Array) -> Array:
     """``ease ** -0.5``; ``nan`` where it is not above 0."""
     return np.where(ease > 0, ease, np.nan) ** -0.5
 
@@ -101,7 +101,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         moving: HighSpeedAnalysis = self._part(AWAY, BACK) if self is self.resolved else self.resolved.moving
         return moving
 
-    def tops(self, curve: Callable[[Any], Any], but: Value = False) -> np.ndarray:
+    def tops(self, curve: Callable[[HighSpeedAnalysis], Array], but: Value = False) -> np.ndarray:
         """``curve(part)`` over rise and fall, at the cam angles of `moving`, each peak that counts raised to its top.
 
         Not so exactly of those members of a population for which ``but`` holds.
@@ -114,11 +114,11 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return found[curve]
 
     @cached_property
-    def _tops(self) -> dict[Callable[[Any], Any], np.ndarray]:
+    def _tops(self) -> dict[Callable[[HighSpeedAnalysis], Array], np.ndarray]:
         """What `tops` has found."""
         return {}
 
-    def _near(self, curve: Callable[[Any], Any], at: Value, x: Any) -> Array:
+    def _near(self, curve: Callable[[HighSpeedAnalysis], Array], at: Value, x: Array) -> Array:
         """``curve`` at ``x`` steps, ``(k, m)``, beside those of its cam angles that have the flat index ``at``."""
         row, column = np.divmod(at, self.cam_angle.shape[-1])
         left = column[:, None] - ((x <= 0) & (x < 0).any(-1, keepdims=True))
@@ -137,7 +137,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """``M``: torque about the arm's pivot that the cam has to overcome, N m."""
         return self._torque(self.motion, self.cam.speed)
 
-    def _torque(self, motion: Kinematics, speed: Any) -> np.ndarray:
+    def _torque(self, motion: Kinematics, speed: Value) -> np.ndarray:
         """What the load resists a motion with at a share of the rated speed, N m."""
         return self.cam.load.resisting_torque(motion, self.cam.swing, self._rate, speed)
 
@@ -152,18 +152,18 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return self._torque(self.motion, 0.0)
 
     @cached_property
-    def inertia(self) -> Any:
+    def inertia(self) -> Array:
         """``J omega_0^2``: torque at the rated speed for an acceleration of 1 rad by cam angle squared, N m."""
         return self._torque(self.motion._replace(a=self.motion.a + 1), 1.0) - self._torque(self.motion, 1.0)
 
     @property
-    def preload(self) -> Any:
+    def preload(self) -> Value:
         """Torque of the closing spring before the arm moves, N m; 0 if the load has none."""
         preload = getattr(self.cam.load, "preload", None)
         return preload(self.cam.swing, self._rate) if preload else 0.0
 
     @property
-    def way(self) -> Any:
+    def way(self) -> Value:
         """Of the slider that the arm lifts, from its lowest position, m."""
         return self.cam.load.way(self.motion, self.cam.swing)
 
@@ -205,7 +205,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return self.moving.cam_angle
 
     @property
-    def min_radius(self) -> Any:
+    def min_radius(self) -> Value:
         """``r_k1``: smallest radius of the profile, m."""
         return number(self.cam.min_radius)
 
@@ -231,7 +231,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return np.where(given > 0, given, np.asarray(self.least_spring_factor)[..., None])
 
     @property
-    def spring_factor(self) -> Any:
+    def spring_factor(self) -> Value:
         """``K``: rate of the closing spring over ``J omega^2`` at the rated speed."""
         return number(self.spring_rate)
 
@@ -263,7 +263,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """``F_wear`` over rise and fall with its peaks, SI; ``nan`` where undercut or without contact."""
         return self._pressing(curves.attrition)
 
-    def _pressing(self, curve: Callable[[Any], Any]) -> np.ndarray:
+    def _pressing(self, curve: Callable[[HighSpeedAnalysis], Array]) -> np.ndarray:
         """``curve ** -0.5`` of one that is below 0, with its peaks; ``nan`` throughout if the roller is pulled."""
         return np.where(self._pulled, np.nan, inverse_root(-self.tops(curve, self._pulled[..., 0])))
 
@@ -304,12 +304,12 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """Whether the arm swings beyond its end, ``a > 1``: ``r_k2`` is then not the largest radius."""
         return self._passes(curves.after)
 
-    def _passes(self, end: Callable[[Any], Any]) -> Any:
+    def _passes(self, end: Callable[[HighSpeedAnalysis], Array]) -> Any:
         part = self.moving
         return (raised(end(part), part.resolution.inner) > curves.AT_REST).any(-1)
 
     @property
-    def flags(self) -> dict[str, Any]:
+    def flags(self) -> dict[str, Array]:
         """What is wrong with the cam, in words, and whether it is."""
         return {
             "the roller undercuts the profile": self.undercut_margin <= 0,
@@ -323,6 +323,6 @@ OF_THE_WHOLE = ("buildable", "spring_rate", "rounding")
 """What is the same wherever a cam is looked at, and follows from all of it."""
 
 
-def _picked(values: Array, row: Any, column: Any) -> Array:
+def _picked(values: Array, row: Array, column: Array) -> Array:
     """Of each row the values in some columns, ``(k, m)``."""
     return values[column] if values.ndim == 1 else values[row[:, None] % len(values), column]

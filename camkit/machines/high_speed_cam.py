@@ -159,7 +159,7 @@ class HighSpeedCam(FreeLawCam):
         return angle_opposite(self.max_radius + self.roller_radius, self.arm_length, self.centre_distance)
 
     @property
-    def start_angle(self) -> Any:
+    def start_angle(self) -> Value:
         """``psi_0``: the arm from the line pivot -> cam axis at its near dwell, rad."""
         return self.end_angle - self.swing
 
@@ -170,7 +170,7 @@ class HighSpeedCam(FreeLawCam):
         return np.sqrt(L**2 + l**2 - 2 * L * l * np.cos(self.start_angle)) - self.roller_radius
 
     @property
-    def dwell_angle(self) -> Any:
+    def dwell_angle(self) -> Value:
         """Cam angle of each of the two dwells, rad: they share what the intervals leave."""
         return np.pi - (self.rise_angle + self.return_angle) / 2
 

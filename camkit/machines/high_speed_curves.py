@@ -5,11 +5,14 @@ Their peaks are the measures of the cam (see `HighSpeedAnalysis.tops`).
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..quantities.types import Array, Value
+
+if TYPE_CHECKING:
+    from .high_speed_analysis import HighSpeedAnalysis
 
 AT_REST = 1e-6
 """Share of the swing below which the arm counts as not having moved."""
@@ -17,7 +20,7 @@ BESIDE = 1e-4
 """Share of an interval so near to its end that the travel from there is lost in rounding."""
 
 
-def spring_needed(part: Any) -> Array:
+def spring_needed(part: HighSpeedAnalysis) -> Array:
     """``-psi''/psi``: ``K`` of the spring that holds the arm's inertia at the rated speed.
 
     Very negative, and of no account, where the arm has not moved.
@@ -27,38 +30,38 @@ def spring_needed(part: Any) -> Array:
     return np.where(at_rest, -1e12, -part.motion.a / np.where(at_rest, 1, psi))
 
 
-def tightness(part: Any) -> Array:
+def tightness(part: HighSpeedAnalysis) -> Array:
     """``-q``: above 0 the roller undercuts the profile."""
     return -part.margin
 
 
-def pull(part: Any) -> Array:
+def pull(part: HighSpeedAnalysis) -> Array:
     """The force with which the roller would have to be pulled, N."""
     return -part.contact_force
 
 
-def strain(part: Any) -> Array:
+def strain(part: HighSpeedAnalysis) -> Array:
     """``-1 / F_sigma^2``."""
     return -part.ease
 
 
-def attrition(part: Any) -> Array:
+def attrition(part: HighSpeedAnalysis) -> Array:
     """``-1 / F_wear^2``."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return -part.ease / part.contact_force**2
 
 
-def before(part: Any) -> Array:
+def before(part: HighSpeedAnalysis) -> Array:
     """How far the arm is before its start, as a share of the swing."""
     return -part.motion.s / part.cam.swing
 
 
-def after(part: Any) -> Array:
+def after(part: HighSpeedAnalysis) -> Array:
     """How far the arm is beyond its end, as a share of the swing."""
     return part.motion.s / part.cam.swing - 1
 
 
-def lag(part: Any) -> Value:
+def lag(part: HighSpeedAnalysis) -> Array:
     """Travel from either end as a share of what a 3-4-5 polynomial makes of it, the smaller one, below 0.
 
     Above 0 the arm is beyond an end.  It stays of a size near the ends, where the travel itself vanishes.
@@ -72,7 +75,7 @@ def lag(part: Any) -> Value:
     return -np.minimum(_over_345(share, travel, a, j), _over_345(1 - share, 1 - travel, -a, j))
 
 
-def _over_345(u: Array, s: Any, a: Array, j: Any) -> Value:
+def _over_345(u: Array, s: Array, a: Array, j: Array) -> Value:
     """``s`` over that of a 3-4-5 polynomial at ``u`` from its beginning; next to that, by its derivatives ``a, j``.
 
     There both are rounding.  ``s = u^2 a / 4 - u^3 j / 12`` where it is of the third to fifth power of ``u``.

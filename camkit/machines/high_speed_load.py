@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -30,12 +30,12 @@ class InertialSpringLoad(Design):
 
     name: ClassVar[str] = "inertia and closing spring"
 
-    def resisting_torque(self, motion: Kinematics, swing: Array, spring_factor: Any, speed: Value) -> Array:
+    def resisting_torque(self, motion: Kinematics, swing: Array, spring_factor: Value, speed: Value) -> Array:
         """About the arm's pivot, N m; ``speed`` is a share of the speed for which ``inertia_speed2`` is given."""
         spring = (self.closing * swing + motion.s) * spring_factor
         return self.inertia_speed2 * (speed**2 * motion.a + spring)
 
-    def preload(self, swing: Array, spring_factor: Any) -> Array:
+    def preload(self, swing: Array, spring_factor: Value) -> Array:
         """Torque of the spring before the arm moves, N m."""
         return self.inertia_speed2 * self.closing * swing * spring_factor
 
@@ -72,7 +72,7 @@ class SliderLoad(Design):
     inertia_speed2: float = quantity(
         "J omega^2", 25, 0.1, 100, "N m", "inertia of the lever by rated speed squared", at_most=1e12
     )
-    force: Table | Callable[[Any], Any] = ()
+    force: Table | Callable[[Value], Value] = ()
     """``P`` in N of ``s`` in m: a function, or a table of pairs joined by straight lines."""
 
     name: ClassVar[str] = "slider on a lever"
@@ -82,10 +82,10 @@ class SliderLoad(Design):
             object.__setattr__(self, "force", as_table("force", "way", "force", self.force))
         super().__post_init__()
 
-    def _force(self, way: Any) -> Any:
+    def _force(self, way: Value) -> Value:
         return self.force(way) if callable(self.force) else tabulated(self.force, way)
 
-    def way(self, motion: Kinematics, swing: Array) -> Any:
+    def way(self, motion: Kinematics, swing: Array) -> Value:
         """``s``: of the slider from its lowest position, m."""
         return self.lever * (np.sin(motion.s - swing / 2) + np.sin(swing / 2))
 

@@ -16,11 +16,12 @@ from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..study.study import Space, Study
 from ..units import mm
+from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_cam import STRONG, FreeLawCam, HighSpeedCam
 from .high_speed_load import InertialSpringLoad
 
 
-def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
+def peak(name: str, unit: str, curve: Callable[[Any], Array]) -> PeakMeasure:
     """The largest value of ``curve`` over rise and fall."""
     return PeakMeasure(name, unit, curve, angle=lambda a: a.moving_angle)
 
@@ -28,11 +29,11 @@ def peak(name: str, unit: str, curve: Callable[[Any], Any]) -> PeakMeasure:
 _force = attrgetter("contact_force")
 
 
-def _steepness(part: Any) -> Array:
+def _steepness(part: HighSpeedAnalysis) -> Array:
     return abs(part.pressure_angle)
 
 
-def _torque(part: Any) -> Array:
+def _torque(part: HighSpeedAnalysis) -> Array:
     return abs(part.cam_torque)
 
 

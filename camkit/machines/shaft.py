@@ -88,12 +88,12 @@ class UniversalJointShaft(Design):
         return self.replace(**{p: getattr(material, p) for p in properties})
 
     @property
-    def torque(self) -> Any:
+    def torque(self) -> Value:
         """In the shaft before the joint, ``M = 9550 K_A P / n`` with kW and rpm, N m; 0.0074 % above `exact_torque`."""
         return TORQUE_NUMBER * self.service_factor * (self.power / kW) / (self.speed / rpm)
 
     @property
-    def exact_torque(self) -> Any:
+    def exact_torque(self) -> Value:
         """``M = K_A P / omega`` in SI, N m."""
         return self.service_factor * self.power / self.speed
 
@@ -121,7 +121,7 @@ class UniversalJointShaft(Design):
             return ((self.stiff_difference + bore**4) ** 0.25)[()]
 
     @property
-    def twist_governs_below(self) -> Any:
+    def twist_governs_below(self) -> Value:
         """Outer diameter up to which a tube that is stiff enough is strong enough, m: ``2 tau_p / (G theta_p)``."""
         return 2 * self.allowable_shear / (self.shear_modulus * self.allowable_twist)
 
@@ -137,7 +137,7 @@ class UniversalJointShaft(Design):
         return ShaftAnalysis(self)
 
 
-def _measure(name: str, unit: str, of: Callable[[ShaftAnalysis], Any]) -> Measure:
+def _measure(name: str, unit: str, of: Callable[[ShaftAnalysis], Value]) -> Measure:
     return Measure(name, unit, lambda a: np.max(of(a), axis=-1))
 
 
@@ -243,7 +243,7 @@ def lightest_shaft(start: UniversalJointShaft | None = None, *, space: Space | N
     return tube
 
 
-def _refuse_tubes(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+def _refuse_tubes(function: Callable[..., object], given: Mapping[str, Any]) -> None:
     """``ValueError`` for tubes that are no array of two diameters each, and for another argument of a wrong kind."""
     refuse_arguments(function, given)
     shape = given["tubes"].shape

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..quantities import declarations, refuse_population
 from ..quantities.types import Array
+
+if TYPE_CHECKING:
+    from .shaft import UniversalJointShaft
 
 
 def nearest_of(here: np.ndarray, tubes: np.ndarray) -> np.ndarray:
@@ -30,7 +33,7 @@ class ShaftAnalysis:
     offers: ClassVar[tuple[str, ...]] = ("sizes", "utilisation", "rings")
     """The shapes and curves that are shown of it where nobody chooses, in this order."""
 
-    shaft: Any
+    shaft: UniversalJointShaft
 
     @cached_property
     def _outer(self) -> Array:
@@ -95,7 +98,7 @@ class ShaftAnalysis:
         return 0.292 * self.shaft.elastic_modulus * ((self._outer - self.shaft.inner_diameter) / self._outer) ** 1.5
 
     @cached_property
-    def utilisation(self) -> dict[str, Any]:
+    def utilisation(self) -> dict[str, Array]:
         """Every limit's load over what is allowed, by name; above 1 the limit is broken."""
         s = self.shaft
         return {

@@ -23,7 +23,7 @@ from ..geometry import Body, Disc, Outline
 from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import STEPS
 from ..quantities import refuse_population, unremarked
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 
 ROUNDING = 1e-12
@@ -77,7 +77,7 @@ class ValveAnalysis(CamAnalysis):
     def family(self) -> TranslatingFlatCam | TranslatingRollerCam:
         """The opening flank as a disk cam of the family."""
 
-    def base_radius_for(self, min_radius: float) -> Any:
+    def base_radius_for(self, min_radius: float) -> Value:
         """Least base radius from which on the cam has no convex radius of curvature below ``min_radius``, m."""
         return self.family.base_radius_for(min_radius=min_radius)
 
@@ -132,7 +132,7 @@ class ValveAnalysis(CamAnalysis):
         return self._nose_curve * number(self.cam.load.speed) ** 2
 
     @cached_property
-    def peak_acceleration(self) -> Array:
+    def peak_acceleration(self) -> Value:
         """Largest acceleration of the opening follower, anywhere on the flank, m/s^2."""
         return self.highest(_acceleration).value * number(self.cam.load.speed) ** 2
 
@@ -199,10 +199,10 @@ class ValveAnalysis(CamAnalysis):
         return self.cam.load.speed * (1 + self.cam.speed_margin)
 
     @cached_property
-    def rate_needed(self) -> Any:
+    def rate_needed(self) -> Value:
         """Least spring rate that keeps the follower on the cam up to the speed margin with the given preload, N/m."""
 
-        def lacking(at: Any) -> Any:
+        def lacking(at: ValveAnalysis) -> Value:
             lacks = at.needed_at(self.top_speed) - at.other_force - self.cam.load.preload
             return np.maximum(lacks, 0) / np.where(at.lift > 0, at.lift, np.inf)
 
@@ -220,7 +220,7 @@ class ValveAnalysis(CamAnalysis):
         The lift counts from the base circle.
         """
         angle = np.arange(-180, 180) * deg
-        at = self.at(angle + self.cam.half_angle)
+        at: Any = self.at(angle + self.cam.half_angle)
         return {
             "cam angle [deg]": angle / deg,
             "lift [mm]": (at.lift + self.cam.ramp_height) / mm,
@@ -230,11 +230,11 @@ class ValveAnalysis(CamAnalysis):
         }
 
 
-def _acceleration(analysis: Any) -> Array:
+def _acceleration(analysis: CamAnalysis) -> Array:
     return analysis.acceleration
 
 
-def _stem(analysis: ValveAnalysis, foot: Any) -> Outline:
+def _stem(analysis: ValveAnalysis, foot: Value) -> Outline:
     """The follower's stem, which begins ``foot`` above the cam."""
     refuse_population(analysis, "what is drawn")
     cam, points = analysis.cam, np.array([[0, 0], [0, 1.6 * analysis.cam.max_lift + foot]])
@@ -248,7 +248,7 @@ class FlatValveAnalysis(ValveAnalysis, TranslatingFlatAnalysis):
     cam: Any
 
     @property
-    def start_height(self) -> Any:
+    def start_height(self) -> Value:
         """Of the face where the flank begins, m: a roller has no part in it."""
         return self.cam.base_radius
 
@@ -288,7 +288,7 @@ class RollerValveAnalysis(ValveAnalysis, TranslatingRollerAnalysis):
             return 1 / self.curvature - self.cam.roller_radius
 
     @property
-    def min_concave_radius(self) -> Any:
+    def min_concave_radius(self) -> Value:
         """Least radius of the hollow flank, m: a grinding wheel must be smaller; ``inf`` if none is hollow."""
         return radius_of(self.sharpest(-1).value) + number(self.cam.roller_radius)
 

@@ -96,7 +96,7 @@ class ValveCam(Design):
         return 2.0, 2.0 * self.n, 2.0 * self.n + 2.0 * self.m, 2.0 * self.n + 4.0 * self.m
 
     @property
-    def _exponents_differ(self) -> Any:
+    def _exponents_differ(self) -> bool | Array:
         p, q, r, s = self._exponents
         return (q - p >= LEAST_GAP) & (r - q >= LEAST_GAP) & (s - r >= LEAST_GAP)
 
@@ -105,13 +105,13 @@ class ValveCam(Design):
         return self.half_angle + self.ramp_angle <= np.pi * (1 + 1e-12)
 
     @property
-    def seating_slope(self) -> Any:
+    def seating_slope(self) -> Value:
         """``h'(0) = v_g / omega``, m/rad."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.divide(self.seating_velocity, self.load.speed)
 
     @property
-    def ramp_height(self) -> Array:
+    def ramp_height(self) -> Value:
         """Lift of the ramp: from the base circle to the start of the flank, m."""
         return self.seating_slope * self.ramp_angle * (1 - BLEND / 2)
 
@@ -146,7 +146,7 @@ class ValveCam(Design):
         return MotionProgram((Rise(self.half_angle, self.max_lift, self.flank),))
 
     @property
-    def start_height(self) -> Any:
+    def start_height(self) -> Value:
         """Cam axis to the roller's centre where the flank begins, m."""
         return self.base_radius + self.roller_radius
 
@@ -172,7 +172,7 @@ class ValveCam(Design):
                 f"the preload's share of the full force is {preload_share:g}; it must lie above 0, up to 1"
             )
 
-        def lacking(at: Any) -> Any:
+        def lacking(at: ValveAnalysis) -> Value:
             share = preload_share + (1 - preload_share) * at.lift / self.max_lift
             return np.maximum(at.needed_at(at.top_speed) - at.other_force, 0) / share
 

@@ -6,13 +6,13 @@ Source: He Zhenjun, Li Xuefeng, Mech. Sci. Technol. Aerosp. Eng. 27(10) 2008, 11
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import cast
 
 import numpy as np
 
 from ..motion import Kinematics, Law, Peaks, Poly345
 from ..motion.law import law_peaks
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 
 BLEND = 1 / 3
 """Share of a ramp over which the follower gains the seating velocity; the rest of it is straight."""
@@ -25,14 +25,14 @@ class Flank(Law):
     ``exponents`` and ``coefficients`` in the order p, q, r, s, of which p is 2.
     """
 
-    exponents: tuple[Any, ...]
-    coefficients: tuple[Any, ...]
+    exponents: tuple[Value, ...]
+    coefficients: tuple[Value, ...]
 
     name = "flank of a valve cam"
     continuity = 0
 
     @classmethod
-    def of(cls, exponents: tuple[Any, ...], slope: Value) -> Flank:
+    def of(cls, exponents: tuple[Value, ...], slope: Value) -> Flank:
         """Coefficients from ``s = 0, s' = slope, s'' = s''' = 0`` at the start, in closed form.
 
         The moments ``sum c_i = -1`` and ``sum c_i e_i^k = -slope``, k = 1, 2, 3, solved by Lagrange:
@@ -46,7 +46,7 @@ class Flank(Law):
                 c.append((-E3 + slope * (E2 - E1 + 1)) / ((x - e[i]) * (y - e[i]) * (z - e[i])))
         return cls(tuple(e), tuple(c))
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         """Where an exponent lies below 3 the jerk at the end is infinite."""
         b = 1 - u
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -56,7 +56,7 @@ class Flank(Law):
             a = sum(e * (e - 1) * t for _, e, t in terms)
             # the square term has no third derivative, not even at the nose, where b is 0
             j = -sum(e * (e - 1) * (e - 2) * c * b ** (e - 3) for c, e, _ in terms[1:])
-        return Kinematics(s, v, a, j)
+        return Kinematics(s, v, cast(Array, a), cast(Array, j))
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
@@ -70,7 +70,7 @@ class Ramp(Law):
     have no jump.
     """
 
-    share: Any
+    share: Value
 
     name = "ramp of a valve cam"
     continuity = 0
@@ -81,13 +81,13 @@ class Ramp(Law):
         begins = (1 - self.share,) if np.any(self.share < 1) else ()
         return (*begins, 1 - self.share * (1 - BLEND))
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         t = 1 + (u - 1) / self.share
         growing, straight = np.clip(t / BLEND, 0, 1), np.maximum(t - BLEND, 0)
         growth, steady = Poly345().at(growing), 1 / (1 - BLEND / 2)
         s = steady * (BLEND * growing**4 * (2.5 - 3 * growing + growing**2) + straight)
         v, a, j = (steady * x / BLEND**k / self.share ** (k + 1) for k, x in enumerate(growth[:3]))
-        return Kinematics(s, v, a, j)
+        return Kinematics(s, v, cast(Array, a), cast(Array, j))
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
@@ -109,7 +109,7 @@ class Backwards(Law):
     def kinks(self) -> tuple[Value, ...]:
         return tuple(1 - x for x in reversed(self.law.kinks))
 
-    def at(self, u: Any) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         s, v, a, j = self.law.at(1 - u)
         return Kinematics(1 - s, v, -a, j)
 

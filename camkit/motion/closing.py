@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -27,9 +26,9 @@ def closing(segments: Sequence[Segment]) -> tuple[int, int | None]:
     return dwells[-1] if dwells else len(segments) - 1, moves[-1] if moves else None
 
 
-def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Any]:
+def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Segment]:
     """``segments`` of a turn, closed again where angles or lifts are not those that they were ``before``."""
-    found: list[Any] = list(segments)
+    found: list[Segment] = list(segments)
     angle, lift = closing(before)
     pairs = list(zip(segments, before, strict=True))
     if any(new.angle is not old.angle for new, old in pairs):

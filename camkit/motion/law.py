@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,10 +21,10 @@ ROUNDING = 1e-9
 class Kinematics(NamedTuple):
     """Position and its first three derivatives, unpackable as ``s, v, a, j``."""
 
-    s: Any
-    v: Any
-    a: Any
-    j: Any
+    s: Array
+    v: Array
+    a: Array
+    j: Array
 
 
 class Peaks(NamedTuple):
@@ -66,7 +66,7 @@ class Law(Declared, ABC):
         return Kinematics(*(floats(x)[()] for x in self.at(_inside(u))))
 
     @abstractmethod
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         """The formula itself, for an array ``u`` that is known to lie in [0, 1]."""
 
     @abstractmethod
@@ -84,7 +84,7 @@ def law_peaks(law: Law) -> Peaks:
     return Peaks(*(value[..., None] if np.ndim(value) else value for value in found))
 
 
-def derivative_size(motion: Callable[[Any], Kinematics], k: int) -> Callable[[Any], Any]:
+def derivative_size(motion: Callable[[Array], Kinematics], k: int) -> Callable[[Array], Value]:
     """The size of the derivative of order ``k``, as a function."""
     return lambda u: abs(motion(u)[k])
 
@@ -96,7 +96,7 @@ def _inside(u: ArrayLike) -> Array:
     return np.where(np.abs(u - nearest) <= ROUNDING, nearest, np.nan)
 
 
-def mirrored(u: Value, first_half: Callable[[Any], Kinematics]) -> Kinematics:
+def mirrored(u: Value, first_half: Callable[[Array], Kinematics]) -> Kinematics:
     """A symmetric law from its first half: ``s(u) = 1 - s(1 - u)``."""
     late = u > 0.5
     s, v, a, j = first_half(np.where(late, 1 - u, u))

@@ -99,7 +99,7 @@ class MotionProgram(Declared):
     """
 
     segments: tuple[Segment, ...]
-    start: Any = field(default=0.0, metadata={"declared": START, "by_owner": True})
+    start: Value = field(default=0.0, metadata={"declared": START, "by_owner": True})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "segments", listed(self.segments, "what the program is made of", "segment"))
@@ -145,7 +145,7 @@ class MotionProgram(Declared):
         return sum(segment.angle for segment in self.segments) - TURN
 
     @cached_property
-    def starts(self) -> list[Any]:
+    def starts(self) -> list[Value]:
         """The cam angle at which each segment begins, and at last the span."""
         *starts, end = accumulate((segment.angle for segment in self.segments), initial=0.0)
         return [*starts, np.where(self.periodic, TURN, end)[()]]
@@ -178,17 +178,17 @@ class MotionProgram(Declared):
             return self._if_possible(*np.broadcast_arrays(*joined, shown.angle)[:4])
 
     @property
-    def periodic(self) -> Any:
+    def periodic(self) -> bool | Array:
         """Whether the program spans 360 deg."""
         return np.abs(self._beyond) <= ROUNDED
 
     @property
-    def _misses(self) -> Any:
+    def _misses(self) -> Value:
         """Whether the program is a little short of a turn."""
         return (self._beyond > -NEARLY) & (self._beyond < -ROUNDED)
 
     @property
-    def closes(self) -> bool:
+    def closes(self) -> bool | Array:
         """Whether the last level is the first one, or need not be."""
         size = sum(np.abs(segment.change) for segment in self.segments)
         return (np.abs(self.levels[-1] - self.start) <= SAME_LEVEL * size) | np.logical_not(self.periodic)
@@ -266,7 +266,7 @@ class MotionProgram(Declared):
         """What segment ``i`` says at the cam angles ``x``; before it begins and after it ends it rests."""
         return self._moved(i, np.minimum(np.maximum((x - self.starts[i]) / self.segments[i].angle, 0.0), 1.0))
 
-    def _moved(self, i: int, u: Value) -> Kinematics:
+    def _moved(self, i: int, u: Array) -> Kinematics:
         """What segment ``i`` says at the share ``u`` of it."""
         s, v, a, j = self.segments[i].motion(u)
         return Kinematics(self.levels[i] + s, v, a, j)
@@ -284,7 +284,7 @@ def _along(u: Array, values: Any) -> Array:
 
 
 def program_between(
-    pieces: Sequence[tuple[Any, Any, Any, Callable[[Any], Kinematics]]], start: Value = 0.0
+    pieces: Sequence[tuple[Value, Value, Value, Callable[[Array], Kinematics]]], start: Value = 0.0
 ) -> MotionProgram:
     """A program from pieces ``(from, to, level, law)``: over those cam angles (rad) the follower goes to ``level``.
 

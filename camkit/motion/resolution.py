@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import perm
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -38,7 +38,7 @@ class Resolution(NamedTuple):
     """Where each piece ends, ``(k,)``."""
     moves: np.ndarray
     """Which angles belong to a segment that moves, ``(n,)``."""
-    shares: tuple[tuple[int, Any], ...]
+    shares: tuple[tuple[int, Array], ...]
     """Of each piece the number of its segment, and its angles as shares of that."""
 
     @property
@@ -88,11 +88,11 @@ def resolve(
     sizes = np.array([even + 1 for *_, even in pieces])
     angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
     ends = np.cumsum(sizes)
-    inside = tuple((i, _inside(*piece)) for i, *piece in shares)
+    inside = tuple((i, _inside(low, high, even)) for i, low, high, even in shares)
     return Resolution(end_to_end(*angles), ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
 
 
-def _pieces(segment: Segment, steps: int, corners: list[Any]) -> list[tuple[Any, Any, int]]:
+def _pieces(segment: Segment, steps: int, corners: list[Value]) -> list[tuple[Value, Value, int]]:
     """The smooth pieces of a segment: from and to, as shares, and their steps.
 
     They end at ``corners`` too.  Where ends move with the design all pieces have as many steps, of one design as of a
@@ -111,7 +111,7 @@ def _pieces(segment: Segment, steps: int, corners: list[Any]) -> list[tuple[Any,
     return [(*piece, max(LEAST, int(np.ceil(steps * x)))) for piece, x in zip(pieces, shares, strict=True)]
 
 
-def _in_order(shares: list[Any]) -> list[Any]:
+def _in_order(shares: list[Value]) -> list[Value]:
     """Ends of pieces in order; a population's ``(p, 1)`` that lie outside a member's segment stand at its end."""
     if not any(np.ndim(x) for x in shares):
         return sorted({float(x) for x in shares})
@@ -120,7 +120,7 @@ def _in_order(shares: list[Any]) -> list[Any]:
     return [columns[..., k : k + 1] for k in range(columns.shape[-1])]
 
 
-def _passed(segment: Segment, changes: np.ndarray) -> list[Any]:
+def _passed(segment: Segment, changes: np.ndarray) -> list[Value]:
     """The shares of a segment at which it has changed the level by one of ``changes``.
 
     The first time and, if that is another one, the last; 1 where it never has.  A list of numbers, or of ``(p, 1)`` for
@@ -157,7 +157,7 @@ _FACTOR = np.array([[perm(i + k, k) * (i + k < 8) for k in range(4)] for i in ra
 """Which coefficient stands at ``x^i`` in its derivative of order ``k``, and times what."""
 
 
-def between(first: Kinematics, second: Kinematics, step: Any, x: Value) -> Kinematics:
+def between(first: Kinematics, second: Kinematics, step: Array, x: Value) -> Kinematics:
     """``s, v, a, j`` at a share ``x`` of a ``step`` between two angles where they are known, of one smooth piece.
 
     Of the polynomial of degree 7 that has them at both.

@@ -5,13 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Choice, Declared, Quantity, certain, fails
 from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 from ..units import in_unit
 from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial
@@ -41,7 +40,7 @@ LAW = Choice("law", Cycloidal(), LAW_MENU, "motion law of the segment")
 class Segment(Declared, ABC):
     """A part of a program over some cam ``angle`` (rad); paths call it by its ``name``, if it has one."""
 
-    angle: Any
+    angle: Value
     name: str = ""
 
     @property
@@ -65,7 +64,7 @@ class Segment(Declared, ABC):
         return False
 
     @abstractmethod
-    def motion(self, u: Value) -> Kinematics:
+    def motion(self, u: Array) -> Kinematics:
         """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""
 
 
@@ -79,7 +78,7 @@ class Dwell(Segment):
     ValueError: the angle of the dwell is 0 deg; it must be a finite angle above 0 deg
     """
 
-    angle: Any = field(metadata={"declared": ANGLE})
+    angle: Value = field(metadata={"declared": ANGLE})
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -94,7 +93,7 @@ class Dwell(Segment):
     def still(self) -> bool:
         return True
 
-    def motion(self, u: Value) -> Kinematics:
+    def motion(self, u: Array) -> Kinematics:
         rest = 0.0 * u
         return Kinematics(rest, rest, rest, rest)
 
@@ -103,9 +102,9 @@ class Dwell(Segment):
 class Move(Segment):
     """A segment that follows a motion law."""
 
-    angle: Any = field(metadata={"declared": ANGLE})
-    lift: Any = field(metadata={"declared": LIFT, "by_owner": True})
-    law: Law | Callable[[Any], Kinematics] = field(metadata={"declared": LAW})
+    angle: Value = field(metadata={"declared": ANGLE})
+    lift: Value = field(metadata={"declared": LIFT, "by_owner": True})
+    law: Law | Callable[[Array], Kinematics] = field(metadata={"declared": LAW})
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -131,7 +130,7 @@ class Move(Segment):
     def kinks_move(self) -> bool:
         return getattr(self.law, "kinks_move", False) or any(map(np.ndim, self.kinks))
 
-    def motion(self, u: Value) -> Kinematics:
+    def motion(self, u: Array) -> Kinematics:
         s, v, a, j = self.law(u)
         h, beta = self.change, self.angle
         return Kinematics(h * s, h * v / beta, h * a / beta**2, h * j / beta**3)

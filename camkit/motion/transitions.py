@@ -8,7 +8,7 @@ Source: Norton, Cam Design and Manufacturing Handbook (the fundamental law of ca
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -79,7 +79,7 @@ def find_transitions(program: MotionProgram) -> list[Transition]:
     return [_transition(angle, before, after, scales) for angle, before, after in _sides(program)]
 
 
-def _transition(angle: Value, before: Kinematics, after: Kinematics, scales: list[Any]) -> Transition:
+def _transition(angle: Value, before: Kinematics, after: Kinematics, scales: list[Value]) -> Transition:
     s, v, a, j = (float(y - x) for x, y in zip(before, after, strict=True))
     broken = [abs(jump) > SMOOTH * scale for jump, scale in zip((s, v, a, j), scales, strict=True)]
     return Transition(float(angle), s, v, a, j, broken.index(True) if any(broken) else None)
@@ -91,7 +91,7 @@ def find_peaks(program: MotionProgram) -> ProgramPeaks:
         return ProgramPeaks(*(_highest([*_inner(program, k), *_infinite(program, k)]) for k in (1, 2, 3)))
 
 
-def _sides(program: MotionProgram) -> list[tuple[Any, Kinematics, Kinematics]]:
+def _sides(program: MotionProgram) -> list[tuple[Value, Kinematics, Kinematics]]:
     """The cam angle of each joint with the motion just before and just after it, the turn's own joint last."""
     first = [_side(program, i, 0.0) for i in range(len(program.segments))]
     last = [_side(program, i, 1.0) for i in range(len(program.segments))]
@@ -101,7 +101,7 @@ def _sides(program: MotionProgram) -> list[tuple[Any, Kinematics, Kinematics]]:
     return pairs
 
 
-def _kink_sides(program: MotionProgram) -> list[tuple[Any, Kinematics, Kinematics]]:
+def _kink_sides(program: MotionProgram) -> list[tuple[Value, Kinematics, Kinematics]]:
     """As ``_sides``, for the kinks inside the laws."""
     return [
         (program.starts[i] + u * segment.angle, _side(program, i, u - HAIR), _side(program, i, u + HAIR))
@@ -116,15 +116,15 @@ def _side(program: MotionProgram, i: int, u: Value) -> Kinematics:
     return Kinematics(program.levels[i] + s, v, a, j)
 
 
-def _scales(program: MotionProgram) -> list[Any]:
+def _scales(program: MotionProgram) -> list[Value]:
     """A size for each of ``s, v, a, j``: lift / angle^k of the steepest segment."""
     moves = [(np.abs(segment.change), segment.angle) for segment in program.segments]
     return [np.max(np.stack(np.broadcast_arrays(*(h / beta**k for h, beta in moves))), axis=0) for k in range(4)]
 
 
-def _inner(program: MotionProgram, k: int) -> list[tuple[Any, Any]]:
+def _inner(program: MotionProgram, k: int) -> list[tuple[Value, Value]]:
     """The peaks of derivative ``k`` within each segment, with their cam angles."""
-    found = []
+    found: list[tuple[Value, Value]] = []
     for start, segment in zip(program.starts, program.segments, strict=False):
         top = highest_between(derivative_size(segment.motion, k), (0.0, *segment.kinks, 1.0))
         value, u = (x[..., None] for x in top)
@@ -132,17 +132,17 @@ def _inner(program: MotionProgram, k: int) -> list[tuple[Any, Any]]:
     return found
 
 
-def _infinite(program: MotionProgram, k: int) -> list[tuple[Any, Any]]:
+def _infinite(program: MotionProgram, k: int) -> list[tuple[Value, Value]]:
     """``inf`` for each place where a derivative below ``k`` jumps, 0 where none does."""
     scales = _scales(program)[:k]
-    found = []
+    found: list[tuple[Value, Value]] = []
     for angle, before, after in [*_sides(program), *_kink_sides(program)]:
         jumps = [np.abs(y - x) > SMOOTH * scale for x, y, scale in zip(before, after, scales, strict=False)]
         found.append((np.where(np.logical_or.reduce(np.broadcast_arrays(*jumps)), np.inf, 0.0), angle))
     return found
 
 
-def _highest(found: list[tuple[Any, Any]]) -> Extreme:
+def _highest(found: list[tuple[Value, Value]]) -> Extreme:
     """The largest of some ``(value, angle)``, row by row: numbers, or arrays of shape ``(p,)``."""
     rows = np.broadcast_shapes(*(np.shape(x)[:-1] for pair in found for x in pair))
     values, angles = ([np.broadcast_to(pair[side], (*rows, 1))[..., 0] for pair in found] for side in (0, 1))

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,11 +42,11 @@ class Vibration(NamedTuple):
     Of a motion program: in the follower's unit (m or rad), over a time of 1 for its whole span.
     """
 
-    residual: Any
+    residual: Array
     """Largest deviation after the rise, a share of the lift."""
     during: Value
     """Largest deviation during the rise, a share of the lift."""
-    acceleration: Any
+    acceleration: Array
     """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
 
 
@@ -124,7 +124,7 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
     return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
 
 
-def _ratios(tau: Any) -> np.ndarray:
+def _ratios(tau: object) -> np.ndarray:
     """The period ratios in a row, ``(r,)``; ``ValueError`` for what they cannot be."""
     ratio = np.atleast_1d(numbers(tau, "the period ratios tau"))
     if not (np.isfinite(ratio).all() and (ratio > 0).all()):
@@ -151,7 +151,7 @@ def _panels(law: Law | _Whole, tau: float) -> Array:
     return np.concatenate([*pieces, edges[-1]], axis=-1)
 
 
-def _convolved(law: Law | _Whole, panels: Any, m: Any) -> Array:
+def _convolved(law: Law | _Whole, panels: Array, m: Array) -> Array:
     """``y`` at the end of each panel, ``(..., r, k + 1)``, for the roots ``m`` ``(r, 1)``."""
     x, weight = GAUSS
     width = np.diff(panels, axis=-1)
@@ -167,7 +167,7 @@ def _convolved(law: Law | _Whole, panels: Any, m: Any) -> Array:
     return y
 
 
-def _ringing(amplitude: Any, m: Any) -> Array:
+def _ringing(amplitude: Array, m: Array) -> Array:
     """The largest ``|Re(amplitude e^{m t})|`` over ``t >= 0``: at once, or where its slope first vanishes."""
     turn = (np.pi / 2 - np.angle(amplitude * m)) % np.pi
     later = amplitude * np.exp(m * turn / m.imag)

@@ -16,6 +16,7 @@ from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, joined, table
 from ..render.draw import colour
 from ..render.picture import below
+from ..search.front import Front
 from ..views.decision import (
     MARKS,
     ShownDecision,
@@ -25,7 +26,9 @@ from ..views.decision import (
     judgement_bars,
     winners_by_weight,
 )
+from ..views.front import Judged
 from ..views.parallel import Designs
+from .explore import Explorer
 from .kit.banner import Banner
 from .kit.controls import bar_html, small_html, tables_html
 from .kit.front_picker import objective_texts, place_on
@@ -42,8 +45,8 @@ HINT = "Drag along an axis to keep a band of it; click into the band to drop it;
 class FrontSource(Protocol):
     """A panel with a front, such as `pareto_panel` gives."""
 
-    front: Any
-    explorer: Any
+    front: Front
+    explorer: Explorer
     importance: Any
 
     def select(self, index: int | None) -> None:
@@ -67,9 +70,9 @@ class ChoosePanel(Panel):
         refuse_arguments(ChoosePanel.__init__, locals())
         self.source, self.measures = source, measures
         self.shown: ShownDecision | None = None
-        self._key: Any = None
+        self._key: object = None
         self._columns: Any = None
-        self._said: Any = None
+        self._said: Judgements | None = None
         self._held: tuple[int, float] | None = None
         self._quiet = Quiet()
         self._drawing = threading.RLock()  # a search reports from a thread of its own
@@ -121,7 +124,7 @@ class ChoosePanel(Panel):
             self._key, self._said = key, said
             self._show()
 
-    def _judgements(self, front: Any) -> Judgements | None:
+    def _judgements(self, front: Judged) -> Judgements | None:
         """The judgements of the front's objectives."""
         panel = self.source.importance
         fits = panel is not None and len(panel.names) == len(front.study.minimise)
@@ -286,7 +289,7 @@ class ChoosePanel(Panel):
         return below(*(picture.png() for picture in self.pictures if self.shown))
 
 
-def _numbers_of(front: Any) -> Any:
+def _numbers_of(front: Judged) -> tuple[object, ...]:
     """What tells one front from another."""
     return front.study.minimise, tuple(front.study.free), front.x.tobytes(), front.f.tobytes()
 

@@ -43,7 +43,7 @@ VIEWPOINT = {
 }
 
 
-def changed(design: object, values: Mapping[str, Any]) -> Any:
+def changed(design: object, values: Mapping[str, object]) -> Any:
     """``design`` with other values by path, as a panel gives them."""
     with unremarked():  # a panel's numbers have their units
         return with_quantities(design, values)
@@ -202,7 +202,7 @@ class Explorer(Panel):
             if self.design is found.thing:  # else it cannot be built, which the banner says
                 self.banner.show_message(remarked(found))
 
-    def load(self, design: Any) -> None:
+    def load(self, design: Analysable) -> None:
         """Show ``design``: every slider moves to its value; the last one stays where it cannot be built or drawn.
 
         ``ValueError`` for what is no design of this kind.
@@ -220,7 +220,7 @@ class Explorer(Panel):
     def _changed(self) -> None:
         self._try(lambda: changed(self.design, self._moved()))
 
-    def _moved(self) -> dict[str, Any]:
+    def _moved(self) -> dict[str, object]:
         """The controls that do not stand at the design's values; what was chosen anew has values of its own."""
         moved = {p: knob.value for p, knob in self.controls.items() if knob.value != value_of(self.design, p)}
         chosen = [f"{path}." for path in moved if isinstance(self.controls[path], Menu)]
@@ -238,7 +238,7 @@ class Explorer(Panel):
         else:
             self._take(design, analysis)
 
-    def _take(self, design: Any, analysis: Any) -> None:
+    def _take(self, design: Analysable, analysis: object) -> None:
         """Show a design and its analysis, or the last one where they cannot be drawn; tell the followers."""
         last = self.design, self.analysis
         self.design, self.analysis = design, analysis

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
+from ..quantities import Analysable
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, escaped, table
 from ..search.epsilon_constraint import dominated_shares
@@ -93,7 +93,7 @@ class FrontsPanel(JobPanel):
 
     # ------------------------------------------------------------ the searches
 
-    def _steps(self, design: Any) -> Iterator[Step]:
+    def _steps(self, design: Analysable) -> Iterator[Step]:
         try:
             for name, (study, search) in self.ways.items():
                 self._name, began = name, time.monotonic()

@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..quantities import with_quantities
+from ..quantities import Analysable, with_quantities
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, html, joined
 from ..search.fast_front import quick_front
@@ -87,7 +87,7 @@ class LiveParetoPanel(FrontPanel):
             part.style.description_width = "78px"
         return picker
 
-    def _with_free(self, index: int) -> Any:
+    def _with_free(self, index: int) -> Analysable:
         """A design of the front; what is not free stays as it is in the sliders."""
         front = self.front
         free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))

@@ -11,6 +11,7 @@ import numpy as np
 from ..quantities import Measure
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.markup import escaped
+from ..quantities.types import Array
 from ..search.minimise import METHODS
 from ..search.minimum import Minimum
 from ..search.protocol import Evaluated, Step, search
@@ -89,7 +90,7 @@ class OptimisePanel(JobPanel):
             stopped = f"The search was stopped after {step.evaluated} designs."
             self._finish(step.best.x if step.best else None, self.minimum.message if self.minimum else stopped)
 
-    def _finish(self, x: Any, why: str) -> None:
+    def _finish(self, x: Array | None, why: str) -> None:
         """Say what was found, and show it."""
         if x is None:
             self._lines = (why, "None of them keeps every limit; the design in the sliders stays.")

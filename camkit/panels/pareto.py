@@ -94,7 +94,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         super().__init__([self._body()])
         self._show_front(self.front)
 
-    def _page(self, studies: Mapping[str, Study], space: Mapping[str, Any]) -> SearchPage:
+    def _page(self, studies: Mapping[str, Study], space: Mapping[str, object]) -> SearchPage:
         judged = {name: panel.names for name, panel in self._judges.items()}
         offered = {**COUNTS, "mode": tuple(studies), "rule": tuple(CHOOSERS)}
         return SearchPage(self.explorer.start, studies, tuple(space), judged, offered, self.explorer.measures)

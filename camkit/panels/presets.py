@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 import ipywidgets as w
 
+from ..quantities import D
 from ..quantities.kinds import refuse_arguments
 from .explore import Explorer
 from .kit.banner import Banner
@@ -15,7 +15,7 @@ from .kit.layout import button, menu, wrapped
 from .kit.panel import IMPOSSIBLE, Panel
 from .kit.quiet import Quiet
 
-Change = Callable[[Any], Any]
+Change = Callable[[D], D]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
 
 

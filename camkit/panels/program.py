@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import ipywidgets as w
 import numpy as np
 
-from ..motion import LAWS, Dwell, MotionProgram, Return, Rise
+from ..motion import LAWS, Dwell, MotionProgram, Return, Rise, Segment
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, html, joined, table
 from ..units import deg, factor, in_unit
@@ -45,7 +44,7 @@ class SegmentRow:
 
     def __init__(
         self,
-        segment: Any,
+        segment: Segment,
         unit: str,
         changed: Callable[[], None],
         remove: Callable[[SegmentRow], None],
@@ -69,7 +68,7 @@ class SegmentRow:
         refused = staying(name, self._refused)
         return LengthBox(value, refused, unit, meaning=f"{name}, {unit}", layout=w.Layout(width="84px"))
 
-    def segment(self) -> Any:
+    def segment(self) -> Segment:
         """The segment as the row says it."""
         angle, lift = self.angle.value * deg, self.lift.value * factor(self.unit)
         if self.kind.value == "dwell":
@@ -107,7 +106,7 @@ class ProgramEditor(Panel):
         self._list_rows([self._row(segment) for segment in program.segments])
         self._try(lambda: program)
 
-    def _row(self, segment: object) -> SegmentRow:
+    def _row(self, segment: Segment) -> SegmentRow:
         changed = self._quiet.unless(self._changed)
         return SegmentRow(segment, self.unit, changed, self._remove, self.banner.show_message)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 import ipywidgets as w
 
 from ..decision import SideBySide, side_by_side
+from ..quantities import Analysable, Measure
 from ..quantities.kinds import refuse_arguments
 from ..render.draw import colour
 from ..study.study import Study
@@ -35,8 +35,8 @@ class Shortlist(Panel):
     def __init__(self, explorer: Explorer, study: Study | None = None) -> None:
         refuse_arguments(Shortlist.__init__, locals())
         self.explorer, self.study = explorer, study
-        self.designs: dict[str, Any] = {}
-        self._analyses: dict[str, Any] = {}
+        self.designs: dict[str, Analysable] = {}
+        self._analyses: dict[str, object] = {}
         self.banner, self.numbers, self._places = Banner(), w.HTML(), w.VBox()
         views = (profiles_overlaid, measures_overlaid) if self._has_profile(explorer.analysis) else (measures_overlaid,)
         every = _measures(explorer, study)
@@ -76,9 +76,10 @@ class Shortlist(Panel):
         """Put a kept design into the sliders."""
         self.explorer.load(self.designs[place])
 
-    def _put(self, designs: dict[str, Any], analyses: dict[str, Any]) -> None:
+    def _put(self, designs: dict[str, Analysable], analyses: dict[str, object]) -> None:
         last = self.designs, self._analyses
-        self.designs, self._analyses = ({p: d[p] for p in PLACES if p in d} for d in (designs, analyses))
+        self.designs = {p: designs[p] for p in PLACES if p in designs}
+        self._analyses = {p: analyses[p] for p in PLACES if p in analyses}
         try:
             self._show()
             self.banner.show_message("")
@@ -121,7 +122,7 @@ class Shortlist(Panel):
         return self.markdown() if self.designs else "no design is kept yet"
 
 
-def _measures(explorer: Explorer, study: Study | None) -> tuple[Any, ...]:
+def _measures(explorer: Explorer, study: Study | None) -> tuple[Measure, ...]:
     """The study's objectives and limits, then the explorer's measures."""
     told = (*study.minimise, *(m for m, _, _ in study.limits)) if study else ()
     return tuple(dict.fromkeys(m if m.sign > 0 else -m for m in (*told, *explorer.measures)))

@@ -34,7 +34,7 @@ WIDEST = 5
 class HasFront(Protocol):
     """A panel or another thing with a front."""
 
-    front: Any
+    front: Front
 
 
 class TolerancePanel(Panel):
@@ -56,7 +56,7 @@ class TolerancePanel(Panel):
     ) -> None:
         refuse_arguments(TolerancePanel.__init__, locals())
         self.explorer, self.study = explorer, study
-        self._front: Any = front
+        self._front = front
         first = general_tolerances(study) if half_widths is None else dict(half_widths)
         self.tolerances = Tolerances(study.replace(start=explorer.design), first, parts=SETTLED)
         self.banner, self.numbers = Banner(), w.HTML()
@@ -88,7 +88,8 @@ class TolerancePanel(Panel):
         return w.VBox([heading, grid, w.HBox([self.spread, back]), self.banner, self.picture.widget, self.numbers])
 
     def _cloud(self, tolerances: Tolerances) -> Picture:
-        return cloud(getattr(self._front, "front", self._front))(tolerances)
+        front = self._front.front if isinstance(self._front, HasFront) else self._front
+        return cloud(front)(tolerances)
 
     @property
     def half_widths(self) -> dict[str, float]:

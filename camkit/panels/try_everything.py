@@ -18,7 +18,7 @@ KINDS = (
 """What is moved; a button is not, for what it does may not be undone."""
 
 
-def _others(control: Any) -> list[Any]:
+def _others(control: Any) -> list[object]:
     """Values that a control can take besides its own: a step up for a number, every option for a menu."""
     if isinstance(control, (w.Dropdown, w.SelectionSlider)):
         return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
@@ -33,7 +33,7 @@ def _others(control: Any) -> list[Any]:
     return [up if top is None or up <= top else round(control.value - step, 9)]
 
 
-def _narrower(band: w.FloatRangeSlider) -> list[Any]:
+def _narrower(band: w.FloatRangeSlider) -> list[object]:
     """The band without its lower, then without its upper half."""
     low, high = band.value
     middle = (low + high) / 2

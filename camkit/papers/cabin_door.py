@@ -11,6 +11,7 @@ from ..geometry import inclination
 from ..linkage.rssr import RSSR
 from ..linkage.rssr_analysis import RSSRAnalysis
 from ..machines.cabin_door import CabinDoorLinkage, rssr_study
+from ..quantities.types import Array
 from ..search.polish import polish
 from ..units import deg, mm
 from .published import Comparison, Row, Table
@@ -52,7 +53,7 @@ def optima() -> Comparison:
     return Comparison(title, source, rows, against="evaluated apart")
 
 
-def _sizes(x: Any) -> str:
+def _sizes(x: Array) -> str:
     return f"at {', '.join(f'{v:.3f}' for v in x / mm)} mm"
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..quantities.types import Array
 from ..units import deg, mm
-from ..views.picture import Axes, Formula, Picture, Text
+from ..views.picture import Axes, Colour, Formula, Picture, Text
 from ..views.space import CRANK, NEITHER, ROCKER, crank_circle, rocker_circle, scene_of
 from ..views.turntable import Turntable
 
@@ -70,7 +72,7 @@ def _axes(scene: Turntable, linkage: Any, root: np.ndarray, hinge: np.ndarray, f
         scene.ball(key, point, 5, role="guide")
 
 
-def _angle(scene: Turntable, key: str, centre: Any, arc: Any, style: Any, letter: str) -> None:
+def _angle(scene: Turntable, key: str, centre: Array, arc: Array, style: Colour, letter: str) -> None:
     """An angle about an axis, from the direction of the x axis."""
     small = centre[:, None] + 0.38 * (arc - centre[:, None])
     scene.path(f"{key} zero", np.stack([centre, arc[:, 0]], axis=1), role="guide", stroke="dashed")
@@ -98,7 +100,7 @@ def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
         _letter(scene, f"joint{key} name", point + 0.2 * size * away, letters[2])
 
 
-def _beside(scene: Turntable, key: str, letter: str, ends: Any, shift: float) -> None:
+def _beside(scene: Turntable, key: str, letter: str, ends: Sequence[Array], shift: float) -> None:
     """A letter beside the middle of a line, ``shift`` mm across it on the picture."""
     (x0, y0, _), (x1, y1, _) = (scene.seen(end) for end in ends)
     across = np.array([y1 - y0, x0 - x1]) / np.maximum(np.hypot(x1 - x0, y1 - y0), 1e-12)

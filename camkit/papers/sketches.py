@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..geometry import Disc, circle, rotated
+from ..quantities.types import Array, Value
 from ..units import deg, mm
-from ..views.cam import position
+from ..views.cam import Cam, position
 from ..views.picture import Axes, Circle, Formula, Line, Mark, Picture, Points, Polygon, Text
 
 BARE = Axes(equal=True, bare=True)
 
 
-def letter(key: str, at: Any, words: str, role: str = "ink") -> Text:
+def letter(key: str, at: Sequence[Value] | Array, words: str, role: str = "ink") -> Text:
     """A letter of the formulas."""
     return Text(key, at[0], at[1], Formula(words), role=role, size=15)
 
 
-def arc(key: str, centre: Any, radius: Any, first: Any, last: Any, role: str = "ink") -> Line:
+def arc(key: str, centre: Sequence[Value] | Array, radius: Value, first: Value, last: Value, role: str = "ink") -> Line:
     """An arc about a centre between two angles (rad)."""
     turn = np.linspace(first, last, 37)
     return Line(key, centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn), role=role, stroke="thin")
@@ -41,27 +43,27 @@ def _stretch(key: str, first: ArrayLike, last: ArrayLike, role: str = "guide", s
     return Line(key, *np.transpose([first, last]), role=role, stroke=stroke)
 
 
-def _pins(**at: Any) -> list[Mark]:
+def _pins(**at: Sequence[Value] | Array) -> list[Mark]:
     return [Points(name, x, y, size=9, fill="paper") for name, (x, y) in at.items()]
 
 
-def _radius(analysis: Any) -> Any:
+def _radius(analysis: Cam) -> Value:
     """Of the roller that the analysis offers, mm."""
     return next(body.radius for body in analysis.bodies if isinstance(body, Disc)) / mm
 
 
-def _middle(first: ArrayLike, second: ArrayLike, shift: tuple[float, float]) -> Any:
+def _middle(first: ArrayLike, second: ArrayLike, shift: tuple[float, float]) -> Array:
     return (np.asarray(first) + np.asarray(second)) / 2 + shift
 
 
-def _turned(analysis: Any, i: Any, name: str) -> Any:
+def _turned(analysis: Any, i: SupportsIndex, name: str) -> Array:
     """A curve of the cam in the machine's frame, mm."""
     return rotated(getattr(analysis, name), analysis.turn[i]) / mm
 
 
 def roller_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     """The geometry of an oscillating roller cam (one curve) with the letters of the formulas, at cam angle ``turn``."""
-    i = position(analysis, turn)
+    i = position(analysis.cam_angle, turn)
     pivot, centre, radius = analysis.cranks["arm"][0] / mm, analysis.roller_centre[:, i] / mm, _radius(analysis)
     return Picture.of(
         BARE,
@@ -84,7 +86,7 @@ def roller_cam_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     )
 
 
-def _pressure_angle(centre: Any, normal: Any, psi: Any) -> list[Mark]:
+def _pressure_angle(centre: Array, normal: Array, psi: Array) -> list[Mark]:
     """The contact normal, the direction in which the roller moves, and the angle between them."""
     moves = np.stack([np.sin(psi), np.cos(psi)])
     first, last = np.arctan2(normal[1], normal[0]), np.arctan2(moves[1], moves[0])
@@ -99,7 +101,7 @@ def _pressure_angle(centre: Any, normal: Any, psi: Any) -> list[Mark]:
     return marks
 
 
-def _arm_angle(pivot: Any, psi: Any) -> list[Mark]:
+def _arm_angle(pivot: Array, psi: Array) -> list[Mark]:
     """The arm's angle from the line of centres."""
     at = pivot + 21 * np.stack([-np.cos(psi / 2), np.sin(psi / 2)])
     return [arc("psi", pivot, 17.0, np.pi - psi, np.pi), letter("psi name", at, r"$\psi$")]
@@ -107,7 +109,7 @@ def _arm_angle(pivot: Any, psi: Any) -> list[Mark]:
 
 def two_radii_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     """A plate cam between its two radii, with the letters of its formulas, at cam angle ``turn``."""
-    i, cam = position(analysis, turn), analysis.cam
+    i, cam = position(analysis.cam_angle, turn), analysis.cam
     profile, pivot = _turned(analysis, i, "profile"), analysis.cranks["arm"][0] / mm
     centre, radius = analysis.roller_centre[:, i] / mm, _radius(analysis)
     normal, t = analysis.normal[:, i], analysis.arm_angle[i]
@@ -133,7 +135,7 @@ def two_radii_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     )
 
 
-def _two_radii(least: Any, largest: Any) -> list[Mark]:
+def _two_radii(least: float, largest: float) -> list[Mark]:
     """The smallest and the largest circle of the profile, each with a radius."""
     marks: list[Mark] = []
     for key, radius, words, at in (
@@ -148,7 +150,7 @@ def _two_radii(least: Any, largest: Any) -> list[Mark]:
     return marks
 
 
-def _force_and_way(centre: Any, normal: Any, t: Any) -> list[Mark]:
+def _force_and_way(centre: Array, normal: Array, t: Array) -> list[Mark]:
     """The normal force on the roller, the way its centre goes, the pressure angle between them."""
     moves = np.stack([np.sin(t), np.cos(t)])
     first, last = (np.arctan2(v[1], v[0]) for v in (normal, moves))
@@ -166,7 +168,7 @@ def _force_and_way(centre: Any, normal: Any, t: Any) -> list[Mark]:
 def flat_face_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     """A cam with a nose under a flat face, with the letters of the formulas, at cam angle ``turn``."""
     whole, cam = analysis.whole, analysis.cam
-    i = position(whole, turn)
+    i = position(whole.cam_angle, turn)
     alpha, r0, h = whole.cam_angle[i], cam.base_radius / mm, whole.lift[i] / mm
     profile, face = _turned(whole, i, "profile"), r0 + h
     return Picture.of(
@@ -184,7 +186,7 @@ def flat_face_sketch(analysis: Any, turn: float = 0.0) -> Picture:
     )
 
 
-def _cam_angles(alpha: Any, half: Any, r0: object, tip: Any) -> list[Mark]:
+def _cam_angles(alpha: float, half: float, r0: object, tip: float) -> list[Mark]:
     """The radii to the start of the flank and to the nose, the cam angle and the half angle."""
     marks: list[Mark] = []
     for words, turned, length, side in (
@@ -205,7 +207,7 @@ def _cam_angles(alpha: Any, half: Any, r0: object, tip: Any) -> list[Mark]:
     return marks
 
 
-def _lengths(r0: Any, h: Any) -> list[Mark]:
+def _lengths(r0: float, h: float) -> list[Mark]:
     """Base radius and lift beside the line of travel, far left."""
     x = -1.5 * r0
     marks: list[Mark] = []
@@ -217,7 +219,7 @@ def _lengths(r0: Any, h: Any) -> list[Mark]:
     return marks
 
 
-def _contact(contact: Any, radius: Any, face: Any) -> list[Mark]:
+def _contact(contact: Array, radius: float, face: float) -> list[Mark]:
     """The contact, its distance from the line of travel, and the circle that fits the cam there."""
     x, y = contact
     return [

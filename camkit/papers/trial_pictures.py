@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from ..quantities.kinds import refuse_arguments, refuse_empty
-from ..views.picture import Axes, Band, Line, Mark, Picture, Points, Text, View
+from ..views.picture import Axes, Band, Colour, Line, Mark, Picture, Points, Text, View
+from .optimiser_trials import Trials
 
 TARGETS = (0.01, 0.001)
 FEWEST = 3
 """Where the axis of evaluations begins."""
 
 
-def evaluations_needed(trials: Sequence[Any]) -> Picture:
+def evaluations_needed(trials: Sequence[Trials]) -> Picture:
     """Trials of several methods on one problem: every run a dot, the quartiles of all runs a box, the median a bar.
 
     Filled dots: to 1 %; hollow ones: to 0.1 %.  Runs that did not arrive count as beyond the budget.
@@ -42,13 +42,13 @@ def evaluations_needed(trials: Sequence[Any]) -> Picture:
     return Picture.of(axes, marks)
 
 
-def _box(key: str, y: float, trials: Any, target: float, index: int, fill: str) -> list[Mark]:
+def _box(key: str, y: float, trials: Trials, target: float, index: int, fill: str) -> list[Mark]:
     needed, budget = np.sort(trials.to(target)), trials.budget
     came, spread = np.isfinite(needed), y + np.linspace(-0.11, 0.11, len(needed))
     lower, middle, upper = (min(trials.quantile(target, q), budget) for q in (0.25, 0.5, 0.75))
     box = [lower, upper] if lower < budget else []
     half = [middle, middle] if middle < budget else []
-    style: Any = {"role": "series", "index": index}
+    style: Colour = {"role": "series", "index": index}
     return [
         Line(f"box {key}", box, [y, y][: len(box)], stroke="bar", opacity=0.28, **style),
         Points(f"runs {key}", needed[came], spread[came], size=3.8, fill=fill, **style),
@@ -62,7 +62,7 @@ def solved_within(target: float, problem: str | None = None) -> View:
 
     refuse_arguments(solved_within, locals())
 
-    def shares(trials: Sequence[Any]) -> Picture:
+    def shares(trials: Sequence[Trials]) -> Picture:
         budget = trials[0].budget
         marks = []
         for index, method in enumerate(dict.fromkeys(t.method for t in trials)):

@@ -23,6 +23,7 @@ from ..machines.valve_measures import (
     nose_deceleration,
 )
 from ..units import deg, mm
+from ..views.front import Judged
 from .published import Comparison, Row
 
 PAPER = "He, Li 2008"
@@ -59,9 +60,9 @@ def normalisers() -> Comparison:
 def listing() -> Comparison:
     """Lengths that stand for the seating velocity: in SI, and as the listing mixes its units."""
     cam = ValveCam()
-    stated, listed = (c.seating_slope * c.half_angle / mm for c in (cam, in_paper_units(cam)))
+    stated, listed = (float(c.seating_slope * c.half_angle) / mm for c in (cam, in_paper_units(cam)))
     rows = [
-        Row("h'(0) = v_g / omega", "mm/rad", _of_formulas("seating_slope"), cam.seating_slope / mm),
+        Row("h'(0) = v_g / omega", "mm/rad", _of_formulas("seating_slope"), float(cam.seating_slope) / mm),
         Row("v = v_g alpha_B / omega", "mm", _of_formulas("v"), stated),
         Row("v in m/s and deg, taken for mm", "", _of_formulas("v_listed"), listed, "what the listing computes with"),
     ]
@@ -132,7 +133,7 @@ def sign_as_printed(found: ValveCam) -> Comparison:
     return Comparison("Optimum with the sign as printed, W1 = 0.5", FORMULAS, rows, APART)
 
 
-def front_points(front: Any) -> Comparison:
+def front_points(front: Judged) -> Comparison:
     """Points of the front of fullness against peak positive acceleration beside a front that was found."""
     value = _of_formulas("front")
     order = np.argsort(front.f[:, 1])

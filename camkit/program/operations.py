@@ -10,7 +10,6 @@ import operator
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -33,7 +32,7 @@ class Each:
 class Fold:
     """Many numbers become one along axes: by the operation ``by``, from ``start``."""
 
-    by: Callable[..., Any]
+    by: Callable[..., object]
     start: float
 
 
@@ -59,13 +58,13 @@ class Move:
 class Written:
     """Written with the other rows, as numpy works it out."""
 
-    by: Callable[..., Any]
+    by: Callable[..., object]
 
 
 Row = Each | Fold | Along | Pick | Move | Written
 
 
-def _library(*names: str) -> dict[Any, Row]:
+def _library(*names: str) -> dict[object, Row]:
     """Functions of one number that JavaScript has by the same name."""
     spelled = {name: name.replace("arc", "a").replace("absolute", "abs") for name in names}
     return {getattr(np, name): Each(f"M.{spelled[name]}({{0}})") for name in names}
@@ -79,13 +78,13 @@ _POWER = Each("pow({0},{1})")
 POWERS = {-1: "1/{0}", 0: "1", 0.5: "M.sqrt({0})", 1: "{0}", 2: "{0}*{0}", 3: "{0}*{0}*{0}"}
 """Powers that need no logarithm; all but the cube are worked out in this way by numpy, too."""
 
-_MOVES: tuple[Any, ...] = (
+_MOVES: tuple[object, ...] = (
     *(operator.getitem, np.broadcast_to, np.stack, np.concatenate, np.expand_dims, np.squeeze, np.reshape, np.ravel),
     *(np.transpose, np.moveaxis, np.swapaxes, np.repeat, np.tile, np.roll, np.flip, np.vstack, np.hstack),
     *(np.column_stack, np.atleast_1d, np.atleast_2d, np.copy, np.diagonal),
 )
 
-TABLE: dict[Any, Row] = {
+TABLE: dict[object, Row] = {
     np.add: Each("{0}+{1}"),
     np.subtract: Each("{0}-{1}"),
     np.multiply: Each("{0}*{1}"),

@@ -8,8 +8,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..quantities import D, quantities_of, unremarked, value_of, with_quantities
+from ..quantities.types import Array
 from .record import Call, CannotRecord, Recorded, Recording, Ref, mapped
 
 
@@ -25,12 +27,12 @@ class Program:
     calls: tuple[Call, ...]
     """Inputs first, in order; of those that follow each needs only what stands before it."""
     inputs: tuple[str, ...]
-    outputs: Mapping[str, Any]
+    outputs: Mapping[str, Ref | np.ndarray]
     """Of each output the `Ref` of its call, or what it is whatever the inputs are."""
 
-    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    def __call__(self, inputs: Mapping[str, ArrayLike]) -> dict[str, Array]:
         """The outputs of other inputs, of the same shapes as those that it was recorded with."""
-        results: dict[int, Any] = {}
+        results: dict[int, Array] = {}
         for k, (name, call) in enumerate(zip(self.inputs, self.calls, strict=False)):
             value = np.asarray(inputs[name], dtype=float)[()]
             if value.shape != call.shape:
@@ -53,12 +55,12 @@ class Program:
         return sorted(k for k in found if self.calls[k].function is not None)
 
 
-def _run(call: Call, results: Mapping[int, Any]) -> Any:
+def _run(call: Call, results: Mapping[int, Array]) -> Array:
     assert call.function is not None
     return call.function(*mapped(lambda x: _found(x, results), call.arguments), **call.named)
 
 
-def _found(argument: Any, results: Mapping[int, Any]) -> Any:
+def _found(argument: Any, results: Mapping[int, Array]) -> Any:
     return results[argument.number] if isinstance(argument, Ref) else argument
 
 
@@ -68,7 +70,7 @@ def _refs(call: Call) -> Iterator[int]:
     return iter(found)
 
 
-def recorded(function: Callable[[dict[str, Any]], Mapping[str, Any]], inputs: Mapping[str, Any]) -> Program:
+def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs: Mapping[str, ArrayLike]) -> Program:
     """What ``function`` does to inputs by name, as a program; its outputs are arrays by name.
 
     ``inputs`` are numbers or arrays that stand for all others of their shapes.  `CannotRecord` where it asks for what
@@ -94,7 +96,7 @@ def _reason(error: BaseException) -> BaseException:
 
 
 def record(
-    function: Callable[..., Mapping[str, Any]], design: D, more: Mapping[str, float] | None = None, rows: int = 0
+    function: Callable[..., Mapping[str, object]], design: D, more: Mapping[str, float] | None = None, rows: int = 0
 ) -> Program:
     """What ``function(design, **more)`` gives, as a program of all quantities of the design, by path, and ``more``.
 
@@ -111,7 +113,7 @@ def record(
     start = {path: value_of(design, path) for path in quantities_of(design)} | extra
     inputs = {name: np.full((rows, 1), value) if rows else value for name, value in start.items()}
 
-    def of_design(given: dict[str, Any]) -> Mapping[str, Any]:
+    def of_design(given: dict[str, object]) -> Mapping[str, object]:
         paths = {name: value for name, value in given.items() if name not in extra}
         return function(with_quantities(design, paths), **{name: given[name] for name in extra})
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import operator
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
+from numpy.typing import ArrayLike, DTypeLike
 
 from ..quantities.known import known
 from .operations import TABLE, Each, Move, Written
@@ -49,14 +50,14 @@ class Ref:
 class Call(NamedTuple):
     """A function of numpy with its arguments, of which each recorded one is a `Ref`; of an input there is none."""
 
-    function: Callable[..., Any] | None
-    arguments: Any
-    named: dict[str, Any]
+    function: Callable[..., np.ndarray] | None
+    arguments: tuple[Any, ...]
+    named: dict[str, object]
     shape: tuple[int, ...]
-    dtype: Any
+    dtype: np.dtype
 
 
-def mapped(f: Callable[[Any], Any], value: Any) -> Any:
+def mapped(f: Callable[[object], object], value: Any) -> Any:
     """``f`` of every argument in nested tuples and lists."""
     if isinstance(value, (tuple, list)):
         each = [mapped(f, x) for x in value]
@@ -69,13 +70,13 @@ class Recording:
 
     def __init__(self) -> None:
         self.calls: list[Call] = []
-        self._known: dict[Any, Recorded] = {}
+        self._known: dict[object, Recorded] = {}
 
-    def input(self, value: Any) -> Recorded:
+    def input(self, value: ArrayLike) -> Recorded:
         """An input, for which ``value`` stands while the program is recorded."""
         return self._noted(None, (), {}, np.asarray(value, dtype=float)[()])
 
-    def call(self, function: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+    def call(self, function: Callable[..., Any], *arguments: object, **named: object) -> Any:
         """The result of a function of the table."""
         row = TABLE.get(function)
         if row is None:
@@ -92,34 +93,40 @@ class Recording:
             self._known[key] = self._noted(function, mapped(_ref, arguments), named, value)
         return self._known[key]
 
-    def _noted(self, function: Callable[..., Any] | None, arguments: Any, named: dict[str, Any], value: Any) -> Any:
+    def _noted(
+        self,
+        function: Callable[..., Any] | None,
+        arguments: tuple[object, ...],
+        named: dict[str, object],
+        value: np.ndarray,
+    ) -> Recorded:
         if value.dtype.kind not in "fbiu":
             raise cannot("complex numbers and texts cannot be recorded")
         self.calls.append(Call(function, arguments, named, value.shape, value.dtype))
         return Recorded(self, len(self.calls) - 1, value)
 
 
-def _name_of(function: Any) -> str:
+def _name_of(function: object) -> str:
     owner = getattr(function, "__self__", None)
     return f"{owner.__name__ + '.' if isinstance(owner, np.ufunc) else ''}{getattr(function, '__name__', function)}"
 
 
-def _written(row: Written, function: Any, arguments: Any, named: dict[str, Any]) -> Any:
+def _written(row: Written, function: object, arguments: tuple[object, ...], named: dict[str, object]) -> object:
     try:
         return row.by(*arguments, **named)
     except TypeError as unfit:
         raise cannot(f"{_name_of(function)} cannot be recorded with these arguments: {unfit}") from None
 
 
-def _value(argument: Any) -> Any:
+def _value(argument: object) -> object:
     return argument.value if isinstance(argument, Recorded) else argument
 
 
-def _ref(argument: Any) -> Any:
+def _ref(argument: object) -> object:
     return Ref(argument.number) if isinstance(argument, Recorded) else argument
 
 
-def _key(argument: Any) -> Any:
+def _key(argument: object) -> object:
     """What tells one argument from another."""
     if isinstance(argument, Recorded):
         return argument.number
@@ -139,21 +146,21 @@ class Recorded(NDArrayOperatorsMixin):
     recorded = True
     """By which physics can tell it from a known value (see `camkit.quantities.known`)."""
 
-    def __init__(self, recording: Recording, number: int, value: Any) -> None:
+    def __init__(self, recording: Recording, number: int, value: np.ndarray) -> None:
         self.recording, self.number, self.value = recording, number, value
         self.shape, self.dtype, self.ndim, self.size = (value.shape, value.dtype, value.ndim, value.size)
 
     @property
-    def T(self) -> Any:
+    def T(self) -> np.ndarray:
         """Transposed."""
         return np.transpose(self)
 
-    def _refuse(self, *_: Any, **__: Any) -> Any:
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
         raise cannot("a truth value, a number or a plain array of a recorded value is asked for")
 
     __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __format__ = _refuse
 
-    def __setitem__(self, at: Any, value: Any) -> None:
+    def __setitem__(self, at: object, value: object) -> None:
         raise cannot("a recorded array is written into")
 
     def __hash__(self) -> int:
@@ -162,10 +169,10 @@ class Recorded(NDArrayOperatorsMixin):
     def __len__(self) -> int:
         return len(self.value)
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[Any]:
         return (self[k] for k in range(len(self)))
 
-    def __pow__(self, exponent: Any) -> Any:
+    def __pow__(self, exponent: object) -> np.ndarray:
         return self.recording.call(operator.pow, self, exponent)
 
     def __getitem__(self, at: Any) -> Any:
@@ -181,27 +188,31 @@ class Recorded(NDArrayOperatorsMixin):
             raise cannot("an array is indexed by computed places, not one row after the other")
         return np.take_along_axis(self, places, axis=-1)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, out: Any = None, **named: Any) -> Any:
+    def __array_ufunc__(
+        self, ufunc: np.ufunc, method: str, *inputs: object, out: object = None, **named: object
+    ) -> Any:
         if out is not None:
             raise cannot("a computed value is written into an array")
         return self.recording.call(ufunc if method == "__call__" else getattr(ufunc, method), *inputs, **named)
 
-    def __array_function__(self, function: Any, types: Any, arguments: Any, named: Any) -> Any:
+    def __array_function__(
+        self, function: Callable[..., Any], types: object, arguments: Any, named: dict[str, object]
+    ) -> Any:
         if function in (np.shape, np.ndim, np.size):
             return function(self.value, *arguments[1:], **named)
         return self.recording.call(function, *arguments, **named)
 
-    def astype(self, dtype: Any, copy: bool = True) -> Any:
+    def astype(self, dtype: DTypeLike, copy: bool = True) -> Any:
         """As whole numbers, as truths, or as they are."""
         kind = np.dtype(dtype).kind
         return self.recording.call(whole, self) if kind == "i" else self != 0 if kind == "b" else self + 0.0
 
-    def reshape(self, *shape: Any) -> Any:
+    def reshape(self, *shape: Any) -> np.ndarray:
         """The same numbers in another shape."""
         return np.reshape(self, shape[0] if len(shape) == 1 else shape)
 
 
-def _method(function: Any) -> Any:
+def _method(function: Callable[..., np.ndarray]) -> Callable[..., object]:
     return lambda self, *arguments, **named: self.recording.call(function, self, *arguments, **named)
 
 

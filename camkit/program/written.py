@@ -2,60 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..quantities.known import known
+from ..quantities.types import Array, Value
+
+Axis = int | tuple[int, ...] | None
 
 
-def whole(values: Any) -> Any:
+def whole(values: Array) -> Array:
     """``values`` as integers: the fraction is cut off."""
     return values.astype(int)
 
 
-def picked(values: Any, places: Any) -> Any:
+def picked(values: Array, places: Array) -> Array:
     """What stands in each row at the places of that row."""
     return np.take_along_axis(values, places, axis=-1)
 
 
-def _folded(ufunc: Any) -> Any:
+def _folded(ufunc: np.ufunc) -> Callable[..., Array]:
     return lambda a, axis=None, *, keepdims=False: ufunc.reduce(a, axis=axis, keepdims=keepdims)
 
 
-def _broadcast_arrays(*arrays: Any) -> tuple[Any, ...]:
+def _broadcast_arrays(*arrays: Any) -> tuple[Array, ...]:
     shape, recording = (np.broadcast_shapes(*map(np.shape, arrays)), next(a for a in arrays if not known(a)).recording)
     return tuple(recording.call(np.broadcast_to, array, shape) for array in arrays)
 
 
-def _mean(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
+def _mean(a: Array, axis: Axis = None, *, keepdims: bool = False) -> Array:
     total = np.sum(a, axis, keepdims=keepdims)
     return total / (np.size(a) // np.size(total))
 
 
-def _cumsum(a: Any, axis: Any = None) -> Any:
+def _cumsum(a: Array, axis: int | None = None) -> Array:
     return np.add.accumulate(np.ravel(a) if axis is None else a, axis=-1 if axis is None else axis)
 
 
-def _clip(a: Any, low: Any = None, high: Any = None) -> Any:
+def _clip(a: Array, low: Value | None = None, high: Value | None = None) -> Array:
     above = a if low is None else np.maximum(a, low)
     return above if high is None else np.minimum(above, high)
 
 
-def _diff(a: Any, n: int = 1, axis: int = -1) -> Any:
+def _diff(a: Array, n: int = 1, axis: int = -1) -> Array:
     for _ in range(n):
         along = np.moveaxis(a, axis, -1)
         a = np.moveaxis(along[..., 1:] - along[..., :-1], -1, axis)
     return a
 
 
-def _trapezoid(y: Any, x: Any = None, dx: float = 1.0, axis: int = -1) -> Any:
+def _trapezoid(y: Array, x: Array | None = None, dx: float = 1.0, axis: int = -1) -> Array:
     step, y = dx if x is None else np.diff(x), _last(y, axis)
     return (step * (y[..., 1:] + y[..., :-1]) / 2.0).sum(-1)
 
 
-def _unwrap(p: Any, *, axis: int = -1) -> Any:
+def _unwrap(p: Array, *, axis: int = -1) -> Array:
     p = _last(p, axis)
     step = np.diff(p)
     wrapped = np.mod(step + np.pi, 2 * np.pi) - np.pi
@@ -64,13 +67,13 @@ def _unwrap(p: Any, *, axis: int = -1) -> Any:
     return np.concatenate([p[..., :1], p[..., 1:] + np.cumsum(more, axis=-1)], axis=-1)
 
 
-def _select(conditions: Sequence[Any], values: Sequence[Any], default: Any = 0) -> Any:
+def _select(conditions: Sequence[Array], values: Sequence[Value], default: Value = 0) -> Value:
     for condition, value in zip(conditions[::-1], values[::-1], strict=True):
         default = np.where(condition, value, default)
     return default
 
 
-def _interp(x: Any, xp: Any, fp: Any) -> Any:
+def _interp(x: Array, xp: Array, fp: Array) -> Array:
     y = np.where(x == xp[-1], fp[-1], np.where(x > xp[-1], fp[-1], x))
     for k in range(len(xp) - 2, -1, -1):
         slope = (fp[k + 1] - fp[k]) / (xp[k + 1] - xp[k])
@@ -78,12 +81,12 @@ def _interp(x: Any, xp: Any, fp: Any) -> Any:
     return np.where(x < xp[0], fp[0], y)
 
 
-def _cross(a: Any, b: Any, *, axis: int = -1) -> Any:
+def _cross(a: Array, b: Array, *, axis: int = -1) -> Array:
     (a0, a1, a2), (b0, b1, b2) = np.moveaxis(a, axis, 0), np.moveaxis(b, axis, 0)
     return np.stack(np.broadcast_arrays(a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0), axis=axis)
 
 
-def _append(a: Any, values: Any, axis: int | None = None) -> Any:
+def _append(a: Array, values: Array, axis: int | None = None) -> Array:
     return np.concatenate([np.ravel(a), np.ravel(values)] if axis is None else [a, values], axis=axis or 0)
 
 
@@ -99,13 +102,13 @@ def _take_along_axis(arr: Any, indices: Any, axis: int = -1) -> Any:
     return np.moveaxis(found, -1, axis)
 
 
-def _last(a: Any, axis: int) -> Any:
+def _last(a: Array, axis: int) -> Array:
     if axis not in (-1, np.ndim(a) - 1):
         raise TypeError("the axis must be the last one")
     return a
 
 
-BY: dict[Any, Any] = {
+BY: dict[object, Callable[..., object]] = {
     np.broadcast_arrays: _broadcast_arrays,
     np.max: _folded(np.maximum),
     np.min: _folded(np.minimum),

@@ -183,7 +183,7 @@ class Choice:
 
     symbol: str
     default: object
-    options: Sequence[Any] | Mapping[str, Any]
+    options: Sequence[object] | Mapping[str, object]
     meaning: str
 
     def __post_init__(self) -> None:
@@ -206,7 +206,7 @@ class Choice:
             return next((name for name, option in self.named.items() if option == value), shown(value))
         return str(getattr(value, "name", shown(value)))
 
-    def option(self, wanted: object) -> Any:
+    def option(self, wanted: object) -> object:
         """The option that is ``wanted`` by its name or as it is; anything else is left to whom it is for."""
         return self.named.get(wanted, wanted) if isinstance(wanted, str) else wanted
 
@@ -230,7 +230,7 @@ class Choice:
             return False
         return type(value) in self._types or all(hasattr(value, name) for name in self._common)
 
-    def same_as(self, value: object) -> Any:
+    def same_as(self, value: object) -> object:
         """The plain option that equals ``value``, whose type may be another, such as numpy's; else ``value`` itself."""
         return next(option for option in self.options if option == value) if self._plain else value
 
@@ -275,7 +275,7 @@ def quantity(
 
 
 def choice(
-    symbol: str, default: object, options: Sequence[Any] | Mapping[str, Any], meaning: str, **says: object
+    symbol: str, default: object, options: Sequence[object] | Mapping[str, object], meaning: str, **says: object
 ) -> Any:
     """A dataclass field that is one of ``options``, which have a ``name`` or are mapped from names.
 
@@ -372,7 +372,7 @@ class Declared:
         for name in [n for n in numbers if np.ndim(getattr(self, n))] or numbers:
             object.__setattr__(self, name, np.where(ok, getattr(self, name), np.nan))
 
-    def replace(self, **changes: Any) -> Self:
+    def replace(self, **changes: object) -> Self:
         """The same design with some fields changed (and checked again)."""
         refuse_fields(self, changes)
         with unremarked():

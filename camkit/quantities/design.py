@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import Field
 from typing import Any, ClassVar, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
@@ -18,7 +19,7 @@ from .tree import a_design, choices_of, declared_in, value_of
 class Analysable(Protocol):
     """A design that can be analysed, such as a cam."""
 
-    __dataclass_fields__: ClassVar[dict[str, Any]]
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     def analyse(self, at: Any = ..., /) -> Any:
         """Everything that follows from the design, at so many positions or at these."""

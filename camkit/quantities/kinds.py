@@ -62,7 +62,7 @@ def finite(value: object) -> Any:
 
 
 def a_number(
-    value: object, what: str, must: str = "be a finite number", holds: Callable[[Any], Any] | None = None
+    value: object, what: str, must: str = "be a finite number", holds: Callable[[Value], Value] | None = None
 ) -> Value:
     """``value`` as a float or a column; ``ValueError`` if it is none, or one number for which ``holds`` does not hold.
 
@@ -213,7 +213,7 @@ def refuse_fields(thing: Any, changes: Mapping[str, object]) -> None:
         raise ValueError(f"{type(thing).__name__} has no {', '.join(unknown)}; it has {', '.join(names)}")
 
 
-def refuse_arguments(function: Callable[..., object], given: Mapping[str, Any]) -> None:
+def refuse_arguments(function: Callable[..., object], given: Mapping[str, object]) -> None:
     """``ValueError`` in a sentence for an argument of ``function`` that is not of its annotation's kind.
 
     ``given`` are its ``locals()`` at its door; what is annotated ``Any`` is the function's own business.

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 def known(value: object) -> bool:
@@ -29,7 +30,7 @@ def floats(values: Any) -> Any:
     return np.asarray(values, dtype=float) if known(values) else values
 
 
-def certain(ok: Any) -> bool:
+def certain(ok: ArrayLike) -> bool:
     """Whether ``ok`` holds everywhere for sure: of what is recorded nobody knows.
 
     >>> certain(np.array([True, True])), certain(np.array([True, False]))
@@ -38,7 +39,7 @@ def certain(ok: Any) -> bool:
     return known(ok) and bool(np.all(ok))
 
 
-def fails(ok: Any) -> bool:
+def fails(ok: ArrayLike) -> bool:
     """True if ``ok`` is one false answer; a population's answers are a mask and never fail as a whole.
 
     Nor does an answer that is recorded: the design that is refused for it becomes ``nan``.

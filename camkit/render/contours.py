@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 from contourpy import FillType, contour_generator
+from numpy.typing import ArrayLike
 
-from ..views.picture import Contour, Line, Mark, Picture, Polygon, Region, Text
+from ..views.picture import Contour, Line, Mark, MarkStyle, Picture, Polygon, Region, Text
 
 NOTHING = np.full((2, 1), np.nan)
 SIZE = 9.5
@@ -20,13 +21,13 @@ PLACES = (0.30, 0.72, 0.50, 0.20)
 """How far along its curve a name stands if nothing is in its way there; contours take turns by their index."""
 
 
-def level_curve(x: Any, y: Any, z: Any, level: float) -> np.ndarray:
+def level_curve(x: ArrayLike, y: ArrayLike, z: ArrayLike, level: float) -> np.ndarray:
     """Where ``z`` on a grid is ``level``, as one curve with ``nan`` between its pieces, ``(2, m)``."""
     pieces = contour_generator(x, y, np.ma.masked_invalid(z)).lines(level)
     return _joined([piece for piece in pieces if len(piece) > 1])
 
 
-def region(x: Any, y: Any, z: Any, low: float, high: float) -> np.ndarray:
+def region(x: ArrayLike, y: ArrayLike, z: ArrayLike, low: float, high: float) -> np.ndarray:
     """The outline of where ``z`` on a grid is from ``low`` to ``high``, ``nan`` between its pieces, ``(2, m)``."""
     generator: Any = contour_generator(x, y, np.ma.masked_invalid(z), fill_type=FillType.OuterOffset)
     points, offsets = generator.filled(low, high)
@@ -49,7 +50,7 @@ def outlined(picture: Picture, size: np.ndarray) -> list[Mark]:
     above: list[Mark] = []
     marks: list[Mark] = []
     for mark in reversed(picture.marks):
-        look: Any = {"role": mark.role, "index": mark.index, "label": mark.label, "opacity": mark.opacity}
+        look: MarkStyle = {"role": mark.role, "index": mark.index, "label": mark.label, "opacity": mark.opacity}
         if isinstance(mark, Region):
             marks.append(Polygon(mark.key, *region(mark.x, mark.y, mark.z, mark.low, mark.high), **look))
         elif isinstance(mark, Contour):

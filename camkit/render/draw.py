@@ -6,10 +6,11 @@ Each mark is one artist, known by the mark's key.  Roles get their colours and w
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.lines import Line2D
@@ -17,6 +18,7 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import NullLocator
 
 from ..geometry import circle
+from ..quantities.types import Value
 from ..views import picture as shown
 from .contours import outlined
 
@@ -28,7 +30,7 @@ class Role(NamedTuple):
     dark: str
     print: str
     width: float = 1.9
-    dashes: Any = "-"
+    dashes: str | tuple[int, tuple[float, ...]] = "-"
 
 
 ROLES: dict[str, Role] = {
@@ -58,7 +60,7 @@ SERIES = ("position", "follower", "velocity", "jerk", "flank")
 SHADES = ((0.0, 0.0), (0.0, 0.45), (1.0, 0.5), (0.0, 0.7))
 """The colours of a series return darker and paler: towards black (0) or white (1), and how far."""
 
-STROKES: dict[str, dict[str, Any]] = {
+STROKES: dict[str, dict[str, object]] = {
     "solid": {"linestyle": "-"},
     "line": {"linewidth": 1.9},
     "thin": {"linewidth": 1.0},
@@ -139,7 +141,7 @@ def unit_text(words: str) -> str:
     return name + bracket + re.sub(r"\^(-?[\d.]+)", r"$^{\1}$", unit) if bracket else words
 
 
-def moving(ax: Axes) -> list[Any]:
+def moving(ax: Axes) -> list[Artist]:
     """Everything on ``ax`` that was drawn with a key, lowest first."""
     found = [artist for artist in (*ax.patches, *ax.lines, *ax.texts) if artist.get_gid()]
     return sorted(found, key=lambda artist: artist.get_zorder())
@@ -189,14 +191,14 @@ def _places(mark: Any) -> tuple[np.ndarray, np.ndarray]:
     return x, y
 
 
-def _stroke(mark: Any, tint: str, theme: str) -> dict[str, Any]:
+def _stroke(mark: shown.Mark, tint: str, theme: str) -> dict[str, object]:
     """Width and dashes of a line, form and size of points."""
     if isinstance(mark, shown.Points):
         inside = {"full": tint, "paper": colour("paper", theme=theme), "none": "none"}[mark.fill]
         form = {"marker": FORMS[mark.mark], "markersize": mark.size, "markeredgewidth": _rim(mark)}
         return {"linestyle": "none", "color": tint, "markerfacecolor": inside, **form}
     role = ROLES[mark.role]
-    style: dict[str, Any] = {"color": tint, "linewidth": role.width, "linestyle": role.dashes}
+    style: dict[str, object] = {"color": tint, "linewidth": role.width, "linestyle": role.dashes}
     for name in getattr(mark, "stroke", "").split():
         style |= STROKES[name]
     return style | ({"drawstyle": "steps-post"} if getattr(mark, "steps", False) else {})
@@ -206,12 +208,12 @@ def _rim(mark: shown.Points) -> float:
     return 0.0 if mark.fill == "full" and mark.mark not in ("plus", "cross") else 2.0 if mark.size > 6 else 1.2
 
 
-def _edge(mark: Any, tint: str) -> dict[str, Any]:
+def _edge(mark: shown.Mark, tint: str) -> dict[str, object]:
     edged = getattr(mark, "edged", isinstance(mark, shown.Band))
     return {"edgecolor": tint if edged else "none", "linewidth": ROLES[mark.role].width if edged else 0.0}
 
 
-def _put_patch(ax: Axes, mark: Any, artist: Any, style: dict[str, Any]) -> Any:
+def _put_patch(ax: Axes, mark: shown.Mark, artist: Any, style: dict[str, Any]) -> Any:
     corners = _corners(mark)
     if artist is None:
         over = {"x": ax.get_yaxis_transform, "y": ax.get_xaxis_transform}
@@ -235,7 +237,7 @@ def _corners(mark: Any) -> np.ndarray:
     return np.stack([ends, across] if mark.along == "x" else [across, ends], axis=-1)
 
 
-def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, Any], theme: str) -> Any:
+def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, object], theme: str) -> Any:
     if artist is None:
         artist = ax.text(0, 0, "", gid=mark.key, clip_on=False)
     if mark.boxed or mark.framed:
@@ -269,7 +271,13 @@ def _frame(ax: Axes, axes: shown.Axes) -> None:
         ax.set_axis_off()
 
 
-def _scale(ax: Axes, name: Any, log: str, ticks: Any, ends: Any) -> None:
+def _scale(
+    ax: Axes,
+    name: Literal["x", "y"],
+    log: str,
+    ticks: Mapping[float, str] | None,
+    ends: tuple[Value | None, Value | None] | None,
+) -> None:
     """Scale, ticks and ends of the axis ``name``."""
     kind = "log" if name in log else "linear"
     if getattr(ax, f"get_{name}scale")() != kind:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -14,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..quantities import Analysable, refuse_design, refuse_population
+from ..quantities import Analysable, Measure, refuse_design, refuse_population
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, refuse_arguments
 from ..study.study import refuse_limits
@@ -52,7 +51,7 @@ def pixels(figure: Figure) -> Image.Image:
     return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1)
 
 
-def encoded(image: Image.Image, kind: str, **options: Any) -> bytes:
+def encoded(image: Image.Image, kind: str, **options: object) -> bytes:
     """``image`` as a file of a ``kind`` that Pillow knows."""
     out = io.BytesIO()
     image.save(out, kind, **options)
@@ -87,7 +86,7 @@ def positions_of(view: View) -> tuple[str, ...]:
     return tuple(name for name in POSITIONS if name in takes)
 
 
-def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: Any) -> None:
+def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: object) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
     ``asked`` is what a view may ask for: a position of the mechanism, and the ``limits`` (a mapping from measures to
@@ -117,7 +116,7 @@ def picture(
     turn: float | None = None,
     azimuth: float | None = None,
     elevation: float | None = None,
-    limits: Mapping[Any, float] | None = None,
+    limits: Mapping[Measure, float] | None = None,
 ) -> Still:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from pymoo.core.population import Population
 
@@ -58,7 +56,7 @@ class CompetitiveAlgorithm(OneObjective):
         reach: float = 0.3,
         penalty: float = 10.0,
         narrowing: float = 1.0,
-        **kwargs: Any,
+        **kwargs: object,
     ) -> None:
         super().__init__(candidates, **kwargs)
         counted(candidates, "candidates", 1)
@@ -77,7 +75,7 @@ class CompetitiveAlgorithm(OneObjective):
         x, f = zip(*self._path, strict=True)
         return np.array(x), np.array(f)
 
-    def _setup(self, problem: object, **kwargs: Any) -> None:
+    def _setup(self, problem: object, **kwargs: object) -> None:
         super()._setup(problem, **kwargs)
         self._path = []
 
@@ -85,7 +83,7 @@ class CompetitiveAlgorithm(OneObjective):
         low, high = self.problem.bounds()
         return (people.get("X") - low) / (high - low)
 
-    def _initialize_advance(self, infills: Population, **kwargs: Any) -> None:
+    def _initialize_advance(self, infills: Population, **kwargs: object) -> None:
         self._elect(infills, np.full(self.candidates, np.sqrt(self.variance)))
 
     def _infill(self) -> Population:
@@ -94,7 +92,7 @@ class CompetitiveAlgorithm(OneObjective):
         everywhere = self.random_state.random((self.global_voters, self.problem.n_var))
         return self._people(np.clip(np.concatenate([local.reshape(-1, self.problem.n_var), everywhere]), 0, 1))
 
-    def _advance(self, infills: Population, **kwargs: Any) -> None:
+    def _advance(self, infills: Population, **kwargs: object) -> None:
         moved = self._people(self._centroids(infills))
         self.evaluator.eval(self.problem, moved, algorithm=self)
         stays, full = self._deviation * self.narrowing, np.sqrt(self.variance)

@@ -28,7 +28,7 @@ class StudyProblem(Problem):
         super().__init__(n_var=len(study.free), xl=low, xu=high, **counts)
         self.study = study
 
-    def _evaluate(self, x: np.ndarray, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
+    def _evaluate(self, x: np.ndarray, out: dict[str, object], *args: object, **kwargs: object) -> None:
         evaluation = self.study.evaluate(x)
         out["F"] = np.minimum(evaluation.f, WORST)
         out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
@@ -37,7 +37,7 @@ class StudyProblem(Problem):
 class OnGrid(Repair):
     """Moves free values onto the grid of `on_grid`."""
 
-    def _do(self, problem: Problem, x: np.ndarray, **kwargs: Any) -> np.ndarray:
+    def _do(self, problem: Problem, x: np.ndarray, **kwargs: object) -> np.ndarray:
         low, high = problem.xl, problem.xu
         return np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
 
@@ -51,11 +51,11 @@ class OneObjective(Algorithm):
     title: str
     """How it is called in sentences."""
 
-    def __init__(self, size: int, **kwargs: Any) -> None:
+    def __init__(self, size: int, **kwargs: object) -> None:
         super().__init__(output=kwargs.pop("output", SingleObjectiveOutput()), **kwargs)
         self.size, self.opt = size, None
 
-    def _setup(self, problem: Any, **kwargs: Any) -> None:
+    def _setup(self, problem: Any, **kwargs: object) -> None:
         if problem.n_obj != 1:
             raise ValueError(f"there are {problem.n_obj} objectives; {self.title} takes one")
         if not problem.has_bounds():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic, SupportsIndex
+from typing import Generic, SupportsIndex
 
 import numpy as np
 from scipy.stats import qmc
@@ -27,7 +27,7 @@ class Front(Generic[D]):
     x: np.ndarray
     f: np.ndarray
     message: str = ""
-    record: Mapping[str, Any] = field(default_factory=dict)
+    record: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         refuse_kinds(self)

@@ -58,7 +58,7 @@ class Epigraph:
     share of it, the solution shall lie.  ``evaluations`` counts designs.
     """
 
-    def __init__(self, study: Study, scale: float = 1.0, margins: Any = 0.0) -> None:
+    def __init__(self, study: Study, scale: float = 1.0, margins: float | np.ndarray = 0.0) -> None:
         self.study, self.scale = study, scale
         self.margins = np.broadcast_to(margins, len(study.limits))
         self.evaluations = 0

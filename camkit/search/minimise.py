@@ -129,7 +129,9 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
     return Found(best, evaluations + used, f, stopped)
 
 
-def _descent(study: Study, x: np.ndarray, precision: float, margins: object = 0.0) -> tuple[np.ndarray, int, bool]:
+def _descent(
+    study: Study, x: np.ndarray, precision: float, margins: float | np.ndarray = 0.0
+) -> tuple[np.ndarray, int, bool]:
     """The end of a descent from ``x``, the designs it took and whether it came to an end."""
     size = float(abs(study.evaluate(x).f[0, 0]))
     if not np.isfinite(size):

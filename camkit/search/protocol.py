@@ -15,9 +15,10 @@ from functools import cached_property, partial
 from importlib import import_module
 from inspect import signature
 from queue import SimpleQueue
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Evaluation, Study
@@ -44,6 +45,9 @@ class Evaluated(NamedTuple):
     evaluated: int
     f: float
     feasible: bool
+
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -142,7 +146,7 @@ class _FollowedStudy(Study):
 
     follow: Callable[[Evaluation], None] | None = None
 
-    def analysis(self, x: Any) -> Any:
+    def analysis(self, x: ArrayLike) -> Any:
         """The analysis of the design or population ``x``."""
         analysis = super().analysis(x)
         assert self.follow is not None
@@ -180,7 +184,7 @@ def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Ite
     return relayed(follow)
 
 
-def relayed(work: Callable[[Callable[[Any], None]], None]) -> Iterator[Any]:
+def relayed(work: Callable[[Callable[[T], None]], None]) -> Iterator[T]:
     """What ``work(give)`` gives, one by one.
 
     ``work`` runs in a thread of its own, which waits in ``give`` until the next is asked for.  When the loop is left,

@@ -7,13 +7,12 @@ Carolina State University, TR 95-09, 1995.  The cabin-door paper's equation (10)
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from pymoo.core.population import Population
 
 from ..quantities import counted
 from ..quantities.kinds import numbers, one_number, refuse_arguments
+from ..quantities.types import Array
 from .evolution import OneObjective
 
 
@@ -32,7 +31,7 @@ def selection_chances(count: int, best: float) -> np.ndarray:
     return np.asarray(best / (1 - (1 - best) ** count) * falling)
 
 
-def crossed(first: object, second: object, share: object) -> tuple[Any, Any]:
+def crossed(first: object, second: object, share: object) -> tuple[Array, Array]:
     """Arithmetic crossover: two points of the straight line between the parents, as far from either end.
 
     >>> print(*crossed(0.0, 10.0, 0.2))
@@ -42,7 +41,7 @@ def crossed(first: object, second: object, share: object) -> tuple[Any, Any]:
     return share * first + (1 - share) * second, (1 - share) * first + share * second
 
 
-def shrinking_step(room: object, draw: object, done: float, shape: float) -> Any:
+def shrinking_step(room: object, draw: object, done: float, shape: float) -> Array:
     """Step of a non-uniform mutation: the way to a bound, ``room``, times ``(draw (1 - done))^shape``.
 
     ``done`` is the share of the generations that are over; at the end nothing moves any more.
@@ -99,7 +98,7 @@ class ToolboxGenetic(OneObjective):
         mutations: int = 2,
         generations: int = 300,
         shape: float = 3.0,
-        **kwargs: Any,
+        **kwargs: object,
     ) -> None:
         super().__init__(population, **kwargs)
         self.population, self.generations = counted(population, "designs"), counted(generations, "generations")
@@ -109,11 +108,11 @@ class ToolboxGenetic(OneObjective):
         one_number(shape, "the shape of the mutation", "be a finite number above 0", lambda v: 0 < v < np.inf)
         self.best, self.shape = best, shape
 
-    def _setup(self, problem: object, **kwargs: Any) -> None:
+    def _setup(self, problem: object, **kwargs: object) -> None:
         super()._setup(problem, **kwargs)
         self._number = 1
 
-    def _initialize_advance(self, infills: Population, **kwargs: Any) -> None:
+    def _initialize_advance(self, infills: Population, **kwargs: object) -> None:
         self.pop = infills
         self._remember(infills)
 
@@ -140,7 +139,7 @@ class ToolboxGenetic(OneObjective):
         """Places 0 .. count - 1 by rounding, so that both ends come half as often as the others."""
         return np.floor(self.random_state.random(size) * (count - 1) + 0.5).astype(int).reshape(size)
 
-    def _advance(self, infills: Population, **kwargs: Any) -> None:
+    def _advance(self, infills: Population, **kwargs: object) -> None:
         self._number += 1
         known = self.pop[self._ranked(self.pop)[:1]]
         people = Population.merge(self._kept, infills)

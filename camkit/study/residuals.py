@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..quantities import Measure, PeakMeasure
+from ..quantities.types import Array
 from .study import WeightedSum
 
 
@@ -30,7 +30,7 @@ class SumOfResiduals(Measure):
         r = self.given(analysis)
         return np.stack([r, 0 * r if self.above_only else -r], axis=-1)
 
-    def __call__(self, analysis: object) -> Any:
+    def __call__(self, analysis: object) -> Array:
         return self.sign * self.sides(analysis).max(-1).sum(-1)
 
     def spelled_out(self, analysis: object) -> WeightedSum:
@@ -41,11 +41,11 @@ class SumOfResiduals(Measure):
         return WeightedSum(self.name, self.unit, self.function, 1, peaks, (1.0,) * m, (1.0,) * m)
 
 
-def _row(sides: Callable[[Any], np.ndarray], i: int) -> Callable[[Any], np.ndarray]:
+def _row(sides: Callable[[object], np.ndarray], i: int) -> Callable[[object], np.ndarray]:
     return lambda analysis: sides(analysis)[..., i, :]
 
 
-def _remembered(function: Callable[[Any], np.ndarray]) -> Callable[[Any], np.ndarray]:
+def _remembered(function: Callable[[object], np.ndarray]) -> Callable[[object], np.ndarray]:
     """``function``, computed once for each analysis in a row: every residual asks for it."""
     last: list[object] = [None, None]
 

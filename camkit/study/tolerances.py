@@ -76,7 +76,7 @@ class AnalysisCurve:
         except AttributeError:
             raise ValueError(f"the analysis has no curve {self.name!r}") from None
 
-    def angle(self, analysis: Any) -> tuple[str, np.ndarray]:
+    def angle(self, analysis: object) -> tuple[str, np.ndarray]:
         """The angle over which it is drawn: what it is called, and its values at the curve's points, rad."""
         head = self.name.rpartition(".")[0]
         owner = attrgetter(head)(analysis) if head else analysis
@@ -269,7 +269,7 @@ def _named(measure: Measure) -> Measure:
     return measure if measure.sign > 0 else -measure
 
 
-def _check(name: str, declared: Quantity, value: float, half: Any) -> None:
+def _check(name: str, declared: Quantity, value: float, half: object) -> None:
     """Refuse a half width that makes no sense."""
     half = one_number(half, f"the tolerance of the {words(name)}", "be a number of at least 0")
     if not (np.isfinite(half) and half >= 0):

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import Disc, Outline
+from ..geometry import Body, Disc, Outline
 from ..quantities import PeakMeasure
 from ..quantities.kinds import refuse_empty, refuse_kinds
 from ..quantities.types import Array
@@ -40,7 +40,7 @@ def cams_beside(shown: Beside, turn: float = 0.0) -> Picture:
     for number, (name, analysis) in enumerate(shown.analyses.items()):
         left, right, bottom = _reach(analysis)
         x -= left * min(number, 1)
-        drawn = bodies(analysis.bodies, position(analysis, turn), x, name, number)
+        drawn = bodies(analysis.bodies, position(analysis.cam_angle, turn), x, name, number)
         marks += [mark for mark in drawn if not mark.key.endswith(("pitch", "flank", "undercut"))]
         marks.append(Text(f"{name} name", x, 1.06 * bottom, name, anchor="top", bold=True))
         x += right + GAP
@@ -55,13 +55,14 @@ def _reach(analysis: Any) -> tuple[float, float, float]:
     return left / mm, right / mm, -size / mm
 
 
-def _sides(body: Outline | Disc) -> tuple[Array, Array]:
+def _sides(body: Body) -> tuple[Array, Array]:
     """Least and largest x of a body over its path, m."""
-    if isinstance(body, Disc):
-        return np.min(body.x) - body.radius, np.max(body.x) + body.radius
-    c, s = np.cos(body.angle), np.sin(body.angle)
-    x = [body.x + c * px - s * py for px, py in np.transpose(body.points)]
-    return np.min(x), np.max(x)
+    if isinstance(body, Outline):
+        c, s = np.cos(body.angle), np.sin(body.angle)
+        x = [body.x + c * px - s * py for px, py in np.transpose(body.points)]
+        return np.min(x), np.max(x)
+    radius = body.radius if isinstance(body, Disc) else 0.0
+    return np.min(body.x) - radius, np.max(body.x) + radius
 
 
 def curves_beside(shown: Beside) -> Picture:

@@ -6,11 +6,12 @@ They show whatever analysis offers ``bodies`` (see `camkit.geometry.Body`) and `
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, SupportsIndex
+from typing import Protocol, SupportsIndex
 
 import numpy as np
 
-from ..geometry import Disc, Outline
+from ..geometry import Body, Disc, Outline
+from ..motion import Kinematics
 from ..quantities import Measure
 from ..quantities.types import Array, Value
 from ..units import MPa, deg, mm
@@ -23,22 +24,54 @@ PARTS = {"body": "", "pitch": "pitch curve", "profile": "profile", "flank": "gro
 MOTION = ("position", "velocity", "acceleration", "jerk")
 
 
-def position(analysis: Any, turn: Value) -> np.intp:
-    """Which of the positions of ``analysis`` is nearest to ``turn`` (rad)."""
-    return np.argmin(abs(analysis.cam_angle - turn), axis=-1)
+class CamCurve(Protocol):
+    """A cam curve with its follower over the turn."""
+
+    @property
+    def cam_angle(self) -> Array: ...
+    @property
+    def motion(self) -> Kinematics: ...
+    @property
+    def velocity(self) -> Array: ...
+    @property
+    def profile_curvature(self) -> Array: ...
+    @property
+    def efficiency(self) -> Array: ...
+    @property
+    def contact_force(self) -> Array: ...
+    @property
+    def contact_pressure(self) -> Array: ...
 
 
-def mechanism(analysis: Any, turn: float = 0.0) -> Picture:
+class Cam(Protocol):
+    """The analysis of a cam: its bodies, and its curves by name."""
+
+    @property
+    def cam_angle(self) -> Array: ...
+    @property
+    def bodies(self) -> tuple[Body, ...]: ...
+    @property
+    def curves(self) -> Mapping[str, CamCurve]: ...
+    @property
+    def max_curvature(self) -> Value: ...
+
+
+def position(cam_angle: Array, turn: Value) -> np.intp:
+    """Which of the cam angles is nearest to ``turn`` (rad)."""
+    return np.argmin(abs(cam_angle - turn), axis=-1)
+
+
+def mechanism(analysis: Cam, turn: float = 0.0) -> Picture:
     """The cam as it is cut and its followers, to scale, with the cam turned by ``turn`` (rad).
 
     Of a groove the band between its two flanks is filled; trouble: stretches that the follower undercuts.
     """
     axes = Axes(title="Cam and follower", xlabel="x  [mm]", ylabel="y  [mm]", equal=True)
-    return Picture.of(axes, bodies(analysis.bodies, position(analysis, turn)))
+    return Picture.of(axes, bodies(analysis.bodies, position(analysis.cam_angle, turn)))
 
 
 def bodies(
-    shown: tuple[Outline | Disc, ...], i: SupportsIndex, away: float = 0.0, prefix: str = "", index: int | None = None
+    shown: tuple[Body, ...], i: SupportsIndex, away: float = 0.0, prefix: str = "", index: int | None = None
 ) -> list[Mark]:
     """Marks of bodies at position ``i``, shifted by ``away`` mm along x.
 
@@ -57,7 +90,7 @@ def bodies(
     return marks
 
 
-def _body(body: Outline | Disc, i: SupportsIndex, away: float, key: str, style: LabelStyle) -> Iterator[Mark]:
+def _body(body: Body, i: SupportsIndex, away: float, key: str, style: LabelStyle) -> Iterator[Mark]:
     """The marks of one body."""
     x, y = body.at(i) / mm
     x = x + away
@@ -71,13 +104,13 @@ def _body(body: Outline | Disc, i: SupportsIndex, away: float, key: str, style: 
         yield Line(key, x, y, stroke="arm", opacity=1.0 if body.part == "face" else 0.85, **style)
     else:
         yield Line(key, x, y, **({"role": body.part, "label": PARTS.get(body.part, "")} | style))
-        if body.cut is not None:
+        if isinstance(body, Outline) and body.cut is not None:
             cut = gaps(x, body.cut), gaps(y, body.cut)
             label = "undercut" if body.part == "profile" else ""
             yield Line(f"{key} undercut", *cut, role="trouble", label=label)
 
 
-def motion(analysis: Any) -> Picture:
+def motion(analysis: Cam) -> Picture:
     """Position, velocity, acceleration and jerk of every follower, each over its own peak."""
     marks = []
     for name, curve in analysis.curves.items():
@@ -91,14 +124,14 @@ def motion(analysis: Any) -> Picture:
     return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
 
 
-def _moving(curve: Any) -> Array:
+def _moving(curve: CamCurve) -> Array:
     """Where the follower moves, and one sample on either side."""
     v = curve.velocity != 0
     still = np.zeros_like(v[:1])
     return v | np.concatenate([v[1:], still]) | np.concatenate([still, v[:-1]])
 
 
-def _each(analysis: Any, name: str, unit: float, named: bool = True) -> list[Mark]:
+def _each(analysis: Cam, name: str, unit: float, named: bool = True) -> list[Mark]:
     """A curve of every follower, ``named`` in the legend where there are several."""
     several = named and len(analysis.curves) > 1
     return [
@@ -107,7 +140,7 @@ def _each(analysis: Any, name: str, unit: float, named: bool = True) -> list[Mar
     ]
 
 
-def pressure_angle(analysis: object, limits: Mapping[Measure, float] | None = None) -> Picture:
+def pressure_angle(analysis: Cam, limits: Mapping[Measure, float] | None = None) -> Picture:
     """The signed pressure angle, and the band that the ``limits`` of its measures leave; without any, no band."""
     allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
     bands = [
@@ -117,19 +150,19 @@ def pressure_angle(analysis: object, limits: Mapping[Measure, float] | None = No
     return Picture.of(axes, bands, _each(analysis, "pressure_angle", deg))
 
 
-def contact_force(analysis: object) -> Picture:
+def contact_force(analysis: Cam) -> Picture:
     """Force between cam and follower, without friction."""
     axes = Axes(title="Contact force", xlabel=ANGLE, ylabel="F  [N]")
     return Picture.of(axes, _each(analysis, "contact_force", 1.0))
 
 
-def cam_torque(analysis: object) -> Picture:
+def cam_torque(analysis: Cam) -> Picture:
     """Torque on the cam, without friction."""
     axes = Axes(title="Cam torque", xlabel=ANGLE, ylabel="M  [N mm]")
     return Picture.of(axes, _each(analysis, "cam_torque", mm))
 
 
-def curvature(analysis: Any) -> Picture:
+def curvature(analysis: Cam) -> Picture:
     """Curvature of the pitch curve (full) and of the profile (thin), with the limits that the follower sets.
 
     Outside the band of plus and minus one over the roller's radius a flank is undercut.
@@ -137,7 +170,7 @@ def curvature(analysis: Any) -> Picture:
     limit = analysis.max_curvature * mm
     x = np.asarray(analysis.cam_angle)[[0, -1]] / deg
     bounds = [
-        Line(f"limit {sign}", x, [sign * limit] * 2, role="limit", label="1 / roller radius" if sign > 0 else "")
+        Line(f"limit {sign}", x, sign * limit + 0 * x, role="limit", label="1 / roller radius" if sign > 0 else "")
         for sign in (-1, 1)
     ]
     marks = _each(analysis, "curvature", 1 / mm, named=False)
@@ -149,7 +182,7 @@ def curvature(analysis: Any) -> Picture:
     return Picture.of(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
 
 
-def efficiency(analysis: Any) -> Picture:
+def efficiency(analysis: Cam) -> Picture:
     """Power out over power in: from the free-body diagram (full) and, of a rocking roller, as published (thin)."""
     marks, several = [], len(analysis.curves) > 1
     for i, (name, curve) in enumerate(analysis.curves.items()):
@@ -162,7 +195,7 @@ def efficiency(analysis: Any) -> Picture:
     return Picture.of(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
 
 
-def contact_pressure(analysis: Any) -> Picture:
+def contact_pressure(analysis: Cam) -> Picture:
     """Largest Hertz pressure between cam and follower; trouble: undercut, or the follower would have to be pulled.
 
     Of a pair of cams none where the other one pushes.

@@ -46,10 +46,10 @@ def _around(angle: Array) -> Array:
 
 
 def _over_event(
-    analysis: Any, title: str, ylabel: str, *marks: Mark, ylim: tuple[float, float] | None = None
+    half_angle: float, title: str, ylabel: str, *marks: Mark, ylim: tuple[float, float] | None = None
 ) -> Picture:
     """``marks`` over the cam angle, with thin lines at the nose and at both ends of the flanks."""
-    ends = np.array([0, 1, 2]) * analysis.cam.half_angle / deg
+    ends = np.array([0, 1, 2]) * half_angle / deg
     lines = [
         Band(name, x, x, role="guide", along="y", opacity=0.0)
         for name, x in zip(("start", "nose", "end"), ends, strict=True)
@@ -65,21 +65,21 @@ def lift(analysis: Any, turn: float = 0.0) -> Picture:
     i = np.argmin(off)
     near = np.where(off[i] < 1 * deg, 0.0, np.nan)  # else on the base circle, which is not drawn
     curve, dot = Line("lift", x, y, role="position"), Points("here", x[i] + near, y[i] + near, role="follower")
-    return _over_event(analysis, "Lift", "h  [mm]", curve, dot)
+    return _over_event(analysis.cam.half_angle, "Lift", "h  [mm]", curve, dot)
 
 
 def velocity(analysis: Any) -> Picture:
     """Velocity of the follower at the camshaft's speed."""
     event = analysis.event
     curve = Line("velocity", event.cam_angle / deg, event.in_time.v, role="velocity")
-    return _over_event(analysis, "Velocity", "v  [m/s]", curve)
+    return _over_event(analysis.cam.half_angle, "Velocity", "v  [m/s]", curve)
 
 
 def acceleration(analysis: Any) -> Picture:
     """Acceleration of the follower at the camshaft's speed."""
     event = analysis.event
     curve = Line("acceleration", event.cam_angle / deg, event.in_time.a, role="acceleration")
-    return _over_event(analysis, "Acceleration", "a  [m/s^2]", curve)
+    return _over_event(analysis.cam.half_angle, "Acceleration", "a  [m/s^2]", curve)
 
 
 def jerk(analysis: Any) -> Picture:
@@ -87,7 +87,7 @@ def jerk(analysis: Any) -> Picture:
     event = analysis.event
     j = event.in_time.j / 1e6
     curve = Line("jerk", event.cam_angle / deg, gaps(j, np.isfinite(j)), role="jerk", stroke="solid")
-    return _over_event(analysis, "Jerk", "j  [10^6 m/s^3]", curve)
+    return _over_event(analysis.cam.half_angle, "Jerk", "j  [10^6 m/s^3]", curve)
 
 
 def radius_of_curvature(analysis: Any, limits: Mapping[Measure, float] | None = None) -> Picture:
@@ -102,7 +102,7 @@ def radius_of_curvature(analysis: Any, limits: Mapping[Measure, float] | None = 
     kept = np.all([least >= limit for limit in allowed], axis=0)
     radius = gaps(event.roller.profile_radius / mm, event.roller.curvature > 0)
     return _over_event(
-        analysis,
+        analysis.cam.half_angle,
         "Radius",
         "ρ  [mm]",
         Line("flat", x, event.flat.profile_radius / mm, role="position", label="flat face"),
@@ -126,7 +126,7 @@ def spring_and_inertia(analysis: Any) -> Picture:
         label = "inertia" if key == "inertia" else ""
         marks.append(Line(key, x, pulled, role="acceleration", stroke=stroke, label=label))
         marks.append(Line(f"{key} jump", x, gaps(pulled, needed > spring), role="trouble", stroke=stroke))
-    return _over_event(analysis, "Force", "F  [N]", *marks)
+    return _over_event(analysis.cam.half_angle, "Force", "F  [N]", *marks)
 
 
 def stress_over_event(analysis: Any) -> Picture:
@@ -134,7 +134,7 @@ def stress_over_event(analysis: Any) -> Picture:
     event = analysis.event
     x = event.cam_angle / deg
     return _over_event(
-        analysis,
+        analysis.cam.half_angle,
         "Contact stress",
         "p_0  [MPa]",
         Line("stress", x, gaps(event.contact_stress / MPa, event.is_open), role="position"),
@@ -146,4 +146,4 @@ def camshaft_torque(analysis: Any) -> Picture:
     """Torque on the camshaft over a whole turn, without friction: what the spring takes it gives back."""
     whole = analysis.whole
     curve = Line("torque", whole.cam_angle / deg, whole.cam_torque, role="position")
-    return _over_event(analysis, "Camshaft torque", "M  [N m]", curve)
+    return _over_event(analysis.cam.half_angle, "Camshaft torque", "M  [N m]", curve)

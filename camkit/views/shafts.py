@@ -74,36 +74,36 @@ def _bar(table: Turntable, key: str, points: Sequence[Array], **style: Unpack[Li
     table.bar(key, np.transpose(points), **style)
 
 
-def _over_a_turn(analysis: Any, title: str, ylabel: str, curves: Mapping[str, Value]) -> Picture:
+def _over_a_turn(angle: Array, title: str, ylabel: str, curves: Mapping[str, Value]) -> Picture:
     """Values over the input angle, by the name of the shaft that they belong to."""
     marks = []
     for name, values in curves.items():
-        shown = np.broadcast_to(values, analysis.input_angle.shape)
+        shown = np.broadcast_to(values, angle.shape)
         # the even input needs no name where three would not find room
         label = "" if name == "input" and len(curves) == 3 else name
-        marks.append(Line(name, analysis.input_angle / deg, shown, role=ROLE[name], stroke="line", label=label))
+        marks.append(Line(name, angle / deg, shown, role=ROLE[name], stroke="line", label=label))
     return Picture.of(Axes(title=title, xlabel="input angle  [deg]", ylabel=ylabel), marks)
 
 
 def speeds(analysis: Any) -> Picture:
     """Speeds of the three shafts over a turn of the input shaft, which turns evenly."""
     n = (analysis.drive.speed, analysis.intermediate_speed, analysis.output_speed)
-    return _over_a_turn(analysis, "Speed", "n  [rpm]", {k: v / rpm for k, v in zip(ROLE, n, strict=True)})
+    return _over_a_turn(analysis.input_angle, "Speed", "n  [rpm]", {k: v / rpm for k, v in zip(ROLE, n, strict=True)})
 
 
 def leads(analysis: Any) -> Picture:
     """How far the intermediate and the driven shaft are ahead of the input shaft."""
     lead = {"intermediate": analysis.first.lead / deg, "driven": analysis.lead / deg}
-    return _over_a_turn(analysis, "Lead", "angle  [deg]", lead)
+    return _over_a_turn(analysis.input_angle, "Lead", "angle  [deg]", lead)
 
 
 def torques(analysis: Any) -> Picture:
     """Torque in the intermediate shaft at its driven end and in the driven shaft; that of the input shaft is even."""
     torque = (analysis.drive.torque, analysis.intermediate_torque, analysis.output_torque)
-    return _over_a_turn(analysis, "Torque", "T  [N m]", dict(zip(ROLE, torque, strict=True)))
+    return _over_a_turn(analysis.input_angle, "Torque", "T  [N m]", dict(zip(ROLE, torque, strict=True)))
 
 
 def couples(analysis: Any) -> Picture:
     """Secondary couples: what the torque that goes round a corner puts on the bearings of the outer shafts."""
     couple = {"input": analysis.input_couple, "driven": analysis.output_couple}
-    return _over_a_turn(analysis, "Couple", "C  [N m]", couple)
+    return _over_a_turn(analysis.input_angle, "Couple", "C  [N m]", couple)

@@ -39,7 +39,7 @@ def linkage_in_space(
     Faint: the other way to assemble it.  Trouble: where the crank cannot go.  The edges of the boxes to stay
     ``inside`` and ``outside`` of are in trouble when a link breaks them.
     """
-    here = analysis.at(_middle(analysis) if turn is None else turn)
+    here = analysis.at(_middle(analysis.crank_angle) if turn is None else turn)
     boxes = [box for box in (inside, outside) if box]
     scene = scene_of(analysis.linkage, boxes, azimuth, elevation)
     _ground(scene, here)
@@ -58,8 +58,8 @@ def linkage_in_space(
     return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
 
 
-def _middle(analysis: Any) -> float:
-    return analysis.crank_angle[[0, -1]].mean()
+def _middle(crank_angle: Array) -> float:
+    return float(crank_angle[[0, -1]].mean())
 
 
 def crank_circle(linkage: Any, angle: Value) -> np.ndarray:
@@ -189,7 +189,7 @@ def output_angle(analysis: Any, turn: float | None = None) -> Picture:
     x = own.crank_angle[:, 0] / deg
     start, end = analysis.crank_angle[[0, -1]] / deg
     wall = np.where(own.linkage.assembles(own.crank_angle[:, 0]), 0, 360)
-    now = analysis.at(_middle(analysis) if turn is None else turn)
+    now = analysis.at(_middle(analysis.crank_angle) if turn is None else turn)
     at, angle = now.crank_angle / deg, np.mod(now.rocker_angle, 2 * np.pi) / deg
     swept = _unbroken(analysis.rocker_angle)
     return Picture.of(

@@ -6,7 +6,6 @@ Source: Norton, Cam Design and Manufacturing Handbook (unacceptable cam curves, 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy import cos, inf, pi, sin
@@ -63,10 +62,10 @@ class ConstantVelocity(Law):
     def kinks(self) -> tuple[Value, ...]:
         return (self.blend, 1 - self.blend)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         return mirrored(u, self._first_half)
 
-    def _first_half(self, u: Value) -> Kinematics:
+    def _first_half(self, u: Array) -> Kinematics:
         b = self.blend
         V = 1 / (1 - b)
         straight = (V * (u - b / 2), V + 0 * u, 0 * u * b, 0 * u * b)
@@ -81,10 +80,10 @@ class ConstantVelocity(Law):
         return Peaks(V, pi * V / (2 * b), pi**2 * V / (2 * b**2))
 
 
-def _cycloidal(u: Value, b: Any, V: Any) -> tuple[Array, Array, Array, Array]:
+def _cycloidal(u: Array, b: Value, V: Value) -> tuple[Array, Array, Array, Array]:
     k = pi / b
     return V / 2 * (u - sin(k * u) / k), V / 2 * (1 - cos(k * u)), V / 2 * k * sin(k * u), V / 2 * k**2 * cos(k * u)
 
 
-def _parabolic(u: Value, b: Any, V: Any) -> tuple[Array, Array, Array, Array]:
+def _parabolic(u: Array, b: Value, V: Value) -> tuple[Array, Array, Array, Array]:
     return V * u**2 / (2 * b), V * u / b, V / b + 0 * u, 0 * u * b

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
@@ -63,8 +62,8 @@ class FreePolynomial(Law):
     array([0.028, 0.104, 0.216])
     """
 
-    start: tuple[Any | None, ...] = row(given_at("start"), default=(0.0, 0.0, 0.0))
-    end: tuple[Any | None, ...] = row(given_at("end"), default=(1.0, 0.0, 0.0))
+    start: tuple[Value | None, ...] = row(given_at("start"), default=(0.0, 0.0, 0.0))
+    end: tuple[Value | None, ...] = row(given_at("end"), default=(1.0, 0.0, 0.0))
 
     name = "free polynomial"
 
@@ -75,7 +74,7 @@ class FreePolynomial(Law):
         _inverse(self._conditions)
 
     @property
-    def _given(self) -> list[tuple[Condition, Any]]:
+    def _given(self) -> list[tuple[Condition, Value]]:
         ends = ((0.0, self.start), (1.0, self.end))
         return [((u, k), value) for u, values in ends for k, value in enumerate(values) if value is not None]
 
@@ -96,7 +95,7 @@ class FreePolynomial(Law):
         rest = [np.allclose(ends[0][k], 0) and np.allclose(ends[1][k], k == 0) for k in range(4)]
         return ([*rest, False].index(False)) - 1
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         c, x = self.coefficients, 2 * u - 1
         return Kinematics(*(2**k * legval(x, legder(c, k), tensor=False) for k in range(4)))
 
@@ -115,7 +114,7 @@ def _inverse(conditions: tuple[Condition, ...]) -> Array:
     return np.linalg.inv(np.array(rows))
 
 
-def _values(word: str, given: Any) -> tuple[Any, ...]:
+def _values(word: str, given: object) -> tuple[Value | None, ...]:
     """What is given at one end, each a number, a column or ``None``."""
     values = listed(given, f"the {word} of the free polynomial", "value")
     if len(values) > 4:
@@ -129,7 +128,7 @@ def _values(word: str, given: Any) -> tuple[Any, ...]:
 COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None)
 
 
-def coefficients(given: object, law: str) -> tuple[Any, ...]:
+def coefficients(given: object, law: str) -> tuple[Value, ...]:
     """The four coefficients of a law; ``ValueError`` for anything else."""
     c = listed(given, f"the c of the {law} law", "coefficient")
     if len(c) != 4:
@@ -150,7 +149,7 @@ class Degree9(Law):
     np.True_
     """
 
-    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT), default=(0.0, 0.0, 0.0, 0.0))
+    c: tuple[Value, ...] = row(numbered("c", COEFFICIENT), default=(0.0, 0.0, 0.0, 0.0))
 
     name = "degree 9"
     continuity = 2
@@ -159,7 +158,7 @@ class Degree9(Law):
         object.__setattr__(self, "c", coefficients(self.c, self.name))
         refuse_lengths(self)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         c0, c1, c2, c3 = self.c
         s, v, a, j = Poly345().at(u)
         w, d, x = u * (1 - u), 1 - 2 * u, 2 * u - 1

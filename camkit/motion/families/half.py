@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 from numpy import cos, pi, sin
 
-from ...quantities.types import Value
+from ...quantities.types import Array
 from ..law import Kinematics, Law, Peaks
 
 
@@ -37,7 +37,7 @@ class HalfCycloidalStart(Law):
     name = "half cycloidal from rest"
     continuity = 0
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         x = pi * u
         return Kinematics(u - sin(x) / pi, 1 - cos(x), pi * sin(x), pi**2 * cos(x))
 
@@ -56,7 +56,7 @@ class HalfCycloidalEnd(Law):
     name = "half cycloidal to rest"
     continuity = 0
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         x = pi * u
         return Kinematics(u + sin(x) / pi, 1 + cos(x), -pi * sin(x), -(pi**2) * cos(x))
 
@@ -75,7 +75,7 @@ class HalfHarmonicStart(Law):
     name = "half harmonic from rest"
     continuity = 0
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         k = pi / 2
         return Kinematics(1 - cos(k * u), k * sin(k * u), k**2 * cos(k * u), -(k**3) * sin(k * u))
 
@@ -94,7 +94,7 @@ class HalfHarmonicEnd(Law):
     name = "half harmonic to rest"
     continuity = 0
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         k = pi / 2
         return Kinematics(sin(k * u), k * cos(k * u), -(k**2) * sin(k * u), -(k**3) * cos(k * u))
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from numpy import cos, inf, pi, sin
 
-from ...quantities.types import Value
+from ...quantities.types import Array
 from ..law import Kinematics, Law, Peaks
 
 
@@ -26,7 +26,7 @@ class SimpleHarmonic(Law):
     name = "simple harmonic"
     continuity = 1
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         x = pi * u
         return Kinematics((1 - cos(x)) / 2, pi / 2 * sin(x), pi**2 / 2 * cos(x), -(pi**3) / 2 * sin(x))
 
@@ -46,7 +46,7 @@ class Cycloidal(Law):
     name = "cycloidal"
     continuity = 2
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         x = 2 * pi * u
         return Kinematics(u - sin(x) / (2 * pi), 1 - cos(x), 2 * pi * sin(x), 4 * pi**2 * cos(x))
 

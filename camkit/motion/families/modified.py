@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy import cos, pi, sin
 
-from ...quantities.types import Value
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, mirrored
 
 
@@ -35,7 +35,7 @@ class ModifiedTrapezoid(Law):
     continuity = 2
     kinks = (1 / 8, 3 / 8, 5 / 8, 7 / 8)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         return mirrored(u, _first_half_of_trapezoid)
 
     def peaks(self) -> Peaks:
@@ -75,7 +75,7 @@ class ModifiedSine(Law):
     continuity = 2
     kinks = (1 / 8, 7 / 8)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         return mirrored(u, _first_half_of_sine)
 
     def peaks(self) -> Peaks:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy import inf
 
-from ...quantities.types import Value
+from ...quantities.types import Array
 from ..law import Kinematics, Law, Peaks
 
 
@@ -31,7 +31,7 @@ class Parabolic(Law):
     continuity = 1
     kinks = (0.5,)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         early, x = u < 0.5, 1 - u
         s, v = np.where(early, 2 * u**2, 1 - 2 * x**2), np.where(early, 4 * u, 4 * x)
         return Kinematics(s, v, np.where(early, 4.0, -4.0) + 0 * u, 0 * u)
@@ -51,7 +51,7 @@ class Poly345(Law):
     name = "3-4-5 polynomial"
     continuity = 2
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         w = u * (1 - u)
         return Kinematics(u**3 * (10 - 15 * u + 6 * u**2), 30 * w**2, 60 * w * (1 - 2 * u), 60 * (1 - 6 * w))
 
@@ -70,7 +70,7 @@ class Poly4567(Law):
     name = "4-5-6-7 polynomial"
     continuity = 3
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         w = u * (1 - u)
         s = u**4 * (35 - 84 * u + 70 * u**2 - 20 * u**3)
         return Kinematics(s, 140 * w**3, 420 * w**2 * (1 - 2 * u), 840 * w * (1 - 5 * w))
@@ -90,7 +90,7 @@ class Poly56789(Law):
     name = "5-6-7-8-9 polynomial"
     continuity = 4
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         w = u * (1 - u)
         s = u**5 * (126 - 420 * u + 540 * u**2 - 315 * u**3 + 70 * u**4)
         return Kinematics(s, 630 * w**4, 2520 * w**3 * (1 - 2 * u), 2520 * w**2 * (3 - 14 * w))

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...quantities import choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
-from ...quantities.types import Value
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import COEFFICIENT, Degree9, coefficients
 from .plain import LAWS
@@ -32,11 +32,11 @@ class Family:
     """
 
     name: str
-    law: Callable[[tuple[Any, ...]], Law]
+    law: Callable[[tuple[Value, ...]], Law]
     wide: float
 
 
-def _spline(c: tuple[Any, ...]) -> Law:
+def _spline(c: tuple[Value, ...]) -> Law:
     return SplineLaw(KNOTS, c)
 
 
@@ -60,7 +60,7 @@ class ShapedLaw(Law):
     """
 
     base: Law = choice("a", Poly345(), LAWS, "law that the coefficients shape")
-    c: tuple[Any, ...] = row(numbered("c", COEFFICIENT), default=(0.0,) * 4)
+    c: tuple[Value, ...] = row(numbered("c", COEFFICIENT), default=(0.0,) * 4)
     family: Family = choice("B", DEGREE9, FAMILIES, "what the coefficients add to the law")
 
     name = "shaped"
@@ -88,7 +88,7 @@ class ShapedLaw(Law):
     def kinks(self) -> tuple[Value, ...]:
         return self.base.kinks if self._plain else tuple(sorted({*self.base.kinks, *self.family.law(self.c).kinks}))
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         if self._plain:
             return self.base.at(u)
         parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * 4).at(u)

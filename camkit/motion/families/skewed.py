@@ -12,7 +12,7 @@ import numpy as np
 
 from ...quantities import Choice, quantity
 from ...quantities.kinds import a_number, shown
-from ...quantities.types import Value
+from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks
 from .harmonic import Cycloidal
 from .plain import LAWS
@@ -68,7 +68,7 @@ class Skewed(Law):
         late = [1 - 2 * (1 - x) * (1 - k) for k in self.law.kinks if k > 0.5]
         return (*early, x, *late)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         x = self.inflection
         early = u < x
         scale = np.where(early, 2 * x, 2 * (1 - x))

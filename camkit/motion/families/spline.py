@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
@@ -55,9 +54,9 @@ class SplineLaw(Law):
     """
 
     u: tuple[float, ...] = field(metadata={"most": MOST_KNOTS, "in_all": ("knots of splines", KNOTS_IN_ALL)})
-    s: tuple[Any, ...] = row(POSITIONS)
-    start: tuple[Any, ...] = row(given_at("start", 1), default=(0.0, 0.0))
-    end: tuple[Any, ...] = row(given_at("end", 1), default=(0.0, 0.0))
+    s: tuple[Value, ...] = row(POSITIONS)
+    start: tuple[Value, ...] = row(given_at("start", 1), default=(0.0, 0.0))
+    end: tuple[Value, ...] = row(given_at("end", 1), default=(0.0, 0.0))
 
     name = "B-spline"
 
@@ -93,7 +92,7 @@ class SplineLaw(Law):
         values = (0.0, *self.s, 1.0, *self.start, *self.end)
         return None if any(map(np.ndim, values)) else BSpline(basis.t, basis.c @ np.array(values), basis.k)
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         if self._single is not None:
             return Kinematics(*(self._single(u, k) for k in range(4)))
         basis = _basis(self.u, len(self.start))
@@ -105,7 +104,7 @@ class SplineLaw(Law):
         return law_peaks(self)
 
 
-def _values(given: object, name: str, declared: Declarations) -> tuple[Any, ...]:
+def _values(given: object, name: str, declared: Declarations) -> tuple[Value, ...]:
     """Positions of a spline, or what is given at one of its ends; a fourth of these is refused by their number."""
     values = listed(given, f"the {name} of the spline", "value")
     return tuple(sized(value, "a value of the spline", declared(min(i, 2))[1]) for i, value in enumerate(values))
@@ -176,7 +175,7 @@ class TableLaw(Law):
         """The largest deviation of the law from a row of the table, a share of the lift."""
         return float(np.max(np.abs(self._spline(self.u) - self.s)))
 
-    def at(self, u: Value) -> Kinematics:
+    def at(self, u: Array) -> Kinematics:
         return Kinematics(*(self._spline(u, k) for k in range(4)))
 
     def peaks(self) -> Peaks:
@@ -200,7 +199,7 @@ def _refuse_table(table: TableLaw) -> None:
         raise ValueError(f"the table runs from {shown}; it must run from (0, 0) to (1, 1)")
 
 
-def _smoothed(u: Any, s: Any, tolerance: float) -> BSpline:
+def _smoothed(u: Array, s: Array, tolerance: float) -> BSpline:
     """The smoothest spline within ``tolerance``: bisection on the weight of smoothness, most at first."""
     solve = _smoother(u, s)
     heavy, light = 3.0, -18.0  # powers of ten
@@ -213,7 +212,7 @@ def _smoothed(u: Any, s: Any, tolerance: float) -> BSpline:
     return best
 
 
-def _smoother(u: Array, s: Value) -> Any:
+def _smoother(u: Array, s: Array) -> Callable[[float], BSpline]:
     """A function of the weight that solves the normal equations for the spline's inner coefficients.
 
     Dwell ends fix the first three coefficients of a clamped quintic at 0 and the last three at 1.

@@ -124,7 +124,7 @@ class NumberRow:
         if not ends[0] * factor <= self.value <= ends[1] * factor:
             self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
 
-    def _put(self, widget: Any, shown: float) -> None:
+    def _put(self, widget: w.Widget, shown: float) -> None:
         with self._quiet:
             widget.value = on_grid(widget, shown) if widget is self.slider else shown
 
@@ -193,7 +193,7 @@ class Menu:
         self._quiet.hear(self.menu, lambda _: changed())
 
     @property
-    def value(self) -> Any:
+    def value(self) -> object:
         """The chosen option."""
         return self.menu.value
 
@@ -204,7 +204,7 @@ class Menu:
                 self.menu.options = options
             self.menu.value = value
 
-    def _options(self, value: Any) -> list[tuple[str, Any]]:
+    def _options(self, value: Any) -> list[tuple[str, object]]:
         """What the declaration offers, and ``value`` if it is something of one's own."""
         own = {} if value in self.declared.options else {self.declared.text(value): value}
         return list((self.declared.named | own).items())

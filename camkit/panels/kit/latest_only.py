@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
 
 
 class LatestOnly:
@@ -16,9 +15,9 @@ class LatestOnly:
     ``work`` may look at ``stale`` to break off.
     """
 
-    def __init__(self, work: Callable[[Any], None]) -> None:
+    def __init__(self, work: Callable[..., object]) -> None:
         self._work, self._lock = work, threading.Lock()
-        self._next: tuple[Any, ...] = ()
+        self._next: tuple[object, ...] = ()
         self._thread: threading.Thread | None = None
 
     @property
@@ -54,7 +53,7 @@ class LatestOnly:
                 self._begin()  # what waits is not to blame
             raise
 
-    def _taken(self) -> tuple[Any, ...]:
+    def _taken(self) -> tuple[object, ...]:
         """The newest task; without one the thread ends, and the next task begins another."""
         with self._lock:
             task, self._next = self._next, ()

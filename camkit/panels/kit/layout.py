@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import ipywidgets as w
 
 
 def button(
-    description: str, act: Callable[[], Any], icon: str = "", width: str | None = "auto", **look: Any
+    description: str, act: Callable[[], object], icon: str = "", width: str | None = "auto", **look: object
 ) -> w.Button:
     """A button; pressing it calls ``act()``."""
     made = w.Button(description=description, icon=icon, layout=w.Layout(width=width), **look)
@@ -17,7 +16,9 @@ def button(
     return made
 
 
-def menu(options: object, description: str, width: str, description_width: str = "initial", **look: Any) -> w.Dropdown:
+def menu(
+    options: object, description: str, width: str, description_width: str = "initial", **look: object
+) -> w.Dropdown:
     """A menu with its name before it."""
     style = {"description_width": description_width}
     return w.Dropdown(options=options, description=description, layout=w.Layout(width=width), style=style, **look)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import anywidget
 import ipywidgets as w
@@ -49,17 +48,17 @@ class Panel(w.VBox):
     numbers: w.HTML
 
     def __init__(self, children: Sequence[w.Widget]) -> None:
-        self._followers: list[Callable[..., Any]] = []
+        self._followers: list[Callable[..., object]] = []
         super().__init__([PanelStyle(layout=w.Layout(display="none")), *children])
         self.add_class("camkit-panel")
         if self.picture.said is str:  # else the picture is another panel's
             self.picture.said = self.summary
 
-    def on_change(self, act: Callable[..., Any]) -> None:
+    def on_change(self, act: Callable[..., object]) -> None:
         """Call ``act`` after every change of what is shown: with the new design or program, if that is what it is."""
         self._followers.append(act)
 
-    def _tell_followers(self, *given: Any) -> None:
+    def _tell_followers(self, *given: object) -> None:
         """Each of them, whatever the others make of it; what one cannot do the banner says."""
         for act in self._followers:
             try:
@@ -89,7 +88,7 @@ class Panel(w.VBox):
     def settle(self) -> None:
         """Wait until everything that is shown belongs to what was asked for last."""
 
-    def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **kwargs: object) -> dict[str, object]:
         """The live panel for a kernel, the picture and the numbers where there is none."""
         self.settle()
         bundle = super()._repr_mimebundle_(**kwargs)

@@ -14,13 +14,13 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import anywidget
 import numpy as np
 import traitlets
 from matplotlib import rc_context
 
+from ...quantities.types import Array
 from ...render.draw import moving, theme_style
 from ...render.picture import draw, encoded, layout, pixels, small_png
 from ...views.picture import View
@@ -63,19 +63,19 @@ class ImageWidget(anywidget.AnyWidget):
 class LivePicture:
     """Views of an analysis in one figure, shown in ``widget``."""
 
-    def __init__(self, views: tuple[View, ...], description: str, **size: Any) -> None:
+    def __init__(self, views: tuple[View, ...], description: str, width: float = 12.6, height: float = 7.0) -> None:
         self.views = views
-        self.figure, self.axes = layout(views, **size)
+        self.figure, self.axes = layout(views, width, height)
         self.description = description
         self.said: Callable[[], str] = str
         self.widget = ImageWidget(description=description)
-        self._background: Any = None
+        self._background: object = None
         self._ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
-        self._last: tuple[Any, dict[str, Any]] | None = None
+        self._last: tuple[object, dict[str, object]] | None = None
         self._later = Debounced(self._settle_and_describe, SETTLE)
         self._moved = 0.0
 
-    def show(self, analysis: object, views: tuple[View, ...] | None = None, **position: Any) -> None:
+    def show(self, analysis: object, views: tuple[View, ...] | None = None, **position: object) -> None:
         """Show another analysis: at once with the axes as they are, and a little later with axes that fit.
 
         Through other ``views`` it is another figure of the same size.  What cannot be drawn raises ``ValueError`` or
@@ -158,7 +158,7 @@ class LivePicture:
         across, up = self.axes[axes].transData.inverted().transform(self._in_pixels(x, y))
         return float(across), float(up)
 
-    def nearest(self, points: Any, x: float, y: float, within: float = np.inf) -> int | None:
+    def nearest(self, points: Array, x: float, y: float, within: float = np.inf) -> int | None:
         """Which of ``points`` ``(p, 2)`` of the first axes is nearest to a share of the picture, ``within`` pixels."""
         away = np.hypot(*(self.axes[0].transData.transform(points) - self._in_pixels(x, y)).T)
         return int(np.argmin(away)) if away.min(initial=np.inf) < within else None

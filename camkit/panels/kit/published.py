@@ -44,7 +44,7 @@ class PublishedKernels(AsyncMappingKernelManager):
         super().notify_disconnect(kernel_id)
         self._look_later(self._end_if_closed, kernel_id)
 
-    def _look_later(self, look: Callable[[str], Any], kernel_id: str) -> None:
+    def _look_later(self, look: Callable[[str], object], kernel_id: str) -> None:
         IOLoop.current().call_later(self.closed_for, look, kernel_id)
 
     def _closed(self, kernel_id: str) -> bool:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
+
+from ipywidgets import Widget
 
 
 class Quiet(threading.local):
@@ -27,15 +28,15 @@ class Quiet(threading.local):
     def __exit__(self, *_: object) -> None:
         self._depth -= 1
 
-    def unless(self, act: Callable[..., Any]) -> Callable[..., None]:
+    def unless(self, act: Callable[..., object]) -> Callable[..., None]:
         """``act``, but nothing while it is quiet."""
 
-        def heard(*given: Any) -> None:
+        def heard(*given: object) -> None:
             if not self._depth:
                 act(*given)
 
         return heard
 
-    def hear(self, widget: Any, act: Callable[[Any], Any]) -> None:
+    def hear(self, widget: Widget, act: Callable[..., object]) -> None:
         """Call ``act(value)`` for each value that a person gives ``widget``."""
         widget.observe(self.unless(lambda change: act(change.new)), "value")

@@ -33,7 +33,7 @@ class SearchPage:
     studies: Mapping[str, Study]
     space: tuple[str, ...]
     judged: Mapping[str, tuple[str, ...]]
-    offered: Mapping[str, Container[Any]]
+    offered: Mapping[str, Container[object]]
     measures: tuple[Measure, ...] = ()
 
     @property
@@ -70,7 +70,7 @@ class SearchPage:
                 raise ValueError(f"the file's judgements are not for {len(judged)} criteria")
         self._check_objectives(session.study)
 
-    def _check_settings(self, settings: Mapping[str, Any]) -> None:
+    def _check_settings(self, settings: Mapping[str, object]) -> None:
         for name, value in settings.items():
             if not isinstance(value, sessions.SETTINGS.get(name, ())) or value not in self.offered[name]:
                 raise ValueError(f"the file says {value!r} for {name!r}, which is no setting of this search")
