@@ -12,7 +12,7 @@ PLAIN = re.compile(r"\w[\w +,.:;()/%^-]*")
 """Names in files: letters, digits, spaces and the signs of camkit's own names."""
 
 
-def mapping(entry: object, name: str) -> dict[str, Any]:
+def mapping(entry: object, name: str) -> dict[str, object]:
     """``entry`` if it is an object of JSON: names and values."""
     if not isinstance(entry, dict):
         raise ValueError(f"the file is damaged: it says {shown(entry)} for {name!r}, where names and values belong")

@@ -139,7 +139,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
     return Read(thing, remarks)
 
 
-def _thing(held: str, entry: object, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> Any:
+def _thing(held: str, entry: object, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> object:
     if held == "design":
         return reading.thing(mapping(entry, held), kind or object)
     session = session_of(entries(entry, held, reading), reading, measures)

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeGuard, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -132,7 +132,7 @@ class Reading:
     held: Counter[str] = field(default_factory=Counter)
     """How many entries one design has so far in lists that take long to work out."""
 
-    def thing(self, entry: object, hint: object = object, most: int = MOST_ROWS) -> Any:
+    def thing(self, entry: object, hint: object = object, most: int = MOST_ROWS) -> object:
         """What `entry_of` wrote; ``hint`` is the annotation of the field that it is for."""
         if isinstance(entry, list):
             most = min(most, MOST_THINGS) if any(isinstance(value, dict) for value in entry) else most
@@ -172,7 +172,7 @@ class Reading:
             raise ValueError(f"the file names a {shown(name)}, which this camkit does not know")
         return known[now]
 
-    def _with(self, thing: object, entries: Mapping[str, Given]) -> Any:
+    def _with(self, thing: object, entries: Mapping[str, Given]) -> object:
         """``thing`` with what were fields of its own and stand deeper in it today, in the order of the file."""
         for k, given in entries.items():
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
@@ -198,7 +198,7 @@ class Reading:
         kind: type = type(thing)
         return thing.changed({path: self._field(given, plain[path], None, _hints(kind)[path])})
 
-    def _fields(self, kind: type, entries: Mapping[str, Given], deeper: Iterable[str]) -> dict[str, Any]:
+    def _fields(self, kind: type, entries: Mapping[str, Given], deeper: Iterable[str]) -> dict[str, object]:
         declared = _declarations(kind)
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
@@ -218,7 +218,7 @@ class Reading:
             raise ValueError(f"the file lacks {name!r} of the {kind}")
         self.missing.append(f"{name!r} of the {kind}")
 
-    def _field(self, given: Given, of: Field[object], declared: object, hint: object) -> Any:
+    def _field(self, given: Given, of: Field[object], declared: object, hint: object) -> object:
         if isinstance(declared, (Quantity, Choice)):
             return self._declared(given, declared)
         value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
@@ -228,7 +228,7 @@ class Reading:
             raise ValueError(f"the file says {shown(given.value)} for {given.name!r}; {_wanted(hint)} belongs there")
         return value
 
-    def _declared(self, given: Given, declared: Quantity | Choice) -> Any:
+    def _declared(self, given: Given, declared: Quantity | Choice) -> object:
         if isinstance(declared, Choice):
             return self._choice(given.value, given.name, declared)
         if not is_number(given.value):
@@ -241,7 +241,7 @@ class Reading:
         if self.held[what] > most:
             raise ValueError(f"the file has more than {most} {what} in all; they would take too long to work out")
 
-    def _choice(self, entry: object, name: str, declared: Choice) -> Any:
+    def _choice(self, entry: object, name: str, declared: Choice) -> object:
         """An option by its name, or something of one's own that has all that the options have in common."""
         for name_of_it, option in declared.named.items():
             if name_of_it == entry or (type(option) is type(entry) and option == entry):
@@ -272,13 +272,13 @@ def _says(entry: object, path: str) -> bool:
     return step in entry and _says(entry[step], below + bracket + unit) if dot else path in entry
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[float]:
     """Whether a file gives a number; true and false are none."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 @lru_cache(maxsize=256)
-def _hints(kind: type) -> dict[str, Any]:
+def _hints(kind: type) -> dict[str, object]:
     """The annotations of a class; of one's own classes those that can be found out, ``Any`` being anything."""
     try:
         hints = get_type_hints(kind)
@@ -287,7 +287,7 @@ def _hints(kind: type) -> dict[str, Any]:
     return hints if _ours(kind) else {name: object if hint is Any else hint for name, hint in hints.items()}
 
 
-def fits(value: Any, hint: object) -> bool:
+def fits(value: object, hint: object) -> bool:
     """Whether a value of a file is of the kind that an annotation names; ``Any`` stands for a number.
 
     >>> fits(((0.0, 1.0),), tuple[tuple[float, float], ...]), fits(((),), tuple[tuple[float, float], ...])

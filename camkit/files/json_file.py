@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from typing import Any
 
 from ..quantities.kinds import shown
 
@@ -62,7 +61,7 @@ def digest(text: str) -> str:
     return hashlib.sha256(_DIGEST.sub("", compact, count=1).encode()).hexdigest()
 
 
-def content_of(text: str) -> dict[str, Any]:
+def content_of(text: str) -> dict[str, object]:
     """The content of a file that says its schema."""
     content = _parsed(text)
     if isinstance(content, dict) and "nbformat" in content:

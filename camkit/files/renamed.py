@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..quantities.kinds import shown
 from ..units import factor
@@ -62,7 +62,7 @@ class Given(NamedTuple):
     """An entry as it stands in the file."""
 
     name: str
-    value: Any
+    value: object
     times: float = 1.0
     """What its number is multiplied by to be in the unit and of the sign that its quantity has today."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -70,16 +69,17 @@ def study_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[M
     named |= {_key(m): m if m.sign == signs.get(_key(m), 1) else -m for m in (*made, *measures)}
     find = partial(_found, named, reading.renaming)
     named |= {m.name: m for m in (_sum(each, find) for each in listed(entry["sums"], "sums"))}
-    limits: dict[str, Any] = {
+    limits = {
         name: {m: limit * factor(m.unit) for m, limit in _by_measure(entry[name], name, find).items()}
         for name in ("at_most", "at_least")
     }
     minimise = tuple(_objective(each, find) for each in listed(entry["minimise"], "minimise"))
     free = {path: _bounds(start, path, *freed) for path, freed in _free(entry, start, reading).items()}
-    return Study(start, free, minimise, angles=whole(entry["angles"], "the file's 'angles'", 2, MOST_ANGLES), **limits)
+    angles = whole(entry["angles"], "the file's 'angles'", 2, MOST_ANGLES)
+    return Study(start, free, minimise, at_most=limits["at_most"], at_least=limits["at_least"], angles=angles)
 
 
-def _free(entry: Mapping[str, Any], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:
+def _free(entry: Mapping[str, object], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:
     """What a file frees, by its path of today, and what the file's numbers are multiplied by to be SI."""
     declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
     found = {}
@@ -93,9 +93,9 @@ def _free(entry: Mapping[str, Any], start: object, reading: Reading) -> dict[str
     return dict(sorted(found.items(), key=lambda item: order.index(item[1][0].name)))
 
 
-def _order(entry: Mapping[str, Any]) -> list[str]:
+def _order(entry: Mapping[str, object]) -> list[str]:
     """What a file frees in the order of its front's columns; of an earlier camkit: in that of the file."""
-    free, columns = [*entry["free"]], listed(entry["columns"], "columns")
+    free, columns = [*mapping(entry["free"], "free")], listed(entry["columns"], "columns")
     if columns and (not all(isinstance(k, str) for k in columns) or sorted(columns) != sorted(free)):
         raise ValueError(f"the file says {shown(columns)} for 'columns'; they must be what it frees, each once")
     return columns or free

@@ -12,6 +12,7 @@ from ..files import designs, profiles
 from ..quantities import (
     Analysable,
     Choice,
+    D,
     Measure,
     Paths,
     Quantity,
@@ -43,7 +44,7 @@ VIEWPOINT = {
 }
 
 
-def changed(design: object, values: Mapping[str, object]) -> Any:
+def changed(design: D, values: Mapping[str, object]) -> D:
     """``design`` with other values by path, as a panel gives them."""
     with unremarked():  # a panel's numbers have their units
         return with_quantities(design, values)
@@ -226,7 +227,7 @@ class Explorer(Panel):
         chosen = [f"{path}." for path in moved if isinstance(self.controls[path], Menu)]
         return {path: value for path, value in moved.items() if not path.startswith(tuple(chosen))}
 
-    def _try(self, make: Callable[[], Any]) -> None:
+    def _try(self, make: Callable[[], Analysable]) -> None:
         """Show the design that ``make()`` gives if it can be built, computed and drawn."""
         try:
             design = make()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
 
 import ipywidgets as w
 
@@ -18,7 +17,7 @@ KINDS = (
 """What is moved; a button is not, for what it does may not be undone."""
 
 
-def _others(control: Any) -> list[object]:
+def _others(control: w.Widget) -> list[object]:
     """Values that a control can take besides its own: a step up for a number, every option for a menu."""
     if isinstance(control, (w.Dropdown, w.SelectionSlider)):
         return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]

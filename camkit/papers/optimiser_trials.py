@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.stats import binomtest, mannwhitneyu
@@ -99,7 +98,7 @@ def measured_trials(problem: str) -> tuple[Trials, ...]:
     )
 
 
-def _numbers(rows: Any) -> np.ndarray:
+def _numbers(rows: Sequence[Sequence[float | None]]) -> np.ndarray:
     return np.array([[np.inf if n is None else n for n in row] for row in rows], dtype=float)
 
 

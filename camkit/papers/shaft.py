@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..data import as_printed
@@ -107,7 +105,7 @@ def best_whole_millimetres() -> UniversalJointShaft:
     """
     study = shaft_study()
     D, d = (np.arange(round(low / mm), round(high / mm) + 1) for low, high in study.free.values())
-    x: Any = np.stack(np.meshgrid(D, d), axis=-1).reshape(-1, 2) * mm
+    x = np.stack(np.meshgrid(D, d), axis=-1).reshape(-1, 2) * mm
     evaluation = study.evaluate(x)
     best: UniversalJointShaft = study.design(x[np.argmin(np.where(evaluation.feasible, evaluation.f[:, 0], np.inf))])
     return best

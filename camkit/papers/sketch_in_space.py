@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..linkage.rssr import RSSR
+from ..linkage.rssr_analysis import RSSRAnalysis
 from ..quantities.types import Array
 from ..units import deg, mm
 from ..views.picture import Axes, Colour, Formula, Picture, Text
@@ -16,7 +17,7 @@ from ..views.turntable import Turntable
 
 
 def linkage_sketch(
-    analysis: Any, turn: float = 0.0, azimuth: float = -58 * deg, elevation: float = 24 * deg
+    analysis: RSSRAnalysis, turn: float = 0.0, azimuth: float = -58 * deg, elevation: float = 24 * deg
 ) -> Picture:
     """The geometry of a linkage with two ball joints at crank angle ``turn``, with the letters of the formulas."""
     here = analysis.at(turn)
@@ -50,7 +51,7 @@ def _letter(scene: Turntable, key: str, point: ArrayLike, words: str) -> None:
     scene.words(key, point, Formula(words), size=15)
 
 
-def _axes(scene: Turntable, linkage: Any, root: np.ndarray, hinge: np.ndarray, foot: np.ndarray) -> None:
+def _axes(scene: Turntable, linkage: RSSR, root: np.ndarray, hinge: np.ndarray, foot: np.ndarray) -> None:
     """Both axes, their common perpendicular, the offsets along them and the angle between them."""
     origin, reach = np.zeros(3), 0.45 * scene.radius
     for key, point, axis, start, style, letter, share, shift in (
@@ -81,7 +82,7 @@ def _angle(scene: Turntable, key: str, centre: Array, arc: Array, style: Colour,
     _letter(scene, f"{key} name", centre + 1.35 * (small[:, 20] - centre), letter)
 
 
-def _ways(scene: Turntable, here: Any, b: np.ndarray, c: np.ndarray) -> None:
+def _ways(scene: Turntable, here: RSSRAnalysis, b: np.ndarray, c: np.ndarray) -> None:
     """The ways of both joints and the pressure angles between them and the coupler."""
     along, size = here.coupler_direction[:, 0], 0.42 * scene.radius
     for key, point, way, force, letters in (

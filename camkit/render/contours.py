@@ -10,7 +10,7 @@ import numpy as np
 from contourpy import FillType, contour_generator
 from numpy.typing import ArrayLike
 
-from ..views.picture import Contour, Line, Mark, MarkStyle, Picture, Polygon, Region, Text
+from ..views.picture import Contour, LabelStyle, Line, Mark, MarkStyle, Picture, Polygon, Region, Text
 
 NOTHING = np.full((2, 1), np.nan)
 SIZE = 9.5
@@ -69,9 +69,9 @@ def _names(mark: Contour, curves: Sequence[np.ndarray], size: np.ndarray, taken:
         half = np.array([len(name) * LETTER, ROW]) / size / 2
         x, y = _place(mark, curve, share, half, taken, sole) if name else NOTHING[:, 0]
         if np.isfinite(x):
-            look: Any = {"framed": True} if sole else {"boxed": True}
             role = "ink" if mark.role == "paper" else mark.role
-            yield Text(f"{mark.key} name {i}", x, y, name, role=role, index=mark.index, size=SIZE, **look)
+            look: LabelStyle = {"role": role, "index": mark.index}
+            yield Text(f"{mark.key} name {i}", x, y, name, size=SIZE, framed=sole, boxed=not sole, **look)
 
 
 def _place(

@@ -72,6 +72,7 @@ STROKES: dict[str, dict[str, object]] = {
     "shaft": {"linewidth": 9, "solid_capstyle": "round", "solid_joinstyle": "round"},
     "bar": {"linewidth": 16, "solid_capstyle": "butt"},
 }
+Patch = shown.Band | shown.Area | shown.Polygon
 FORMS = {"dot": "o", "plus": "+", "cross": "x", "star": "*", "square": "s", "diamond": "D", "triangle": "^"}
 
 
@@ -147,7 +148,7 @@ def moving(ax: Axes) -> list[Artist]:
     return sorted(found, key=lambda artist: artist.get_zorder())
 
 
-def artist_of(ax: Axes, key: str) -> Any:
+def artist_of(ax: Axes, key: str) -> Artist | None:
     """The artist of the mark ``key``, if there is one."""
     return next((artist for artist in moving(ax) if artist.get_gid() == key), None)
 
@@ -165,13 +166,13 @@ def draw_picture(picture: shown.Picture, ax: Axes, theme: str = "light") -> None
     _legend(ax, picture)
 
 
-def _put(ax: Axes, mark: shown.Mark, artist: Any, theme: str) -> Any:
+def _put(ax: Axes, mark: shown.Mark, artist: Any, theme: str) -> Artist:
     """The artist of ``mark``, made or moved."""
     style = {"alpha": mark.opacity, "label": plain(mark.label) if mark.label else f"_{mark.key}"}
     tint = colour(mark.role, mark.index, theme)
     if isinstance(mark, shown.Text):
         return _put_text(ax, mark, artist, {**style, "color": tint}, theme)
-    if isinstance(mark, (shown.Band, shown.Area, shown.Polygon)):
+    if isinstance(mark, Patch):
         return _put_patch(ax, mark, artist, {**style, "facecolor": tint, **_edge(mark, tint)})
     x, y = _places(mark)
     if artist is None:
@@ -213,7 +214,7 @@ def _edge(mark: shown.Mark, tint: str) -> dict[str, object]:
     return {"edgecolor": tint if edged else "none", "linewidth": ROLES[mark.role].width if edged else 0.0}
 
 
-def _put_patch(ax: Axes, mark: shown.Mark, artist: Any, style: dict[str, Any]) -> Any:
+def _put_patch(ax: Axes, mark: Patch, artist: Any, style: dict[str, Any]) -> Artist:
     corners = _corners(mark)
     if artist is None:
         over = {"x": ax.get_yaxis_transform, "y": ax.get_xaxis_transform}
@@ -226,7 +227,7 @@ def _put_patch(ax: Axes, mark: shown.Mark, artist: Any, style: dict[str, Any]) -
     return artist
 
 
-def _corners(mark: Any) -> np.ndarray:
+def _corners(mark: Patch) -> np.ndarray:
     """The outline of a patch, ``(m, 2)``; a band's ends lie just outside the axes, where no edge shows."""
     if isinstance(mark, shown.Polygon):
         return np.stack([np.asarray(mark.x, dtype=float), np.asarray(mark.y, dtype=float)], axis=-1)
@@ -237,7 +238,7 @@ def _corners(mark: Any) -> np.ndarray:
     return np.stack([ends, across] if mark.along == "x" else [across, ends], axis=-1)
 
 
-def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, object], theme: str) -> Any:
+def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, object], theme: str) -> Artist:
     if artist is None:
         artist = ax.text(0, 0, "", gid=mark.key, clip_on=False)
     if mark.boxed or mark.framed:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +38,9 @@ class NumberBox(anywidget.AnyWidget):
     disabled = traitlets.Bool(False).tag(sync=True)
     value: Any = traitlets.Float(0.0)
 
-    def __init__(self, value: float, refused: Callable[[str], None], unit: str | None = None, **options: Any) -> None:
+    def __init__(
+        self, value: float, refused: Callable[[str], None], unit: str | None = None, **options: object
+    ) -> None:
         super().__init__(**options)
         self.refused, self.unit, self._told = refused, unit, ""
         self.value = value
@@ -79,7 +81,7 @@ class WholeBox(NumberBox):
         super().__init__(value, refused, min=low, max=high, whole=True, **options)
 
     @traitlets.validate("value")
-    def _between(self, proposal: Any) -> int:
+    def _between(self, proposal: Mapping[str, int]) -> int:
         return min(max(proposal["value"], self.min), self.max)
 
     def _read(self, text: str) -> int:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
 
 import ipywidgets as w
 
@@ -36,7 +35,7 @@ class Runner:
         description: str,
         prepare: Callable[[], Iterable[Step]],
         show: Callable[[Step, bool], None],
-        *page: Any,
+        *page: object,
         ended: Callable[[], None] = lambda: None,
     ) -> None:
         self.kind, self.place = f"{description} {page}", here()

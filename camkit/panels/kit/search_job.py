@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+
+import numpy as np
 
 from ...files import Session
 from ...search.front import reference_point
@@ -22,7 +23,7 @@ class SessionSearch:
 
     def __init__(self, session: Session, kept: Kept | None = None, unkept: str = "") -> None:
         self.session, self.unkept, self._kept = session, unkept, kept
-        self.reference: Any = None
+        self.reference: np.ndarray | None = None
         """The point up to which its hypervolumes count, known when it runs."""
 
     def __iter__(self) -> Iterator[Step]:
@@ -58,7 +59,7 @@ def time_left(step: Step) -> str:
     return f", {left:.0f} s left" if left < 90 else f", {left / 60:.0f} min left"
 
 
-def record_text(record: Mapping[str, Any]) -> str:
+def record_text(record: Mapping[str, object]) -> str:
     """How a front was found, in one line; all that is known of it is in the saved study."""
     words_of = {"generations": "{} generations", "designs": "{} designs looked at", "seed": "seed {}"}
     known = (text.format(record[name]) for name, text in words_of.items() if name in record)

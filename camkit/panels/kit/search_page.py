@@ -7,11 +7,10 @@ import json
 from collections.abc import Container, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
 
 from ...decision import Judgements
 from ...files import Session, designs, sessions
-from ...quantities import Measure
+from ...quantities import Analysable, Measure
 from ...quantities.kinds import kind_words
 from ...search.checkpoint import fingerprint, resume, why
 from ...study.study import Study, WeightedSum
@@ -28,7 +27,7 @@ class SearchPage:
     setting may be, and ``measures`` what its files may name beside the measures of its studies.
     """
 
-    start: Any
+    start: Analysable
     """The design that it began with."""
     studies: Mapping[str, Study]
     space: tuple[str, ...]
