@@ -47,7 +47,7 @@ class Outline(Body):
 
     def at(self, i: SupportsIndex) -> np.ndarray:
         """Its points in the machine's frame at position ``i``, ``(2, k)``, m."""
-        x, y, angle = (np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y, self.angle))
+        x, y, angle = (_at(value, i) for value in (self.x, self.y, self.angle))
         return rotated(self.points, angle) + np.stack(np.broadcast_arrays(x, y))[:, None]
 
 
@@ -59,7 +59,12 @@ class Disc(Body):
 
     def at(self, i: SupportsIndex) -> np.ndarray:
         """Its centre at position ``i``, ``(2,)``, m."""
-        return np.stack([np.asarray(value)[..., i] if np.ndim(value) else value for value in (self.x, self.y)])
+        return np.stack([_at(value, i) for value in (self.x, self.y)])
+
+
+def _at(value: Value, i: SupportsIndex) -> Value:
+    """A number, or that of several which stands for position ``i``."""
+    return np.take(value, i, axis=-1) if np.ndim(value) else value
 
 
 def end_to_end(*stretches: Array) -> Array:

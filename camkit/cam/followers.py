@@ -52,7 +52,7 @@ class SlidingAnalysis(CamAnalysis):
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The follower: the mouth of its guide ``(2,)`` and its foot ``(2, n)``, machine's frame, m."""
-        return {"follower": (np.array([self.cam.offset, self.bearing.mouth]), self.foot)}
+        return {"follower": (np.stack([self.cam.offset, self.bearing.mouth]), self.foot)}
 
     @property
     def bearing(self) -> Guide:

@@ -225,14 +225,14 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The arm: its pivot ``(2,)`` and where its face is touched ``(2, n)``, machine's frame, m."""
-        return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.contact_point())}
+        return {"arm": (np.stack([self.cam.centre_distance, 0.0]), self.contact_point())}
 
     @property
     def follower(self) -> tuple[Body, ...]:
         """The arm, cranked by the face's offset, with its face, as narrow as it may be."""
         length, offset, place = self.cam.arm_length, -self.cam.face_offset, {"x": self.cam.centre_distance}
-        arm = np.array([[0.0, 0.0, length], [0.0, offset, offset]])
-        face = np.stack([np.array(self.face_reach), np.full(2, offset)])
+        arm = np.stack([np.stack([0.0, 0.0, length]), np.stack([0.0, offset, offset])])
+        face = np.stack([np.stack(self.face_reach), np.stack([offset, offset])])
         along = np.pi - self.arm_angle
         return (
             Outline("arm", "arm", arm, angle=along, **place),

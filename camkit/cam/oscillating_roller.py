@@ -126,7 +126,7 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Every rocking arm by its name: its pivot ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
-        return {"arm": (np.array([self.cam.centre_distance, 0.0]), self.roller_centre)}
+        return {"arm": (np.stack([self.cam.centre_distance, 0.0]), self.roller_centre)}
 
     @property
     def follower(self) -> tuple[Body, ...]:

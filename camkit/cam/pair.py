@@ -232,7 +232,7 @@ def _half_turn(body: Body) -> Body:
 def _mirror(body: Body) -> Body:
     """A part of the second cam of a rocking follower as it stands in the machine."""
     points = {"points": body.points * np.array([[1.0], [-1.0]])} if isinstance(body, Outline) else {}
-    return replace(body, y=-np.asarray(body.y), angle=-np.asarray(body.angle), **points)
+    return replace(body, y=-body.y, angle=-body.angle, **points)
 
 
 ConjugatePair.measures = (

@@ -163,7 +163,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
     def follower(self) -> tuple[Body, ...]:
         """The stem with its face, as narrow as it may be."""
         ((name, (mouth, foot)),) = self.cranks.items()
-        face = np.stack([np.array(self.face_reach), np.zeros(2)])
+        face = np.stack([np.stack(self.face_reach), np.zeros(2)])
         return *bodies.stem(name, mouth, foot), Outline(name, "face", face, x=foot[0], y=foot[1])
 
     @property

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..geometry import dot, inclination
 from ..quantities import fails
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import limits
 from .load import RockerLoad
@@ -106,13 +106,12 @@ class RSSRAnalysis:
         return np.where(self.buildable, turn, np.nan)
 
     @cached_property
-    def turn_range(self) -> tuple[float, float]:
+    def turn_range(self) -> tuple[Value, Value]:
         """How far the crank can turn from its sweep, one design, rad: to the limits, or a turn about the middle."""
-        (clear,), (below,), (above,) = self._room_to_turn
-        if np.isnan(below):
-            middle = float(self.crank_angle.min() + self.crank_angle.max()) / 2
-            return middle - np.pi, middle + np.pi
-        return float(clear - max(below - NEXT_TO, 0)), float(clear + max(above - NEXT_TO, 0))
+        clear, below, above = (value[..., 0] for value in self._room_to_turn)
+        middle, free = (self.crank_angle.min() + self.crank_angle.max()) / 2, np.isnan(below)
+        low = np.where(free, middle - np.pi, clear - np.maximum(below - NEXT_TO, 0))
+        return low[()], np.where(free, middle + np.pi, clear + np.maximum(above - NEXT_TO, 0))[()]
 
     def at(self, crank_angle: float, branch: int | None = None) -> RSSRAnalysis:
         """The same linkage at one crank angle, or at the limit before it; on its own branch unless said otherwise."""
@@ -124,9 +123,10 @@ class RSSRAnalysis:
         Arrays are ``(n, 1)``, with more positions beside the limits, and ``nan`` where it cannot be assembled.
         """
         start = (self.crank_angle.min() + self.crank_angle.max()) / 2 - np.pi
-        ends = start + np.mod(self.linkage.limit_angles() - start, 2 * np.pi)
-        beside = np.add.outer(ends, [-NEXT_TO, NEXT_TO])
-        angles = np.sort(np.append(start + 2 * np.pi * np.linspace(0, 1, n), beside))
+        limit = self.linkage.all_limit_angles
+        after = np.mod(limit - start, 2 * np.pi)
+        beside = np.where(np.isnan(limit), 0.0, np.stack([after - NEXT_TO, after + NEXT_TO]))
+        angles = start + np.sort(np.append(2 * np.pi * np.linspace(0, 1, n), beside))
         return RSSRAnalysis(self.linkage, angles[:, None], branch or self.branch, self.load)
 
     def _joint_distances(self) -> tuple[float, float]:

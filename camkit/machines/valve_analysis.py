@@ -237,7 +237,7 @@ def _acceleration(analysis: CamAnalysis) -> Array:
 def _stem(analysis: ValveAnalysis, foot: Value) -> Outline:
     """The follower's stem, which begins ``foot`` above the cam."""
     refuse_population(analysis, "what is drawn")
-    cam, points = analysis.cam, np.array([[0, 0], [0, 1.6 * analysis.cam.max_lift + foot]])
+    cam, points = analysis.cam, np.stack([np.zeros(2), np.append(0.0, 1.6 * analysis.cam.max_lift + foot)])
     return Outline("follower", "arm", points, x=0.0, y=cam.base_radius + analysis.lift + foot)
 
 
@@ -272,7 +272,7 @@ class FlatValveAnalysis(ValveAnalysis, TranslatingFlatAnalysis):
     def bodies(self) -> tuple[Body, ...]:
         """The follower of one design: face and stem."""
         stem, wide = _stem(self, 0.0), 1.15 * abs(self.velocity).max()
-        return Outline("follower", "face", np.array([[-wide, wide], [0, 0]]), x=stem.x, y=stem.y), stem
+        return Outline("follower", "face", np.stack([np.stack([-wide, wide]), np.zeros(2)]), x=stem.x, y=stem.y), stem
 
 
 @dataclass(frozen=True)

@@ -168,7 +168,7 @@ def curvature(analysis: Cam) -> Picture:
     Outside the band of plus and minus one over the roller's radius a flank is undercut.
     """
     limit = analysis.max_curvature * mm
-    x = np.asarray(analysis.cam_angle)[[0, -1]] / deg
+    x = analysis.cam_angle[[0, -1]] / deg
     bounds = [
         Line(f"limit {sign}", x, sign * limit + 0 * x, role="limit", label="1 / roller radius" if sign > 0 else "")
         for sign in (-1, 1)

@@ -22,10 +22,10 @@ def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
     """The whole cam at the cam angle ``turn`` with its follower; trouble: stretches that the follower undercuts."""
     whole, cam = analysis.whole, analysis.cam
     i = np.argmin(abs(_around(whole.cam_angle - turn)))
-    x, y = profile = rotated(whole.profile, whole.turn[i]) / mm
+    x, y = profile = rotated(whole.profile, np.take(whole.turn, i)) / mm
     from_nose = abs(whole.cam_angle - cam.half_angle)
     ramps, flanks = from_nose <= cam.half_angle + cam.ramp_angle, from_nose <= cam.half_angle
-    contact = whole.contact_point()[:, i] / mm
+    contact = np.take(whole.contact_point(), i, axis=-1) / mm
     return Picture.of(
         Axes(title=f"Cam and {cam.follower.name}", xlabel="x  [mm]", ylabel="y  [mm]", equal=True),
         Circle("tip circle", 0.0, 0.0, np.max(np.hypot(*profile)), role="guide"),

@@ -27,19 +27,21 @@ def _direction(slope: Value) -> np.ndarray:
 def _pin(axis: np.ndarray, angle: Value) -> np.ndarray:
     """The direction of a pin that has turned by ``angle`` about ``axis`` from the plane of the shafts."""
     upright = np.cross(axis, ACROSS)
-    return np.asarray(np.cos(angle) * upright + np.sin(angle) * ACROSS)
+    return np.cos(angle) * upright + np.sin(angle) * ACROSS
 
 
 def pins(analysis: Any, i: np.intp) -> dict[str, np.ndarray]:
     """Directions of the four pins at the input angle ``i``: of each shaft at each joint, as they stand in space."""
     drive, quarter = analysis.drive, np.pi / 2
-    middle = analysis.intermediate_angle[i] + quarter
+    angles = analysis.input_angle, analysis.intermediate_angle, analysis.output_angle
+    begin, middle, end = (np.take_along_axis(angle, np.expand_dims(i, 0), -1)[0] for angle in angles)
+    middle = middle + quarter
     first, second, third = (_direction(slope) for slope in (drive.first_angle, 0.0, drive.second_angle))
     return {
-        "input": _pin(first, analysis.input_angle[i]),
+        "input": _pin(first, begin),
         "intermediate, first": _pin(second, middle),
         "intermediate, second": _pin(second, middle + drive.phase),
-        "driven": _pin(third, analysis.output_angle[i] + drive.phase + np.pi),
+        "driven": _pin(third, end + drive.phase + np.pi),
     }
 
 
@@ -71,7 +73,7 @@ def _fork(table: Turntable, name: str, k: int, joint: Array, away: Array, pin: A
 
 
 def _bar(table: Turntable, key: str, points: Sequence[Array], **style: Unpack[LineStyle]) -> None:
-    table.bar(key, np.transpose(points), **style)
+    table.bar(key, np.stack(points, axis=-1), **style)
 
 
 def _over_a_turn(angle: Array, title: str, ylabel: str, curves: Mapping[str, Value]) -> Picture:

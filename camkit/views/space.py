@@ -12,6 +12,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
+from ..geometry import dot
 from ..quantities import Measure
 from ..quantities.types import Array, Value
 from ..units import deg, mm
@@ -79,7 +80,7 @@ def scene_of(linkage: Any, boxes: Any, azimuth: float, elevation: float) -> Turn
     centre = (points.min(1) + points.max(1)) / 2
     radius = 1.02 * np.linalg.norm(points - centre[:, None], axis=0).max()
     x, up = np.array([1.0, 0.0, 0.0]), linkage.rocker_axis
-    depth = (up @ (centre[:, None] - points)).max() + 20
+    depth = dot(up[:, None], centre[:, None] - points).max() + 20
     return Turntable(np.stack([x, np.cross(up, x), up]), centre, radius, depth, azimuth, elevation)
 
 
@@ -111,7 +112,7 @@ def _sweeps(scene: Turntable, analysis: Any) -> None:
         scene.path(f"{name} circle", circle(linkage, CIRCLE), at=4.0, stroke="thin", **style)
     never = gaps(crank_circle(linkage, CIRCLE), ~linkage.assembles(CIRCLE))
     scene.path("never", never, at=5.0, role="trouble", label="never reached")
-    x, y, _ = scene.seen(crank_circle(linkage, linkage.limit_angles()))
+    x, y, _ = scene.seen(crank_circle(linkage, linkage.all_limit_angles))
     scene.put(5.0, Points("limits", x, y, role="trouble", size=6))
 
 
@@ -127,7 +128,7 @@ def _leaf(scene: Turntable, here: Any) -> None:
     along = linkage.rocker_direction(here.rocker_angle + here.load.mass_angle)[:, 0]
     foot = scene.dropped(linkage.rocker_root[:, None] / mm)[:, 0]
     up = linkage.rocker_axis * (scene.depth + 0.55 * scene.radius)
-    corners = np.transpose([foot, foot + size * along, foot + size * along + up, foot + up])
+    corners = np.stack([foot, foot + size * along, foot + size * along + up, foot + up], axis=1)
     scene.face("leaf", corners, at=3.5, role="flank", opacity=0.18, edged=True)
 
 
@@ -157,26 +158,33 @@ def _pressure_angles_at(scene: Turntable, here: Any) -> None:
         (-1, here.rocker_joint, here.rocker_motion, here.rocker_pressure_angle, ROCKER, "α₂"),
     ):
         start, moves, along = joint[:, 0] / mm, motion[:, 0], sign * here.coupler_direction[:, 0]
-        moves = moves * np.where(moves @ along >= 0, 1, -1)
+        moves = moves * np.where(dot(moves, along) >= 0, 1, -1)
         label = "joint's way" if sign > 0 else ""
         scene.arrow(f"{name} way", start, size * moves, role="velocity", label=label)
         share = np.linspace(0, 1, 13)
-        fan = np.outer(moves, 1 - share) + np.outer(along, share)
+        fan = moves[:, None] * (1 - share) + along[:, None] * share
         arc = start[:, None] + 0.62 * size * fan / np.linalg.norm(fan, axis=0)
         scene.path(f"{name} arc", arc, at=18.0, **style)
-        place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start)
+        place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start, axis=0)
         scene.words(name, place, f"{name} {{:.0f}}°", values=(angle[0] / deg,), size=11, bold=True)
 
 
 def _curve(key: str, x: Array, y: Array, turn: float | None, named: bool = True, **style: Unpack[Colour]) -> list[Mark]:
     """A curve over the crank angle (rad), ``named`` in the legend, with a dot where the crank stands."""
     at = np.nan if turn is None else gaps(turn, (x.min() <= turn) & (turn <= x.max()))
-    order = np.argsort(x)
-    dot = np.interp(at, x[order], np.broadcast_to(y, x.shape)[order])
     return [
         Line(key, x / deg, y, label=key if named else "", **style),
-        Points(f"{key} now", at / deg, dot, size=7, **style),
+        Points(f"{key} now", at / deg, _between(at, x, np.broadcast_to(y, x.shape)), size=7, **style),
     ]
+
+
+def _between(at: Value, x: Array, y: Array) -> Array:
+    """What stands at ``at`` on a curve, straight between its points, of which ``x`` grows or falls throughout."""
+    falls = x[-1] < x[0]
+    x, y = np.where(falls, x[::-1], x), np.where(falls, y[::-1], y)
+    i = np.clip(np.sum(x <= at) - 1, 0, len(x) - 2)
+    (x0, x1), (y0, y1) = ((np.take(values, i), np.take(values, i + 1)) for values in (x, y))
+    return y0 + (at - x0) / (x1 - x0) * (y1 - y0)
 
 
 def _swept(title: str, ylabel: str, ylim: tuple[float, float] | None = None) -> Axes:
@@ -208,7 +216,7 @@ def output_angle(analysis: Any, turn: float | None = None) -> Picture:
 def _unbroken(angle: Array) -> np.ndarray:
     """Angles in degrees within one turn, without a line across where they pass 360."""
     shown = np.mod(angle, 2 * np.pi) / deg
-    return np.asarray(gaps(shown, np.append(abs(np.diff(shown)) < 180, True)))
+    return gaps(shown, np.append(abs(np.diff(shown)) < 180, True))
 
 
 def pressure_angles(analysis: Any, turn: float | None = None, limits: Mapping[Measure, float] | None = None) -> Picture:

@@ -10,6 +10,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..geometry import dot
 from ..quantities.types import Array, Value
 from .picture import Axes, Line, LineStyle, Mark, MarkStyle, Picture, Points, Polygon, Text, gaps
 
@@ -17,6 +18,11 @@ SQUARES = 40
 """No floor has more squares each way from its middle."""
 NEAR = 10.0
 """Height in the drawing of what lies at the middle of a scene; nearer things come later, flat things before."""
+
+
+def turned(rows: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """The product of a matrix ``(3, 3)`` and vectors ``(3, ...)``."""
+    return (rows.reshape(3, 3, *(1 for _ in vectors.shape[1:])) * vectors).sum(1)
 
 
 @dataclass(frozen=True)
@@ -42,14 +48,14 @@ class Turntable:
         """
         sin, cos = np.sin(self.azimuth), np.cos(self.azimuth)
         up, flat = np.sin(self.elevation), np.cos(self.elevation)
-        right = np.array([-sin, cos, 0.0])
-        above = np.array([-up * cos, -up * sin, flat])
-        return np.stack([right, above, np.cross(right, above)]) @ self.frame
+        right = np.stack([-sin, cos, 0.0])
+        above = np.stack([-up * cos, -up * sin, flat])
+        return turned(np.stack([right, above, np.cross(right, above)]), self.frame)
 
     def seen(self, points: ArrayLike) -> np.ndarray:
         """Where ``points`` ``(3, ...)`` are on the picture, and how near they are, ``(3, ...)``."""
         middle = self.centre.reshape(3, *(1 for _ in np.shape(points)[1:]))
-        return np.tensordot(self.eye, np.asarray(points) - middle, 1)
+        return turned(self.eye, points - middle)
 
     def picture(self, axes: Axes, *more: Mark) -> Picture:
         """What has been put on the table, nearer things above, with ``more`` above all."""
@@ -86,8 +92,8 @@ class Turntable:
     def arrow(self, key: str, start: Array, along: Array, **style: Unpack[LineStyle]) -> None:
         """An arrow from ``start``, ``along`` being direction and length."""
         foot, tip = self.seen(start)[:2], self.seen(start + along)[:2]
-        back, side = 0.22 * (foot - tip), 0.09 * (foot - tip)[::-1] * [1, -1]
-        shaft = np.transpose([foot, tip, tip + back + side, tip, tip + back - side])
+        back, side = 0.22 * (foot - tip), 0.09 * (foot - tip)[::-1] * np.array([1, -1])
+        shaft = np.stack([foot, tip, tip + back + side, tip, tip + back - side], axis=1)
         self.put(18.0, Line(key, *shaft, **style))
 
     def face(
@@ -128,7 +134,8 @@ class Turntable:
         across = np.repeat(gaps(ticks, abs(ticks) <= end), 3)
         along = np.tile(np.stack([-end, end, np.nan]), len(ticks))
         flat = np.concatenate([np.stack([across, along]), np.stack([along, across])], axis=1)
-        grid = self.frame.T @ np.vstack([flat, np.full(flat.shape[1], -self.depth)]) + self.centre[:, None]
+        below = np.broadcast_to(-self.depth, flat[:1].shape)
+        grid = turned(self.frame.T, np.concatenate([flat, below])) + self.centre[:, None]
         self.path(key, grid, at=1.0, role="body")
 
     def shadow(self, key: str, points: ArrayLike) -> None:
@@ -138,4 +145,4 @@ class Turntable:
     def dropped(self, points: ArrayLike) -> np.ndarray:
         """``points`` ``(3, n)`` let fall to the floor."""
         up = self.frame[2][:, None]
-        return points - up * (up.T @ (points - self.centre[:, None]) + self.depth)
+        return points - up * (dot(up, points - self.centre[:, None]) + self.depth)

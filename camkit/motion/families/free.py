@@ -41,7 +41,7 @@ def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
 def sized(value: object, what: str, declared: Quantity) -> Value:
     """``value`` as a number or a column of the size that its declaration allows (see `a_number`)."""
     known = number(value)
-    must = declared.possible if known is None or np.ndim(known) else declared.possible_for(float(known))
+    must = declared.possible_for(known) if isinstance(known, float) else declared.possible
     return a_number(value, what, f"be {must}", declared.allows)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...quantities import choice, numbered, row
 from ...quantities.kinds import refuse_kinds, refuse_lengths
+from ...quantities.known import certain
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import COEFFICIENT, Degree9, coefficients
@@ -78,7 +79,7 @@ class ShapedLaw(Law):
     @property
     def _plain(self) -> bool:
         """Whether no coefficient adds anything to the law."""
-        return all(np.ndim(c) == 0 and c == 0 for c in self.c)
+        return all(np.ndim(c) == 0 and certain(c == 0) for c in self.c)
 
     @property
     def continuity(self) -> int:
