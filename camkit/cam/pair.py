@@ -226,7 +226,7 @@ def _smaller(one: Extreme, other: Extreme) -> Extreme:
 
 def _half_turn(body: Body) -> Body:
     """A part of the second cam of a sliding follower as it stands in the machine."""
-    return replace(body, x=-np.asarray(body.x), y=-np.asarray(body.y), angle=body.angle + np.pi)
+    return replace(body, x=-body.x, y=-body.y, angle=body.angle + np.pi)
 
 
 def _mirror(body: Body) -> Body:

@@ -20,6 +20,7 @@ from ..geometry import Body
 from ..motion import Kinematics
 from ..motion.resolution import STEPS, between
 from ..quantities import members
+from ..quantities.known import certain
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import high_speed_curves as curves
@@ -226,9 +227,9 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def spring_rate(self) -> Array:
         """`spring_factor`, shaped to multiply arrays of angles."""
         given = self.cam.spring_factor
-        if np.all(given > 0):
+        if certain(given > 0):
             return given
-        return np.where(given > 0, given, np.asarray(self.least_spring_factor)[..., None])
+        return np.where(given > 0, given, np.expand_dims(self.least_spring_factor, -1))
 
     @property
     def spring_factor(self) -> Value:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..quantities.known import known
 from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:
@@ -81,9 +82,15 @@ def _over_345(u: Array, s: Array, a: Array, j: Array) -> Value:
     There both are rounding.  ``s = u^2 a / 4 - u^3 j / 12`` where it is of the third to fifth power of ``u``.
     """
     share = s / (u * u * u * (10 + u * (6 * u - 15)))
+    if not known(share):
+        return _beside(u, s, a, j, share)
     near = np.flatnonzero(np.atleast_2d(u < BESIDE).any(0))
-    u, s, a, j = (np.broadcast_to(x, share.shape)[..., near] for x in (u, s, a, j))
+    share[..., near] = _beside(*(np.broadcast_to(x, share.shape)[..., near] for x in (u, s, a, j, share)))
+    return share
+
+
+def _beside(u: Array, s: Any, a: Array, j: Any, share: Array) -> Array:
+    """That ``share``, by the derivatives where it is rounding."""
     smooth = abs(a) <= 2 * u * abs(j) + 1e-6
     limit = np.where(u > 1e-7, (a / u - j / 3) / 40, np.where(smooth, j / 60, a / (20 * u)))
-    share[..., near] = np.where((u < BESIDE) & (abs(s) < 1e-11), limit, share[..., near])
-    return share
+    return np.where((u < BESIDE) & (abs(s) < 1e-11), limit, share)

@@ -61,7 +61,7 @@ def _with_peaks(analysis: Any, curve: Curve, along: Along = TURN) -> Picture:
     Trouble, at 0: there is none, as the roller undercuts the profile or has lost contact, or no spring holds the arm.
     """
     x, y = _values(analysis, curve, along)
-    top = np.nanmax(y, initial=0)
+    top = np.fmax.reduce(y, axis=-1)
     top = ROOM * np.where(top > 0, top, 1.0)
     marks: list[Mark] = [Line("dwell", x, y, role="guide", stroke="thin")]
     for index, (way, part) in enumerate(zip(AWAY_BACK, analysis.intervals, strict=True)):

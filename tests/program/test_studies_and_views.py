@@ -1,0 +1,174 @@
+"""Every study, every table of measures and every default view of the machines replays as numpy works it out."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
+from camkit.cam.force_closure import ContactPair
+from camkit.cam.pair import ConjugatePair
+from camkit.linkage import DoubleUniversalJoint
+from camkit.machines import (
+    CabinDoorLinkage,
+    CamLever,
+    DoorHandleCam,
+    HighSpeedCam,
+    UniversalJointShaft,
+    ValveCam,
+    cam_lever_study,
+    corrected_valve_study,
+    door_handle_paper_study,
+    door_handle_study,
+    high_speed_study,
+    lift_curve_study,
+    ninety_degree_study,
+    rssr_study,
+    shaft_study,
+    valve_front_study,
+    valve_study,
+)
+from camkit.program import CannotRecord, record
+from camkit.quantities import measures_of, with_quantities
+from camkit.render.picture import positions_of
+from camkit.views import default_views
+from program_cases import designs_beside
+
+ROWS, BLOCKS = 20, 10
+ROUGH = (HighSpeedCam, CamLever)
+"""Of these the rough peaks record: exact ones are searched for where the curves of each design say (`with_tops`)."""
+
+STUDIES = {
+    "door handle": door_handle_study(),
+    "door handle, as published": door_handle_paper_study(),
+    "lift curve": lift_curve_study(),
+    "linkage": rssr_study(),
+    "linkage in a housing": ninety_degree_study(),
+    "shaft": shaft_study(),
+    "valve": valve_study(),
+    "valve, corrected": corrected_valve_study(),
+    "valve, front": valve_front_study(),
+    "high speed": high_speed_study(),
+    "high speed, laws free": high_speed_study(free_laws=True),
+    "high speed, weakest spring": high_speed_study(free_laws=True, free_spring=False),
+    "lever": cam_lever_study(),
+}
+PAIR = {"contact": ContactPair()}
+DESIGNS = {
+    "roller": TranslatingRollerCam(**PAIR),
+    "roller in a groove": TranslatingRollerCam(groove=True, **PAIR),
+    "face": TranslatingFlatCam(**PAIR),
+    "roller on an arm": OscillatingRollerCam(**PAIR),
+    "roller on an arm in a groove": OscillatingRollerCam(groove=True, **PAIR),
+    "face on an arm": OscillatingFlatCam(**PAIR),
+    "pair of cams": ConjugatePair(),
+    "pair of cams on arms": ConjugatePair(OscillatingRollerCam(groove=False)),
+    "high speed": HighSpeedCam(),
+    "lever": CamLever(),
+    "door handle": DoorHandleCam(),
+    "valve": ValveCam(),
+    "cabin door": CabinDoorLinkage(),
+    "shaft": UniversalJointShaft(),
+    "double joint": DoubleUniversalJoint(),
+}
+ANGLES = 61
+POSITIONS = {"turn": 1.3, "azimuth": 0.5, "elevation": 0.4}
+NOT_YET = {
+    ("shaft", "plane_of_sizes"): "a search and a map of the plane stand behind it, and its contours follow from them",
+    ("shaft", "section"): "a catalogue is searched for what holds, and its legend names what is found",
+}
+"""Views that cannot be recorded, and why."""
+VIEWS = {(name, view.__name__): view for name, d in DESIGNS.items() for view in default_views(d.analyse(ANGLES))}
+
+
+def analysed(design, n):
+    analysis = design.analyse(n)
+    return replace(analysis, rough=True) if isinstance(design, ROUGH) else analysis
+
+
+def check(function, start):
+    """A program of ``function`` against numpy, to the last bit, over designs of which some can be built."""
+    program, built = record(function, start, rows=ROWS), 0
+    for block in range(BLOCKS):
+        values = designs_beside(start, ROWS, block)
+        with np.errstate(all="ignore"):
+            expected = function(with_quantities(start, values))
+        found = program(values)
+        assert found.keys() == expected.keys()
+        for name, value in expected.items():
+            assert_array_equal(found[name], value, err_msg=name, strict=True)
+        built += np.isfinite(np.stack(list(expected.values()), axis=-1)).all(-1).sum()
+    return built
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", STUDIES)
+def test_a_study_replays_to_the_last_bit(name):
+    study = STUDIES[name]
+
+    def judged(design):
+        found = study.judge(np.empty((ROWS, 0)), analysed(design, study.angles))
+        columns = [*found.f.T, *found.g.T]
+        return {str(i): column for i, column in enumerate(columns)}
+
+    assert 20 <= check(judged, study.start)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_table_of_measures_replays_to_the_last_bit(name):
+    design = DESIGNS[name]
+
+    def measured(design):
+        analysis = analysed(design, ANGLES)
+        return {measure.name: measure.of(analysis, ROWS) for measure in measures_of(design)}
+
+    check(measured, design)
+
+
+def numbers(name, value):
+    """What is a number, or several, of a part of a picture, by name."""
+    if isinstance(value, (list, tuple)):
+        return {k: v for i, part in enumerate(value) for k, v in numbers(f"{name} {i}", part).items()}
+    return {} if value is None or isinstance(value, (str, bool, dict)) else {name: value}
+
+
+def shown(view, n):
+    """The numbers of a view's marks and axes, as a function of a design and a position."""
+
+    def of(design, **position):
+        picture = view(analysed(design, n), **position)
+        parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
+        values = (numbers(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
+        return {key: value for each in values for key, value in each.items()}
+
+    return of
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "view"), [pair for pair in VIEWS if pair not in NOT_YET])
+def test_a_view_replays(name, view):
+    design, function = DESIGNS[name], shown(VIEWS[name, view], ANGLES)
+    position = {k: v for k, v in POSITIONS.items() if k in positions_of(VIEWS[name, view])}
+    program, seen = record(function, design, position), 0
+    for seed in range(10):
+        values = {path: float(column[0, 0]) for path, column in designs_beside(design, 1, seed).items()}
+        place = {k: v + 0.3 * seed for k, v in position.items()}
+        try:
+            with np.errstate(all="ignore"):
+                expected = function(with_quantities(design, values), **place)
+        except ValueError:  # it cannot be built
+            continue
+        found, seen = program(values | place), seen + 1
+        assert found.keys() == expected.keys()
+        for key, value in expected.items():
+            size = np.max(abs(np.asarray(value)), initial=0, where=np.isfinite(value))
+            assert_allclose(found[key], value, rtol=1e-12, atol=1e-12 * size, err_msg=key)
+    assert seen
+
+
+@pytest.mark.parametrize(("name", "view"), NOT_YET)
+def test_a_view_that_cannot_be_recorded_is_refused_where_it_asks(name, view):
+    with pytest.raises(CannotRecord, match=r"^camkit/\w+/\w+.py, line \d+: "):
+        record(shown(VIEWS[name, view], ANGLES), DESIGNS[name])
