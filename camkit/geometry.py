@@ -62,7 +62,7 @@ class Disc(Body):
         return np.stack([_at(value, i) for value in (self.x, self.y)])
 
 
-def _at(value: Value, i: SupportsIndex) -> Value:
+def _at(value: Value, i: Any) -> Value:
     """A number, or that of several which stands for position ``i``."""
     return np.take(value, i, axis=-1) if np.ndim(value) else value
 
