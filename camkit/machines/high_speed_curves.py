@@ -89,7 +89,7 @@ def _over_345(u: Array, s: Array, a: Array, j: Array) -> Value:
     return share
 
 
-def _beside(u: Array, s: Any, a: Array, j: Any, share: Array) -> Array:
+def _beside(u: Array, s: Array, a: Array, j: Array, share: Array) -> Array:
     """That ``share``, by the derivatives where it is rounding."""
     smooth = abs(a) <= 2 * u * abs(j) + 1e-6
     limit = np.where(u > 1e-7, (a / u - j / 3) / 40, np.where(smooth, j / 60, a / (20 * u)))
