@@ -84,7 +84,7 @@ def test_symbols_and_meanings_are_there_once(kind):
     [
         ({}, "a finite number above 0 mm", [1e-9, 2], [0, -1, 2.01, 1e160, np.nan, np.inf]),
         ({"above": -3}, "a finite number above -3 mm", [-2.9 * mm], [-3 * mm, -np.inf]),
-        ({"at_least": 0}, "a finite number of at least 0 mm", [0, 1], [-1e-9, 1e300, np.nan]),
+        ({"at_least": 0}, "a finite number of at least 0 mm", [0, 1e-14, 1], [-1e-9, 1e-16, 1e300, np.nan]),
         ({"above": None}, "a finite number", [-2, 0, 2], [-2.01, 2.01, np.nan, np.inf, -np.inf]),
         ({"at_most": 4}, "a finite number above 0 mm and at most 4 mm", [4 * mm], [4.01 * mm]),
         ({"above": None, "at_most": 4}, "a finite number of a size of at most 4 mm", [-4 * mm], [-4.01 * mm]),

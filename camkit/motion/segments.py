@@ -34,6 +34,8 @@ LAW_MENU: tuple[Law, ...] = (
 
 ANGLE = Quantity("beta", 90, 10, 240, "deg", "cam angle of the segment")
 LIFT = Quantity("h", 1, 0.1, 10, "", "change of the follower's level", at_least=0)
+SMALLEST = 1e-150
+"""A lift above 0 is no smaller: its square is still a number that one can divide by."""
 LAW = Choice("law", Cycloidal(), LAW_MENU, "motion law of the segment")
 
 
@@ -111,8 +113,8 @@ class Move(Segment):
         _refuse_name(self)
         _refuse_angle(self)
         what, other = kind_of(self), "return" if isinstance(self, Rise) else "rise"
-        must = f"be a finite number of at least 0 (less is a {other})"
-        lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: lift >= 0)
+        must = f"be 0 or a number of at least {SMALLEST:g} (less than 0 is a {other})"
+        lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: (lift == 0) | (lift >= SMALLEST))
         object.__setattr__(self, "lift", lift)
         if not _is_law(self.law):
             raise ValueError(f"the law of the {what} is {shown(self.law)}; it must be a motion law such as Cycloidal()")

@@ -25,7 +25,7 @@ OURS = __name__.partition(".")[0]
 BEYOND = 1000
 """How many times larger than all that a slider offers a number may be, unless its declaration says ``at_most``."""
 BELOW = 1e-12
-"""Such a share of the largest that a slider offers is the least size of a number that must be above 0."""
+"""Such a share of the largest that a slider offers is the least size of a number that is above 0 and never below."""
 MANY = 8
 """So many options of a choice are named in a sentence."""
 FAR = 4
@@ -64,7 +64,8 @@ class Quantity:
     The default is in the range from ``low`` to ``high``, which a slider offers and a study searches.
     ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the larger of
     ``low, high`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
-    What must be above 0 is at least `BELOW` times that largest, so that nothing overflows when one divides by it.
+    What is above 0, and may not be below, is at least `BELOW` times that largest, so that nothing overflows when one
+    divides by it.
     """
 
     symbol: str
@@ -122,8 +123,10 @@ class Quantity:
     def possible_for(self, value: float) -> str:
         """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
         said = self._possible(np.isfinite(value) and abs(value) > self._most)
-        small = self.at_least is None and 0 < value < self._least
-        return f"{said} and at least {self._top * BELOW:.6g} {self.unit}".rstrip() if small else said
+        if not 0 < value < self._least:
+            return said
+        least = f"at least {self._top * BELOW:.6g} {self.unit}".rstrip()
+        return f"{said} and {least}" if self.at_least is None else f"{said}, and {least} unless it is 0"
 
     def _possible(self, most: object) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -140,7 +143,7 @@ class Quantity:
             return False
         ok = (read >= -self._most) & (read <= self._most)
         if self.at_least is not None:
-            return ok & (read >= self.at_least * self.factor)
+            return ok & (read >= self.at_least * self.factor) & ((read >= self._least) | (read <= 0))
         if self.above is not None:
             return ok & (read > self.above * self.factor) & (read >= self._least)
         return ok

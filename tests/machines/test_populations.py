@@ -1,4 +1,4 @@
-"""Every number of every machine as a column of two and of three designs gives what each design has by itself."""
+"""Every number of every machine: as a column of two and of three designs it gives what each design has by itself."""
 
 from itertools import pairwise
 
@@ -78,3 +78,15 @@ def test_two_numbers_of_load_friction_and_contact_as_columns(design):
     paths = [path for path in quantities_of(design) if {"load", "friction", "contact"} & set(path.split("."))]
     for pair in pairwise(paths):
         check(design, {path: steps(design, path) for path in pair})
+
+
+@every_machine
+@pytest.mark.parametrize("size", [5e-324, 1e-300, 1e-160])
+def test_a_number_that_may_be_0_is_0_or_no_absurdly_small_one(design, size):
+    """All such numbers of all machines."""
+    at_zero = [path for path, declared in quantities_of(design).items() if declared.at_least == 0]
+    assert at_zero or isinstance(design, UniversalJointShaft)
+    for path in at_zero:
+        with pytest.raises(ValueError, match=r"it must be .*at least [0-9.e-]+.*( unless it is 0$|\(less than 0)"):
+            with_quantities(design, {path: size})
+        with_quantities(design, {path: 0.0})

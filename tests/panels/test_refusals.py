@@ -135,7 +135,7 @@ REFUSALS = [
     # motion programs
     (lambda: Rise(0, 1, Cycloidal()), "the angle of the rise is 0 deg; it must be a finite angle above 0 deg"),
     (lambda: Rise(1, NAN, Cycloidal()),
-     "the lift of the rise is nan; it must be a finite number of at least 0 (less is a return)"),
+     "the lift of the rise is nan; it must be 0 or a number of at least 1e-150 (less than 0 is a return)"),
     (lambda: Dwell(-90 * deg), "the angle of the dwell is -90 deg; it must be a finite angle above 0 deg"),
     (lambda: MotionProgram(()), "the program is empty; it needs at least one rise, return or dwell"),
     (lambda: MotionProgram((Rise(4, 1, Cycloidal()), Return(3, 1, Cycloidal()))),
