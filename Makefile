@@ -13,8 +13,8 @@ AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 # Two processes, each with a file of tests at a time: what a file's tests share is made once.
 PYTEST := $(BIN)/python -m pytest -n 2 --dist loadscope
 
-# Coverage is asked of the maths alone, and not of its long searches: watching makes these tests slower by half.
-UNWATCHED := tests/panels tests/render tests/search/test_minimise_cams.py tests/test_extrema.py
+# Coverage is asked of the maths alone, and not of its long searches and tables of cases: watching makes these tests slower by half.
+UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py
 
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300

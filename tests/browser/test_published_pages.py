@@ -20,7 +20,7 @@ from camkit import DoorHandleCam, door_handle_study, explore, pareto_panel
 from camkit.machines.door_handle import PAPER_SPACE
 from camkit.views import pressure_angle
 
-app = explore(DoorHandleCam(), pressure_angle)
+app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"])
 pareto_panel(app, {"lift": door_handle_study(space=PAPER_SPACE)}, generations=10000)
 """
 
