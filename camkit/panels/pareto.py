@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from threading import RLock
 from typing import Any
 
 import ipywidgets as w
@@ -84,15 +85,16 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.found = sessions.empty_front(self.study)
         self.search: SessionSearch | None = None
         self._went_back = ""
-        self.picker = FrontPicker(explorer, self.found, importance, lambda: self._show_front(self.front))
+        self._showing = RLock()  # a search shows its steps from its own thread
+        self.picker = FrontPicker(explorer, self.found, importance, self._show_again)
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
         self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
         self._make_widgets()
         for panel in self._judges.values():
             panel.on_change(self.picker.quiet.unless(self._judged))
-        explorer.on_change(lambda _: self._show_front(self.front) if self.picker.moved else None)
+        explorer.on_change(lambda _: self._show_again() if self.picker.moved else None)
         super().__init__([self._body()])
-        self._show_front(self.front)
+        self._show_again()
 
     def _page(self, studies: Mapping[str, Study], space: Mapping[str, object]) -> SearchPage:
         judged = {name: panel.names for name, panel in self._judges.items()}
@@ -225,13 +227,19 @@ class ParetoPanel(JobPanel, FrontPanel):
 
     def _show_front(self, front: Front) -> None:
         """Nothing is told of a front that cannot be drawn."""
-        self.picker.show(front)
-        analysis = self.explorer.start.analyse(self.study.angles)
-        start = np.array([measure(analysis) for measure in self.study.minimise])
-        self.picture.show(ShownFront(front, self.picker.selected, self.winner, start))
-        self.verdict.value = joined(self.picker.choice.verdict(), "<br>")
-        self.record.value = escaped(record_text(front.record))
+        with self._showing:
+            self.picker.show(front)
+            analysis = self.explorer.start.analyse(self.study.angles)
+            start = np.array([measure(analysis) for measure in self.study.minimise])
+            self.picture.show(ShownFront(front, self.picker.selected, self.winner, start))
+            self.verdict.value = joined(self.picker.choice.verdict(), "<br>")
+            self.record.value = escaped(record_text(front.record))
         self._tell_followers()
+
+    def _show_again(self) -> None:
+        """The front that is shown, under another rule or with another design in the sliders."""
+        with self._showing:
+            self._show_front(self.front)
 
     def summary(self) -> str:
         """The front's ends and the winner."""

@@ -15,6 +15,7 @@ from camkit.panels.fronts import compare_fronts
 from camkit.panels.kit import running
 from camkit.panels.kit.running import RUNNING, Job, Place, here, left_behind
 from camkit.panels.optimise import optimise_panel
+from camkit.panels.pareto import pareto_panel
 from camkit.search.protocol import search
 from camkit.units import deg, mm
 from camkit.views.picture import Axes, Picture
@@ -133,6 +134,29 @@ def test_a_job_that_breaks_is_not_running(monkeypatch):
     job.start()
     job.thread.join(10)
     assert not RUNNING
+
+
+def test_a_front_is_shown_whole_before_the_search_shows_the_next(tmp_path, monkeypatch):
+    """Another rule is asked for while the search goes on, which shows its fronts from a thread of its own."""
+    monkeypatch.chdir(tmp_path)
+    asked, alone = threading.Event(), []
+
+    def radius(analysis):
+        if asked.is_set() and threading.current_thread() is threading.main_thread():
+            before = panel.front
+            time.sleep(4 * running.REPORT)
+            alone.append(panel.front is before)
+        return slow(analysis)
+
+    two = TWO_WISHES.replace(minimise=(Measure("radius", "mm", radius), TWO_WISHES.minimise[1]))
+    panel = pareto_panel(an_explorer(), two, population=20, generations=10_000)
+    panel.run()
+    until = time.monotonic() + 20
+    while not len(panel.front) and time.monotonic() < until:
+        time.sleep(0.01)
+    asked.set()
+    panel.picker.rule.value = panel.picker.rule.options[1]
+    assert alone == [True]
 
 
 def test_a_cell_is_known_by_what_the_notebook_says(monkeypatch):
