@@ -341,7 +341,7 @@ def test_a_measures_words():
 
 
 @pytest.mark.parametrize(("wrong", "said"), [
-    ({"low": 2.0, "high": 1.0}, "the range of x goes from 2 to 1; the first must be below the second"),
+    ({"low": 2.0, "high": 1.0}, "the range of x goes from 2 to 1 mm; the first must be below the second"),
     ({"low": -np.inf}, "the low is -inf; it must be a finite number"),
     ({"default": -1.0, "low": -2.0}, "the default of x is -1 mm; it must be a finite number above 0 mm"),
     ({"default": 0.05}, r"the default of x is 0.05 mm; it must be in the range from 0.1 to 2 mm"),

@@ -64,8 +64,7 @@ class Quantity:
     The default is in the range from ``low`` to ``high``, which a slider offers and a study searches.
     ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the larger of
     ``low, high`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
-    What is above 0, and may not be below, is at least `BELOW` times that largest, so that nothing overflows when one
-    divides by it.
+    What may not be below 0 is 0 or at least `BELOW` times that largest: one can divide by it without overflow.
     """
 
     symbol: str
@@ -81,12 +80,11 @@ class Quantity:
     def __post_init__(self) -> None:
         refuse_kinds(self)
         self.factor  # noqa: B018  refuses what is no unit
-        if not self.low < self.high:
-            told = f"from {self.low:g} to {self.high:g}"
-            raise ValueError(f"the range of {self.symbol} goes {told}; the first must be below the second")
         told = f"{self.default:g} {self.unit}".rstrip()
+        offered = f"from {self.low:g} to {self.high:g} {self.unit}".rstrip()
+        if not self.low < self.high:
+            raise ValueError(f"the range of {self.symbol} goes {offered}; the first must be below the second")
         if not self.low <= self.default <= self.high:
-            offered = f"from {self.low:g} to {self.high:g} {self.unit}".rstrip()
             raise ValueError(f"the default of {self.symbol} is {told}; it must be in the range {offered}")
         if not self.allows(self.default * self.factor):
             raise ValueError(f"the default of {self.symbol} is {told}; it must be {self.possible}")
@@ -123,10 +121,9 @@ class Quantity:
     def possible_for(self, value: float) -> str:
         """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
         said = self._possible(np.isfinite(value) and abs(value) > self._most)
-        if not 0 < value < self._least:
-            return said
-        least = f"at least {self._top * BELOW:.6g} {self.unit}".rstrip()
-        return f"{said} and {least}" if self.at_least is None else f"{said}, and {least} unless it is 0"
+        least = f" and at least {self._top * BELOW:.6g} {self.unit}".rstrip()
+        least += " unless it is 0" * (self.at_least is not None)
+        return said + least if 0 < value < self._least else said
 
     def _possible(self, most: object) -> str:
         unit = f" {self.unit}" if self.unit else ""
