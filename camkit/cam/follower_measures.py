@@ -42,7 +42,7 @@ mean_torque = Measure("mean cam torque with friction", "N mm", _mean_torque)
 def _overspeed(analysis: CamAnalysis) -> Value:
     """How much faster the cam may run before the follower jumps, as a share; ``inf`` for a cam at rest."""
     with np.errstate(divide="ignore"):
-        return jump_speed(analysis) / number(analysis.cam.load.speed) - 1
+        return jump_speed(analysis) / np.abs(number(analysis.cam.load.speed)) - 1
 
 
 jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)

@@ -62,7 +62,8 @@ def _nearest(x: Array, y: Array, along: Array, radius: Value) -> tuple[Array, Ar
         firsts.append(np.argmin(near, axis=-1))
         nearest.append(near.min(-1))
     least, first = np.stack(nearest, axis=-1), np.stack(firsts, axis=-1)
-    best = np.argmin(least, axis=-1)[..., None]
+    tied = least == least.min(-1, keepdims=True)  # of pairs as near as each other, as of two parallel legs, the first
+    best = np.argmin(np.where(tied, first, along.shape[-1]), axis=-1)[..., None]
     start = np.take_along_axis(first, best, -1)
     return np.stack([start, start + best + 1]).astype(float), np.sqrt(np.take_along_axis(least, best, -1))
 

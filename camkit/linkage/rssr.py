@@ -138,12 +138,25 @@ class RSSR(Links):
         A range that passes 0 begins below 0.
         """
         ends = self.limit_angles()
-        if not len(ends):
-            return np.array([[0, 2 * np.pi]]) if self.assembles(0.0) else np.zeros((0, 2))
-        ranges = np.stack([ends, np.append(ends[1:], ends[0] + 2 * np.pi)], axis=-1)
-        ranges = ranges[self.discriminant(ranges.mean(-1)) > 0]
-        past_zero = ranges[:, 1:] > 2 * np.pi
-        return np.sort(ranges - np.where(past_zero, 2 * np.pi, 0), axis=0)
+        turn = np.array([[0, 2 * np.pi]])
+        ranges = np.stack([ends, np.append(ends[1:], ends[:1] + 2 * np.pi)], axis=-1) if len(ends) else turn
+        possible = self._assembles_between(ranges)
+        if possible.all() or not possible.any():
+            return turn[: int(possible[0])]
+        low, high = ends[possible & ~np.roll(possible, 1)], ends[~possible & np.roll(possible, 1)]
+        high = np.roll(high, -int(high[0] < low[0]))
+        past_zero = high < low
+        return np.sort(np.stack([low - np.where(past_zero, 2 * np.pi, 0), high], axis=-1), axis=0)
+
+    def _assembles_between(self, ranges: Array) -> Array:
+        """Whether the linkage can be assembled in ranges ``(k, 2)`` of crank angles that begin and end at a limit.
+
+        Asked where the discriminant is farthest from 0, because two limits that merge may be found as none or as one.
+        """
+        low, high = ranges[:, :1], ranges[:, 1:]
+        inside = low + (high - low) * np.arange(1, 8) / 8
+        farthest = np.argmax(abs(self.discriminant(inside)), axis=-1)[:, None]
+        return self.assembles(np.take_along_axis(inside, farthest, -1))[:, 0]
 
     @cached_property
     def crank_root(self) -> np.ndarray:

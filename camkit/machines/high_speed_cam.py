@@ -25,6 +25,7 @@ from ..cam.loads import Friction
 from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, fails, quantities_of, quantity
+from ..quantities.design import refuse_population
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
@@ -58,6 +59,7 @@ class FreeLawCam(Design):
 
     def ready_for(self, paths: Iterable[str]) -> Self:
         """The same cam; a law without a coefficient that is free becomes one that coefficients shape, all of them 0."""
+        refuse_population(self, "the design")
         lacking = {path.partition(".")[0] for path in {*paths} - quantities_of(self).keys()}
         laws = {name: ShapedLaw(getattr(self, name)) for name in ("rise_law", "return_law") if name in lacking}
         return self.replace(**laws)
@@ -147,8 +149,9 @@ class HighSpeedCam(FreeLawCam):
 
         Where none holds, because the arm passes its start, it is the strongest that a slider offers.
         """
-        ready = super().ready_for(paths)
-        if "spring_factor" not in paths or ready.spring_factor:
+        needed = {*paths}
+        ready = super().ready_for(needed)
+        if "spring_factor" not in needed or ready.spring_factor:
             return ready
         weakest = float(ready.analyse().least_spring_factor) * self.speed**2
         return ready.replace(spring_factor=min(weakest, STRONG))

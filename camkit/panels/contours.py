@@ -150,7 +150,7 @@ class ContourPanel(Panel):
                 self._show()
 
     def _show(self) -> None:
-        here = self.plane.study.x_of(self.explorer.design)
+        here = self.plane.study.around(self.explorer.design).x0
         self.take.disabled = self.optimum is None
         first, *rest = self._lines()
         self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")
@@ -174,7 +174,7 @@ class ContourPanel(Panel):
     def load(self, x: Any) -> None:
         """Put free values into the sliders."""
         free = dict(zip(self.plane.study.free, map(float, x), strict=True))
-        self.explorer.load(with_quantities(self.explorer.design, free))
+        self.explorer.load(with_quantities(self.plane.study.around(self.explorer.design).start, free))
 
     def clicked(self, x: float, y: float) -> None:
         """Load the design at a share of the picture's width and height."""

@@ -42,8 +42,8 @@ def _narrower(band: w.FloatRangeSlider) -> list[object]:
 def try_everything(panel: w.Box) -> str:
     """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
 
-    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or a measure or a view
-    could not be computed.
+    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
+    measure, a view or what follows it could not be computed.
     """
     refuse_arguments(try_everything, locals())
     controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]

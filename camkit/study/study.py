@@ -5,7 +5,7 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Generic, Self
@@ -168,6 +168,11 @@ def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, f
 def _sides(limits: Mapping[Measure, float], sense: int) -> list[tuple[Measure, float, int]]:
     """Limits as measure without its sign, value, and +1 for at most, -1 for at least."""
     return [(m if m.sign > 0 else -m, m.sign * limit, m.sign * sense) for m, limit in limits.items()]
+
+
+def _ready(design: D, paths: Iterable[str]) -> D:
+    """The design, made so that ``paths`` can vary, if it is one that can say how (see `Design.ready_for`)."""
+    return design.ready_for(paths) if isinstance(design, Design) else design
 
 
 def named_studies(studies: Study | Mapping[str, Study], start: Analysable) -> dict[str, Study]:
@@ -344,7 +349,7 @@ class Study(Generic[D]):
         """
         refuse_design(design, "the design")
         Paths(self.start, ()).values(design)  # refuses another kind
-        study = replace(self, start=design.ready_for(self.free) if isinstance(design, Design) else design)
+        study = replace(self, start=_ready(design, self.free))
         return study if free is None else study.around(study.design(free))
 
     def freeing(self, free: Sequence[str] | Space) -> Self:
@@ -352,7 +357,8 @@ class Study(Generic[D]):
 
         Raises ``ValueError`` for one on which nothing depends that the study judges.
         """
-        study = replace(self, free=free)
+        paths = [path for path in free if isinstance(path, str)] if isinstance(free, Iterable) else ()
+        study = replace(self, free=free, start=_ready(self.start, paths))
         for path, idle in zip(study.free, study._idle(), strict=True):
             if idle:
                 raise ValueError(f"the {words(path)} has no effect on what the study judges; it must not be free")

@@ -11,6 +11,7 @@ from camkit import Measure, Study, minimise
 from camkit.geometry import inclination
 from camkit.linkage.rssr import RSSR
 from camkit.papers.cabin_door import adams_linkage
+from camkit.quantities import quantities_of, with_quantities
 from camkit.units import deg, mm
 
 EXAMPLE = RSSR(100 * mm, 180 * mm, 110 * mm, 120 * mm, 80 * mm, axis_distance=0.0, axis_angle=90 * deg)
@@ -105,6 +106,25 @@ def test_limits_of_the_example():
     assert np.degrees(EXAMPLE.limit_angles()) == pytest.approx([265.623052, 274.376948], abs=5e-7)
     assert np.degrees(EXAMPLE.possible_crank_angles()) == pytest.approx(np.array([[-85.623052, 265.623052]]), abs=5e-7)
     assert not EXAMPLE.full_turn
+
+
+def test_the_possible_angles_of_linkages_whose_limits_merge():
+    parallelogram = RSSR(100 * mm, 100 * mm, 100 * mm, 0, 0, axis_distance=100 * mm, axis_angle=0.0)
+    folded_once = RSSR(300 * mm, 100 * mm, 300 * mm, 0, 0, axis_distance=100 * mm, axis_angle=0.0)
+    assembled_once = RSSR(300 * mm, 100 * mm, 100 * mm, 0, 0, axis_distance=100 * mm, axis_angle=45 * deg)
+    for turns in (parallelogram, folded_once):
+        assert turns.possible_crank_angles() == pytest.approx(np.array([[0, 2 * np.pi]]))
+    assert assembled_once.possible_crank_angles().shape == (0, 2)
+
+
+def test_the_possible_angles_are_those_at_which_it_can_be_assembled():
+    random, declared = np.random.default_rng(3), quantities_of(EXAMPLE)
+    everywhere = 2 * np.pi * np.arange(3600) / 3600
+    for _ in range(300):
+        values = {path: random.uniform(q.low, q.high) * q.factor for path, q in declared.items()}
+        linkage = with_quantities(EXAMPLE, values)
+        ranges = linkage.possible_crank_angles()
+        assert np.diff(ranges).sum() / (2 * np.pi) == pytest.approx(linkage.assembles(everywhere).mean(), abs=2e-3)
 
 
 # Brute force, identities and finite differences.

@@ -730,6 +730,18 @@ def test_a_study_around_a_cam_makes_it_ready_for_what_is_free():
     assert cam_lever_study(free_laws=False).around(press).start == press
 
 
+def test_other_free_quantities_make_the_start_of_a_study_ready():
+    """However the paths come, and refused for several cams at once."""
+    plain = high_speed_study().around(HighSpeedCam(rise_law=Cycloidal()))
+    assert plain.freeing({"rise_law.c0": (-0.1, 0.1)}).start.rise_law == ShapedLaw(Cycloidal())
+    weakest = high_speed_study(free_laws=True, free_spring=False).freeing({"spring_factor": (0.2, 3.0)})
+    assert weakest.x0 == pytest.approx([2.544160], abs=5e-7)
+    paths = ["spring_factor", "rise_law.c0"]
+    assert HighSpeedCam().ready_for(iter(paths)) == HighSpeedCam().ready_for(paths)
+    with pytest.raises(ValueError, match=r"^the design is a population, .*; it must be one design$"):
+        HighSpeedCam(swing=np.array([[0.4], [0.5]])).ready_for(paths)
+
+
 def test_under_a_constant_torque_a_spring_that_is_free_changes_no_optimum():
     """The panels' study frees it, whatever load is in the sliders; the paper's problem for this load has none."""
     spring = minimise(high_speed_study(free_laws=True).around(HighSpeedCam(load=TORQUE)))

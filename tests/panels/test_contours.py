@@ -10,15 +10,20 @@ from numpy.testing import assert_allclose
 from scipy.interpolate import RegularGridInterpolator
 
 from camkit import Measure, Study, explore, try_everything
+from camkit.machines.high_speed_cam import HighSpeedCam
+from camkit.machines.high_speed_measures import peak_wear
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import corrected_valve_study, valve_study
+from camkit.motion import Cycloidal
 from camkit.panels.contours import contour_panel, optimum
 from camkit.quantities import Design, quantity
 from camkit.render.contours import level_curve
 from camkit.render.draw import artist_of
 from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
+from camkit.study.study import weighted
 from camkit.units import mm, rpm
+from camkit.views.cam import pressure_angle
 from camkit.views.design_map import SHADES, ShownPlane, objective_plane
 from camkit.views.event import lift
 
@@ -247,6 +252,19 @@ def test_free_quantities_move_the_mark_and_nothing_else(panel):
     settled(panel)
     assert panel.plane is not plane
     assert_allclose(panel.plane.study.start.load.speed, 1500 * rpm)
+
+
+def test_a_law_without_the_free_coefficients_is_surveyed_shaped():
+    cam = HighSpeedCam()
+    wear = weighted("wear", {peak_wear: 1.0}, (1.0,))
+    study = Study(cam, {"rise_law.c0": (-0.5, 0.5), "rise_law.c1": (-0.5, 0.5)}, (wear,), angles=61)
+    explorer = explore(cam, pressure_angle, free=["arm_length"])
+    survey = contour_panel(explorer, study, {"wear": 1.0}, steps=5)
+    explorer.load(cam.replace(rise_law=Cycloidal()))
+    survey.settle()
+    assert survey.banner.value == ""
+    press(survey, "Load the optimum")
+    assert explorer.design.rise_law.base == Cycloidal()
 
 
 def test_a_design_outside_the_bounds_is_surveyed_too(panel):
