@@ -7,6 +7,9 @@ export OPENBLAS_NUM_THREADS := 1
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
+# More options for JupyterLab: make lab LAB="--no-browser --port=8899"
+LAB :=
+
 # JupyterLab refuses to run as root unless told so.
 AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 
@@ -23,6 +26,7 @@ NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.
 
 help:
 	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
+	@echo "                LAB=... gives JupyterLab more options, such as LAB='--no-browser --port=8899'"
 	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila);"
 	@echo "                for this machine alone unless HOST=... names another address to listen on"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
@@ -33,7 +37,7 @@ help:
 
 lab: $(VENV)/.lab
 	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
-	$(BIN)/jupyter lab $(AS_ROOT) notebooks/00_start_here.ipynb
+	$(BIN)/jupyter lab $(AS_ROOT) $(LAB) notebooks/00_start_here.ipynb
 
 # Read "Publishing" in README.md before naming another HOST.  The limits are in notebooks/voila.json.
 HOST := 127.0.0.1

@@ -44,6 +44,7 @@ def test_every_unit_is_the_product_of_its_parts(unit):
 
 @pytest.mark.parametrize(("unit", "si"), [
     ("in", codata.inch), ("inch", codata.inch), ("ft", codata.foot), ("lbf", codata.lbf), ("psi", codata.psi),
+    ("lb", codata.lb), ("oz", codata.oz), ("hp", codata.hp),
     ("um", codata.micron), ("min", codata.minute), ("deg", codata.degree), ("lbf in", codata.lbf * codata.inch),
     ("lbf/in", codata.lbf / codata.inch), ("kW min", 6e4), ("J/(kg m)", 1.0), ("N*mm", 1e-3), ("kN·m", 1e3),
 ])  # fmt: skip
@@ -144,6 +145,7 @@ def test_a_number_may_be_typed_with_its_unit(text, unit, meant):
 
 @pytest.mark.parametrize(("text", "said"), [
     ("2 kg", "kg cannot be converted into mm"),
+    ("2 lb", "lb cannot be converted into mm"),
     ("12abc", "the unit 'abc' is not known; it must be"),
     ("1e", "the unit 'e' is not known; it must be"),
     ("1/2", "'1/2' is no number"),

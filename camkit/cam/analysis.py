@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Self, TypeVar
+from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
@@ -207,6 +207,9 @@ class CamAnalysis(ABC):
     @abstractmethod
     def follower(self) -> tuple[Body, ...]:
         """The follower's bodies."""
+
+    curvature_limit: ClassVar[str] = "1 / roller radius"
+    """What `max_curvature` is, for a legend; empty where there is no such limit."""
 
     @property
     @abstractmethod

@@ -15,14 +15,14 @@ PIN = np.zeros((2, 1))
 
 
 def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
-    """The cam: solid or groove, pitch curve, inner flank and, of a ``groove``, outer flank, with its axis."""
+    """The cam: solid or groove, pitch curve where it is another, inner flank, a ``groove``'s outer flank, the axis."""
     refuse_population(analysis, "what is drawn")
     inner, outer = analysis.profile, analysis.outer_profile
     solid = np.concatenate([inner, outer[:, ::-1]], axis=1) if groove else inner
     turned = {"angle": analysis.turn}
     return (
         Outline("", "body", solid, **turned),
-        Outline("", "pitch", analysis.pitch, **turned),
+        *(() if analysis.pitch is inner else (Outline("", "pitch", analysis.pitch, **turned),)),
         Outline("", "profile", inner, analysis.undercut, **turned),
         *([Outline("", "flank", outer, analysis.outer_undercut, **turned)] if groove else ()),
         Outline("", "axis", PIN),

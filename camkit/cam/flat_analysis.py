@@ -69,6 +69,8 @@ class FlatAnalysis(CamAnalysis):
         drops = (corner.value > 0) & ~np.isnan(found.value)
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
 
+    curvature_limit = ""
+
     @property
     def max_curvature(self) -> Value:
         """``inf``: a face is undercut where the profile is concave, not where it is sharp."""

@@ -71,6 +71,10 @@ class OscillatingFlatCam(Design):
 
     name: ClassVar[str] = "rocking face"
 
+    def following(self) -> dict[str, str]:
+        """No roller, no pin."""
+        return {"friction.roller_pin": "a flat face has no roller"}
+
     @property
     def roller_radius(self) -> float:
         """0: there is no roller."""

@@ -58,6 +58,10 @@ class TranslatingFlatCam(Design):
 
     name: ClassVar[str] = "sliding face"
 
+    def following(self) -> dict[str, str]:
+        """No roller, no pin."""
+        return {"friction.roller_pin": "a flat face has no roller"}
+
     @property
     def roller_radius(self) -> float:
         """0: there is no roller."""

@@ -71,13 +71,13 @@ class Judgements:
     note: str = field(default="", init=False, compare=False)
 
     def __post_init__(self) -> None:
-        matrix, note = _matrix(self.matrix)
         names = listed(self.names, "the list of names", "criterion")
         wrong = [name for name in names if not isinstance(name, str) or not name.strip()]
         if wrong:
             raise ValueError(f"the name of a criterion is {shown(wrong[0])}; it must be a text")
         if twice := [name for i, name in enumerate(names) if name in names[:i]]:
             raise ValueError(f"two criteria have the name {shown(twice[0])}; each must have a name of its own")
+        matrix, note = _matrix(self.matrix, names)
         if names and len(names) != len(matrix):
             raise ValueError(f"there are {len(matrix)} rows of judgements for {len(names)} criteria")
         refuse_method(self.method)
@@ -180,31 +180,37 @@ class Judgements:
         return iter((self.weights, self.consistency_ratio))
 
 
-def _matrix(judgements: object) -> tuple[np.ndarray, str]:
+def _judged(i: int, j: int, names: Sequence[str]) -> str:
+    """What a judgement is called: by the ``names`` of the criteria, if they have any."""
+    return f"the judgement of {names[i]} against {names[j]}" if names else f"judgement ({i + 1}, {j + 1})"
+
+
+def _matrix(judgements: object, names: Sequence[str]) -> tuple[np.ndarray, str]:
     """The reciprocal matrix, and a note on the rounded reciprocals in it."""
     given = _entries(judgements)
     a = _from_above(given) if given.ndim == 1 else given
     if a.ndim != 2 or a.shape[0] != a.shape[1]:
         raise ValueError(f"the judgements have the shape {a.shape}; they must be a square matrix")
+    names = names if len(names) == len(a) else ()
     with np.errstate(divide="ignore", over="ignore"):
         a = np.where(np.isnan(a), np.where(np.eye(len(a), dtype=bool), 1, 1 / a.T), a)
     for i, j in np.argwhere(~(np.isnan(a) | ((a >= MIN_JUDGEMENT) & (a <= MAX_JUDGEMENT)))):
         possible = 0 < a[i, j] < math.inf
         must = f"nobody tells apart more than {MAX_JUDGEMENT:g} to 1" if possible else "it must be a positive number"
-        raise ValueError(f"judgement ({i + 1}, {j + 1}) is {a[i, j]:g}; {must}")
-    rounded = _exact_reciprocals(a)
-    _refuse_gaps(a)
+        raise ValueError(f"{_judged(i, j, names)} is {a[i, j]:g}; {must}")
+    rounded = _exact_reciprocals(a, names)
+    _refuse_gaps(a, names)
     return a, f"rounded reciprocals are read as exact ones: {', '.join(dict.fromkeys(rounded))}" if rounded else ""
 
 
-def _exact_reciprocals(a: np.ndarray) -> list[str]:
+def _exact_reciprocals(a: np.ndarray, names: Sequence[str]) -> list[str]:
     """Make rounded reciprocals in ``a`` exact, and say which; refuse what is no reciprocal."""
     rounded = []
     for i, j in np.argwhere(np.triu(abs(a * a.T - 1) > 1e-6)):
         more, less = max(a[i, j], a[j, i]), min(a[i, j], a[j, i])
         if i == j or not _rounded_reciprocal(more, less):
             raise ValueError(
-                f"judgement ({i + 1}, {j + 1}) is {a[i, j]:.6g} and ({j + 1}, {i + 1}) is {a[j, i]:.6g}; "
+                f"{_judged(i, j, names)} is {a[i, j]:.6g} and {_judged(j, i, names)} is {a[j, i]:.6g}; "
                 + ("the diagonal must be 1" if i == j else ONE_OVER_THE_OTHER)
             )
         rounded.append(f"{less:g} as 1/{more:g}")
@@ -293,12 +299,14 @@ def _redundant(a: np.ndarray, pair: tuple[int, int]) -> bool:
     return not np.isnan(a[pair]) and _groups(_unjudged(a, pair))[0] == 1
 
 
-def _refuse_gaps(a: np.ndarray) -> None:
+def _refuse_gaps(a: np.ndarray, names: Sequence[str]) -> None:
     """Criteria that no chain of judgements connects have no weights among each other."""
     groups, group = _groups(a)
     if groups > 1:
-        first, rest = (", ".join(map(str, np.flatnonzero(side) + 1)) for side in (group == 0, group != 0))
-        raise ValueError(f"no judgement connects criterion {first} with criterion {rest}; judge one such pair")
+        called = names or [str(i + 1) for i in range(len(a))]
+        first, rest = (", ".join(called[i] for i in np.flatnonzero(side)) for side in (group == 0, group != 0))
+        what = "" if names else "criterion "
+        raise ValueError(f"no judgement connects {what}{first} with {what}{rest}; judge one such pair")
 
 
 def _from_above(values: np.ndarray) -> np.ndarray:

@@ -128,7 +128,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
         content = {"session" if name == "work" else name: value for name, value in content.items()}
     held = [name for name in ("design", "session", "front") if name in content]
     if len(held) != 1 or len(content) != 2:
-        raise ValueError("the file is damaged: beside its schema it must hold one design, one session or one front")
+        raise ValueError("the file is damaged: beside its schema it must hold one design, one study or one front")
     reading = Reading()
     try:
         thing = _thing(held[0], content[held[0]], reading, kind, measures)
@@ -148,8 +148,12 @@ def _thing(held: str, entry: object, reading: Reading, kind: type | None, measur
 
 def _refuse_other(thing: object, held: str, kind: type | None) -> None:
     if not isinstance(thing, kind or (Design if held == "design" else object)):
-        wanted = kind_words(kind, article=True) if kind else "a design"
-        raise ValueError(f"the file holds {kind_words(type(thing), article=True)}; {wanted} is wanted here")
+        raise ValueError(f"the file holds {_said(type(thing))}; {_said(kind or Design)} is wanted here")
+
+
+def _said(kind: type) -> str:
+    """A kind of file as the buttons of the panels say it."""
+    return "a study" if kind is Session else kind_words(kind, article=True)
 
 
 def _lacking(missing: Sequence[str]) -> list[str]:

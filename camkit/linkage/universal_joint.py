@@ -48,7 +48,7 @@ class UniversalJoint(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _refuse_square("angle beta", self.angle)
+        _refuse_square("angle", self.angle)
 
     def analyse(self, n: int = 361) -> UniversalJointAnalysis:
         """Angles, speeds and couples at ``n`` input angles of one turn, 61 or more: peaks are looked for at these."""
@@ -133,8 +133,8 @@ class DoubleUniversalJoint(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _refuse_square("first angle beta_1", self.first_angle)
-        _refuse_square("second angle beta_2", self.second_angle)
+        _refuse_square("first angle", self.first_angle)
+        _refuse_square("second angle", self.second_angle)
 
     def analyse(self, n: int = 361) -> DoubleUniversalJointAnalysis:
         """Angles, speeds, torques and couples at ``n`` input angles of a turn, 61 or more: peaks are those at them."""

@@ -61,9 +61,9 @@ class DoorHandleCam(Design):
     Raises ``ValueError`` for sizes that cannot be built: the sentence says which and what is possible.
     """
 
-    lift_arm: float = quantity("l_1", 50, 40, 62, "mm", "lift arm: pivot to roller centre")
+    lift_arm: float = quantity("l_1", 50, 40, 62, "mm", "pivot to roller centre")
     lift_start_angle: float = quantity("psi_0", 22, 15, 30, "deg", "lift arm from the line of centres at the start")
-    relief_arm: float = quantity("l_2", 75, 60, 92, "mm", "relief arm: pivot to roller centre")
+    relief_arm: float = quantity("l_2", 75, 60, 92, "mm", "pivot to roller centre")
     lift_centre_distance: float = quantity("a_1", 74.24, 60, 110, "mm", "cam axis to lift pivot")
     relief_centre_distance: float = quantity("a_2", 100, 85, 120, "mm", "cam axis to relief pivot")
     roller_radius: float = quantity("r_T", 5, 1, 12, "mm", "both rollers")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from ..cam import bodies, groove
-from ..cam.analysis import OFFERS
+from ..cam.analysis import OFFERS, CamAnalysis
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..cam.undercut import undercut_in_words
 from ..geometry import Body, end_to_end, rotated
@@ -71,6 +71,8 @@ class DoorHandleAnalysis:
         disk, radius, cranks = bodies.disk(self, True), self.cam.roller_radius, self.cranks.items()
         arms = [(*bodies.rocker(name, pivot, end), bodies.roller(name, end, radius)) for name, (pivot, end) in cranks]
         return (*disk, *(body for arm in arms for body in arm))
+
+    curvature_limit = CamAnalysis.curvature_limit
 
     @property
     def max_curvature(self) -> Value:

@@ -47,7 +47,7 @@ class ConstantTorque(Design):
     >>> ConstantTorque(-1)
     Traceback (most recent call last):
         ...
-    ValueError: the torque M (constant torque on the arm) is -1 N m; it must be a finite number above 0 N m
+    ValueError: the torque (constant torque on the arm) is -1 N m; it must be a finite number above 0 N m
     """
 
     torque: float = quantity("M", 10, 0.1, 100, "N m", "constant torque on the arm")

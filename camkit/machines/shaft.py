@@ -59,17 +59,17 @@ class UniversalJointShaft(Design):
         super().__post_init__()
         if fails(self.inner_diameter < self.outer_diameter):
             raise ValueError(
-                f"the inner diameter d is {self.inner_diameter / mm:.6g} mm; "
-                f"it must be below the outer diameter D of {self.outer_diameter / mm:.6g} mm"
+                f"the inner diameter is {self.inner_diameter / mm:.6g} mm; "
+                f"it must be below the outer diameter of {self.outer_diameter / mm:.6g} mm"
             )
         if fails(self.speed <= self.max_speed):
             raise ValueError(
-                f"the lowest speed n_min is {self.speed / rpm:.6g} rpm; "
-                f"it must not be above the highest speed n_max of {self.max_speed / rpm:.6g} rpm"
+                f"the lowest speed is {self.speed / rpm:.6g} rpm; "
+                f"it must not be above the highest speed of {self.max_speed / rpm:.6g} rpm"
             )
         if fails(self.joint_angle < np.pi / 2):
             raise ValueError(
-                f"the joint angle beta is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
+                f"the joint angle is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
             )
         in_order = (self.inner_diameter < self.outer_diameter) & (self.speed <= self.max_speed)
         self._keep(in_order & (self.joint_angle < np.pi / 2))

@@ -191,10 +191,10 @@ class AhpPanel(Panel):
 
 
 def _fraction(value: float) -> str:
-    """``1/3`` and ``3``, as Saaty writes them; four digits of anything else."""
-    whole = Fraction(float(value)).limit_denominator(99)
-    exact = abs(float(whole) - value) < 1e-9 and 1 in (whole.numerator, whole.denominator)
-    return str(whole) if exact else f"{value:.4g}"
+    """``1/3`` and ``3``, as Saaty writes them, and ``2/3``; four digits of anything else."""
+    whole, digits = Fraction(float(value)).limit_denominator(99), f"{value:.4g}"
+    exact = abs(float(whole) - value) < 1e-9 and (1 in (whole.numerator, whole.denominator) or float(digits) != value)
+    return str(whole) if exact else digits
 
 
 def _about(value: float) -> str:

@@ -252,8 +252,9 @@ class Explorer(Panel):
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture and the numbers, which would belong to another design."""
+        taken = "What was typed is taken. " if self._impossible.endswith(f": {sentence}.") else ""
         self._impossible = f"This cannot be built: {sentence}."
-        self.refuse_picture(self._impossible)
+        self.refuse_picture(taken + self._impossible)
         self.trouble.show_message("")
 
     def _refuse_number(self, sentence: str) -> None:

@@ -11,7 +11,7 @@ declaration, which sits on the field of the design that it describes:
 >>> Lever(arm=-0.01)
 Traceback (most recent call last):
     ...
-ValueError: the arm l (pivot to roller centre) is -10 mm; it must be a finite number above 0 mm
+ValueError: the arm (pivot to roller centre) is -10 mm; it must be a finite number above 0 mm
 
 A design is a frozen dataclass.  Its fields hold one number each, or arrays of shape ``(p, 1)`` for a
 population of ``p`` designs: one number that cannot be built is refused in a sentence, a member of a

@@ -120,10 +120,11 @@ class Quantity:
 
     def possible_for(self, value: float) -> str:
         """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
+        least = f"at least {self._top * BELOW:.6g} {self.unit}".rstrip()
+        if 0 < value < self._least and self.at_least is None:
+            return f"a finite number of {least}"
         said = self._possible(np.isfinite(value) and abs(value) > self._most)
-        least = f" and at least {self._top * BELOW:.6g} {self.unit}".rstrip()
-        least += " unless it is 0" * (self.at_least is not None)
-        return said + least if 0 < value < self._least else said
+        return f"{said} and {least} unless it is 0" if 0 < value < self._least else said
 
     def _possible(self, most: object) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -323,10 +324,6 @@ def words(name: str) -> str:
     return " ".join({"min": "minimum", "max": "maximum"}.get(word, word) for word in read)
 
 
-def _subject(name: str, declared: Quantity) -> str:
-    return f"the {words(name)}" if name == declared.symbol else f"the {words(name)} {declared.symbol}"
-
-
 class Declared:
     """What has quantities of its own, as a design has, or a part of one: they are checked and can be replaced."""
 
@@ -347,13 +344,13 @@ class Declared:
         value = number(given)
         if value is None:
             column = ", or a column of them of the shape (p, 1)" if isinstance(given, np.ndarray) else ""
-            raise ValueError(f"{_subject(name, declared)} is {shown(given)}; it must be {declared.possible}{column}")
+            raise ValueError(f"the {words(name)} is {shown(given)}; it must be {declared.possible}{column}")
         if value is not given:
             object.__setattr__(self, name, value)
         ok = declared.allows(value)
         if fails(ok):
             raise ValueError(
-                f"{_subject(name, declared)} ({declared.meaning}) is {declared.text(float(value))}; "
+                f"the {words(name)} ({declared.meaning}) is {declared.text(float(value))}; "
                 f"it must be {declared.possible_for(float(value))}"
             )
         if type(value) is float:

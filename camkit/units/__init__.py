@@ -67,8 +67,11 @@ _OTHERS = {
     "in": _Unit(inch, (1, 0, 0, 0)),
     "inch": _Unit(inch, (1, 0, 0, 0)),
     "ft": _Unit(12 * inch, (1, 0, 0, 0)),
+    "lb": _Unit(0.45359237 * kg, (0, 1, 0, 0)),
+    "oz": _Unit(0.45359237 / 16 * kg, (0, 1, 0, 0)),
     "lbf": _Unit(lbf, (1, 1, -2, 0)),
     "psi": _Unit(psi, (-1, 1, -2, 0)),
+    "hp": _Unit(550 * 12 * inch * lbf / s, (2, 1, -3, 0)),
 }
 _NAMES = ", ".join((*_SI, *(name for name in _OTHERS if name not in ("in", "°"))))
 

@@ -170,7 +170,7 @@ def curvature(analysis: Cam) -> Picture:
     limit = analysis.max_curvature * mm
     x = analysis.cam_angle[[0, -1]] / deg
     bounds = [
-        Line(f"limit {sign}", x, sign * limit + 0 * x, role="limit", label="1 / roller radius" if sign > 0 else "")
+        Line(f"limit {sign}", x, sign * limit + 0 * x, role="limit", label=analysis.curvature_limit if sign > 0 else "")
         for sign in (-1, 1)
     ]
     marks = _each(analysis, "curvature", 1 / mm, named=False)

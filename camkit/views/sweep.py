@@ -27,7 +27,7 @@ def limit_sweep(sweep: Sweep) -> Picture:
     axes = Axes(
         title=f"How large must the {told} be?",
         xlabel=f"{told}  [{sweep.declared.unit}]",
-        ylabel="excess over the limit  [%]",
+        ylabel="excess  [%]",
         xlim=(x[0], x[-1]),
         ylim=(LOWEST, HIGHEST),
     )

@@ -1015,10 +1015,10 @@ REFUSALS = [
     (lambda: TranslatingRollerCam(offset=-50 * mm),
      "the offset of the follower is -50 mm; base circle and roller make 38 mm, and it must stay below that"),
     (lambda: TranslatingRollerCam(base_radius=-3 * mm),
-     "the base radius r_b (cam axis to profile at the motion's level 0) is -3 mm; "
+     "the base radius (cam axis to profile at the motion's level 0) is -3 mm; "
      "it must be a finite number above 0 mm"),
     (lambda: TranslatingRollerCam(roller_radius=-1 * mm),
-     "the roller radius r_T (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
+     "the roller radius (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
     (lambda: TranslatingRollerCam(rotation=0),
      "the rotation is 0; it must be one of 1 (counter-clockwise), -1 (clockwise)"),
     (lambda: TranslatingFlatCam(rotation=2),

@@ -73,7 +73,7 @@ def test_a_gap_is_filled_by_what_the_others_imply_and_a_pair_judged_anew():
     assert NAMED.consistency_ratio == pytest.approx(0, abs=1e-12)
     assert NAMED.judging((0, 2), "1,5") == Judgements(NAMED.names, [3, 1.5, 0.5])
     assert NAMED.judging((0, 2), "1,5").judging((0, 2), None) == NAMED
-    with pytest.raises(ValueError, match=r"no judgement connects criterion 1, 3 with criterion 2|criterion 1"):
+    with pytest.raises(ValueError, match="no judgement connects taste with price, smell; judge one such"):
         NAMED.judging((0, 1), None)
 
 

@@ -298,22 +298,22 @@ def test_what_a_population_cannot_turn_is_nan_alone() -> None:
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: UniversalJoint(angle=90 * deg), "the angle beta is 90 deg; a universal joint turns below 90 deg only"),
+        (lambda: UniversalJoint(angle=90 * deg), "the angle is 90 deg; a universal joint turns below 90 deg only"),
         (
             lambda: DoubleUniversalJoint(first_angle=95 * deg),
-            "the first angle beta_1 is 95 deg; a universal joint turns below 90 deg only",
+            "the first angle is 95 deg; a universal joint turns below 90 deg only",
         ),
         (
             lambda: DoubleUniversalJoint(second_angle=180 * deg),
-            "the second angle beta_2 is 180 deg; a universal joint turns below 90 deg only",
+            "the second angle is 180 deg; a universal joint turns below 90 deg only",
         ),
         (
             lambda: UniversalJoint(angle=-5 * deg),
-            "the angle beta (between the shafts) is -5 deg; it must be a finite number of at least 0 deg",
+            "the angle (between the shafts) is -5 deg; it must be a finite number of at least 0 deg",
         ),
         (
             lambda: DoubleUniversalJoint(inertia=-1.0),
-            "the inertia J (intermediate shaft with its forks) is -1 kg m^2; "
+            "the inertia (intermediate shaft with its forks) is -1 kg m^2; "
             "it must be a finite number of at least 0 kg m^2",
         ),
     ],

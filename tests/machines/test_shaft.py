@@ -328,7 +328,7 @@ def refusal(**change: float) -> str:
 @pytest.mark.parametrize("inner", [130 * mm, 128.64 * mm])
 def test_refuses_a_bore_as_wide_as_the_tube(inner) -> None:
     said = refusal(inner_diameter=inner)
-    assert said == (f"the inner diameter d is {inner / mm:.6g} mm; it must be below the outer diameter D of 128.64 mm")
+    assert said == (f"the inner diameter is {inner / mm:.6g} mm; it must be below the outer diameter of 128.64 mm")
 
 
 @pytest.mark.parametrize("name", [n for n in declarations(UniversalJointShaft) if n != "joint_angle"])
@@ -337,21 +337,20 @@ def test_refuses_what_is_not_positive(name, value) -> None:
     declared = declarations(UniversalJointShaft)[name]
     unit = f" {declared.unit}".rstrip()
     assert refusal(**{name: value}) == (
-        f"the {words(name)} {declared.symbol} ({declared.meaning}) is {declared.text(value)}; "
-        f"it must be a finite number above 0{unit}"
+        f"the {words(name)} ({declared.meaning}) is {declared.text(value)}; it must be a finite number above 0{unit}"
     )
 
 
 def test_refuses_speeds_in_the_wrong_order() -> None:
     assert refusal(max_speed=100 * rpm) == (
-        "the lowest speed n_min is 163 rpm; it must not be above the highest speed n_max of 100 rpm"
+        "the lowest speed is 163 rpm; it must not be above the highest speed of 100 rpm"
     )
 
 
 def test_refuses_a_joint_that_cannot_turn() -> None:
-    assert refusal(joint_angle=90 * deg) == "the joint angle beta is 90 deg; a universal joint turns below 90 deg only"
+    assert refusal(joint_angle=90 * deg) == "the joint angle is 90 deg; a universal joint turns below 90 deg only"
     assert refusal(joint_angle=-1 * deg) == (
-        "the joint angle beta (of the joint before the tube; the paper: none) is -1 deg; "
+        "the joint angle (of the joint before the tube; the paper: none) is -1 deg; "
         "it must be a finite number of at least 0 deg"
     )
     angles = UniversalJointShaft(joint_angle=np.array([[0.0], [95.0], [-5.0]]) * deg)

@@ -641,8 +641,7 @@ def test_a_front_may_be_limited_anywhere_and_have_other_bounds():
         ),
         (
             {"half_angle": 0.0},
-            "the half angle alpha_B (cam angle of one flank, start to nose) is 0 deg; "
-            "it must be a finite number above 0 deg",
+            "the half angle (cam angle of one flank, start to nose) is 0 deg; it must be a finite number above 0 deg",
         ),
         (
             {"half_angle": 160 * deg},
@@ -654,7 +653,7 @@ def test_a_front_may_be_limited_anywhere_and_have_other_bounds():
         ),
         (
             {"max_lift": np.nan},
-            "the maximum lift h_max (lift at the nose) is nan mm; it must be a finite number above 0 mm",
+            "the maximum lift (lift at the nose) is nan mm; it must be a finite number above 0 mm",
         ),
     ],
 )

@@ -256,11 +256,11 @@ def test_no_file_is_made_of_another_design_than_the_controls_show(app, descripti
     ("name", "typed", "sentence"),
     [
         ("lift_arm", -3.0,
-         "the lift arm l_1 (lift arm: pivot to roller centre) is -3 mm; it must be a finite number above 0 mm"),
+         "the lift arm (pivot to roller centre) is -3 mm; it must be a finite number above 0 mm"),
         ("lift_arm", np.nan,
-         "the lift arm l_1 (lift arm: pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
+         "the lift arm (pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
         ("lift_arm", np.inf,
-         "the lift arm l_1 (lift arm: pivot to roller centre) is inf mm; it must be a finite number above 0 mm"),
+         "the lift arm (pivot to roller centre) is inf mm; it must be a finite number above 0 mm"),
         ("roller_radius", 40.0,
          "the roller of radius 40 mm comes within 33.59 mm of the cam axis; it must stay outside it"),
         ("relief_arm", 20.0,
@@ -450,7 +450,7 @@ FILE = to_json(DoorHandleCam())
     [
         (FILE[:99], "the file is damaged: it is no JSON at line"),
         (FILE.replace("camkit/1", "camkit/9"), "the file follows the schema 'camkit/9'"),
-        (FILE.replace("75.0", "-75.0"), "the relief arm l_2 (relief arm: pivot to roller centre) is -75 mm"),
+        (FILE.replace("75.0", "-75.0"), "the relief arm (pivot to roller centre) is -75 mm"),
         (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
         (FILE.replace("50.0", "9" * 400, 1), "the "),
         ("[" * 100000, "the file is damaged"),
@@ -1531,6 +1531,18 @@ def test_the_cam_angle_that_is_shown_stays_within_the_turn_and_reset_brings_it_b
     press(app, "Reset")
     assert (turn.box.value, turn.slider.value, turn.value) == (75, 75, 75 * deg)
     assert alert(app) == ""
+
+
+def test_a_number_that_is_typed_while_nothing_can_be_built_is_said_to_be_taken(app):
+    app.controls["lift_arm"].box.text = "-3"
+    refused = (
+        "This cannot be built: the lift arm (pivot to roller centre) is -3 mm; it must be a finite number above 0 mm."
+    )
+    assert alert(app) == refused
+    app.controls["relief_arm"].box.text = "76"
+    assert alert(app) == f"What was typed is taken. {refused}"
+    app.controls["lift_arm"].box.text = "50"
+    assert (alert(app), app.design.relief_arm) == ("", 76 * mm)
 
 
 def test_a_thousand_moves_leave_nothing_behind():

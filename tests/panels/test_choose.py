@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from fractions import Fraction
 
 import ipywidgets as w
 import numpy as np
@@ -431,7 +432,7 @@ def test_an_empty_box_leaves_a_pair_open():
     assert "not judged: 1" in panel.summary()
     panel.boxes[(0, 1)].value = "?"
     assert panel.judgements.above == (2, None, 4)
-    assert "The judgement of a against b stays as it was: no judgement connects criterion 1" in panel.banner.value
+    assert "The judgement of a against b stays as it was: no judgement connects a with b, c; " in panel.banner.value
     assert panel.boxes[(0, 1)].value == "2"
     panel.sliders[(0, 2)].value = 7.0
     assert panel.judgements.above == (2, 7, 4)
@@ -450,6 +451,16 @@ def test_what_is_no_judgement_is_refused_in_a_sentence(words):
     )
     assert panel.judgements.above == (3,)
     assert panel.boxes[(0, 1)].value == "3"
+
+
+@pytest.mark.parametrize("typed", ["2/3", "5/7", "1/3", "2.5", "0.4", "3"])
+def test_a_judgement_is_shown_as_it_was_typed(typed):
+    panel = ahp_panel(Judgements(["a", "b"], [2]))
+    panel.boxes[(0, 1)].value = typed
+    assert (panel.boxes[(0, 1)].value, panel.judgements.above) == (typed, (float(Fraction(typed)),))
+    assert f"<td>{typed}</td>" in panel.numbers.value
+    panel.boxes[(0, 1)].value = "nobody"
+    assert panel.boxes[(0, 1)].value == typed
 
 
 def test_an_open_judgement_goes_to_a_file_and_back():

@@ -48,7 +48,7 @@ def test_sliders_reach_into_the_load(panel):
 
 def test_the_load_refuses_in_its_own_words(panel):
     panel.controls["load.mass"].box.value = -1
-    assert "the mass m (what turns with the rocker, such as a door) is -1 kg" in panel.banner.value
+    assert "the mass (what turns with the rocker, such as a door) is -1 kg" in panel.banner.value
     assert panel.design == START
 
 

@@ -87,32 +87,32 @@ def a_file(**entries):
 REFUSALS = [
     # one number of a design
     (lambda: DoorHandleCam(lift_arm=NAN),
-     "the lift arm l_1 (lift arm: pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
+     "the lift arm (pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
     (lambda: DoorHandleCam(relief_arm=-75 * mm),
-     "the relief arm l_2 (relief arm: pivot to roller centre) is -75 mm; it must be a finite number above 0 mm"),
+     "the relief arm (pivot to roller centre) is -75 mm; it must be a finite number above 0 mm"),
     (lambda: DoorHandleCam(lift_centre_distance=INF),
-     "the lift centre distance a_1 (cam axis to lift pivot) is inf mm; it must be a finite number above 0 mm"),
+     "the lift centre distance (cam axis to lift pivot) is inf mm; it must be a finite number above 0 mm"),
     (lambda: DoorHandleCam(roller_radius=0),
-     "the roller radius r_T (both rollers) is 0 mm; it must be a finite number above 0 mm"),
+     "the roller radius (both rollers) is 0 mm; it must be a finite number above 0 mm"),
     (lambda: DoorHandleCam(lift_start_angle="22"),
-     "the lift start angle psi_0 is '22'; it must be a finite number above 0 deg"),
-    (lambda: DoorHandleCam(lift_arm=True), "the lift arm l_1 is True; it must be a finite number above 0 mm"),
+     "the lift start angle is '22'; it must be a finite number above 0 deg"),
+    (lambda: DoorHandleCam(lift_arm=True), "the lift arm is True; it must be a finite number above 0 mm"),
     (lambda: ArmLoad(speed=-90 * deg),
-     "the speed omega (speed of the cam) is -15 rpm; it must be a finite number of at least 0 rpm"),
+     "the speed (speed of the cam) is -15 rpm; it must be a finite number of at least 0 rpm"),
     (lambda: ArmLoad(torque=INF),
-     "the torque T (constant resisting torque) is inf N m; it must be a finite number"),
+     "the torque (constant resisting torque) is inf N m; it must be a finite number"),
     (lambda: CAM.replace(lift_swing=-69 * deg),
-     "the lift swing tau_1 (swing of the lift crank) is -69 deg; it must be a finite number above 0 deg"),
+     "the lift swing (swing of the lift crank) is -69 deg; it must be a finite number above 0 deg"),
     (lambda: OscillatingRollerCam(roller_radius=-1 * mm),
-     "the roller radius r_T (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
+     "the roller radius (roller; 0 is a knife edge) is -1 mm; it must be a finite number of at least 0 mm"),
     (lambda: OscillatingRollerCam(start_angle=-3 * deg),
-     "the start angle psi_0 (arm's angle from the line of centres at the level 0) is -3 deg; "
+     "the start angle (arm's angle from the line of centres at the level 0) is -3 deg; "
      "it must be a finite number above 0 deg"),
     (lambda: OscillatingRollerCam(rotation=0),
      "the rotation is 0; it must be one of 1 (counter-clockwise), -1 (clockwise)"),
-    (lambda: ArmLoad(mass=-1), "the mass m (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),
+    (lambda: ArmLoad(mass=-1), "the mass (uniform arm) is -1 kg; it must be a finite number of at least 0 kg"),
     (lambda: Friction(coefficient=NAN),
-     "the coefficient f (friction between cam and follower) is nan; it must be a finite number of at least 0"),
+     "the coefficient (friction between cam and follower) is nan; it must be a finite number of at least 0"),
     (lambda: ArmLoad(torque_table=((0.0, NAN),)),
      "the torque table has an entry that is not a finite number; it holds (travel, torque)"),
 
@@ -276,12 +276,17 @@ REFUSALS = [
 
     # judgements
     (lambda: ahp([[1, 5], [1 / 4, 1]]),
-     "judgement (1, 2) is 5 and (2, 1) is 0.25; one must be 1 over the other "
+     "judgement (1, 2) is 5 and judgement (2, 1) is 0.25; one must be 1 over the other "
      "(text such as '1/3' is exact, None leaves a place open)"),
-    (lambda: ahp([[2, 5], [1 / 5, 1]]), "judgement (1, 1) is 2 and (1, 1) is 2; the diagonal must be 1"),
+    (lambda: ahp([[2, 5], [1 / 5, 1]]), "judgement (1, 1) is 2 and judgement (1, 1) is 2; the diagonal must be 1"),
     (lambda: ahp([]), "there are no judgements; those of a single criterion are [[1]]"),
     (lambda: ahp([NAN]), "no judgement connects criterion 1 with criterion 2; judge one such pair"),
     (lambda: ahp(["1/0"]), "'1/0' is no number above 0; 3, 1/5 or 0.4 are"),
+    (lambda: Judgements(["effort", "radius"], [1e300]),
+     "the judgement of effort against radius is 1e+300; nobody tells apart more than 1e+06 to 1"),
+    (lambda: Judgements(["effort", "radius"], [[1, 5], [1 / 4, 1]]),
+     "the judgement of effort against radius is 5 and the judgement of radius against effort is 0.25; one must be 1 "
+     "over the other (text such as '1/3' is exact, None leaves a place open)"),
     (lambda: ahp([1e300]), "judgement (1, 2) is 1e+300; nobody tells apart more than 1e+06 to 1"),
     (lambda: ahp([[1, -5], [-1 / 5, 1]]), "judgement (1, 2) is -5; it must be a positive number"),
     (lambda: ahp([5, 0, 1]), "judgement (1, 3) is 0; it must be a positive number"),
@@ -313,7 +318,7 @@ REFUSALS = [
     (lambda: from_json('{"schema": "camkit/2"}'),
      "the file follows the schema 'camkit/2'; this camkit reads 'camkit/1'"),
     (lambda: from_json('{"schema": "camkit/1"}'), 
-     "the file is damaged: beside its schema it must hold one design, one session or one front"),
+     "the file is damaged: beside its schema it must hold one design, one study or one front"),
     (lambda: a_file(kind="Boat"), "the file names a 'Boat', which this camkit does not know"),
     (lambda: a_file(wing=3), "the file has 'wing', which a door handle cam does not have"),
     (lambda: a_file(**{"lift_arm [mm]": "50"}),
@@ -322,17 +327,17 @@ REFUSALS = [
     (lambda: a_file(motion_law="wobbly"),
      "the file says 'wobbly' for 'motion_law'; there are simple harmonic, parabolic, cycloidal, modified trapezoid, "
      "modified sine, 3-4-5 polynomial, 4-5-6-7 polynomial, 5-6-7-8-9 polynomial and 9 more"),
-    (lambda: from_json(to_json(CAM), Session), "the file holds a door handle cam; a session is wanted here"),
+    (lambda: from_json(to_json(CAM), Session), "the file holds a door handle cam; a study is wanted here"),
 
     # columns and paths
     (lambda: with_quantities(OscillatingRollerCam(), {
         "motion.rise.angle": np.array([[1.0], [1.1]]), "motion.return.angle": np.array([[1.0], [1.1], [1.2]])}),
      "the program has columns of 2 in its segment 1 and 3 in its segment 3; they must be equally long"),
     (lambda: DoorHandleCam(lift_arm=np.ma.masked),
-     "the lift arm l_1 is a masked array; it must be a finite number above 0 mm, or a column of them of the shape "
+     "the lift arm is a masked array; it must be a finite number above 0 mm, or a column of them of the shape "
      "(p, 1)"),
     (lambda: DoorHandleCam(lift_arm=np.ones((2, 1)).view(np.matrix)),
-     "the lift arm l_1 is a matrix; it must be a finite number above 0 mm, or a column of them of the shape (p, 1)"),
+     "the lift arm is a matrix; it must be a finite number above 0 mm, or a column of them of the shape (p, 1)"),
     (lambda: ArmLoad(torque_table=ITSELF),
      "the torque table is [[...]]; it must hold pairs of numbers (travel, torque)"),
     (lambda: ArmLoad(torque_table=(DoorHandleCam, DoorHandleCam)),

@@ -14,6 +14,7 @@ from camkit import (
     mm,
 )
 from camkit.cam.measures import max_pressure_angle
+from camkit.quantities import quantities_of
 from camkit.views import (
     cam_torque,
     contact_force,
@@ -158,3 +159,16 @@ def test_every_view_takes_every_cam(cam, view):
     shown = view(cam.analyse(91))
     assert shown.axes.title
     assert len(shown.marks) > 0
+
+
+@pytest.mark.parametrize("cam", [TranslatingFlatCam(), OscillatingFlatCam()], ids=lambda cam: type(cam).__name__)
+def test_a_flat_face_shows_no_roller(cam):
+    """Neither in a legend nor as a slider; its pitch curve is the profile and is drawn once."""
+    analysis = cam.analyse()
+    labels = {mark.label for view in (mechanism, curvature) for mark in view(analysis).marks}
+    assert not any("roller" in label or "pitch" in label for label in labels)
+    assert "friction.roller_pin" not in quantities_of(cam)
+    rolling = TranslatingRollerCam(groove=False)
+    shown = [view(rolling.analyse()) for view in (mechanism, curvature)]
+    assert {"pitch curve", "1 / roller radius"} <= {mark.label for picture in shown for mark in picture.marks}
+    assert "friction.roller_pin" in quantities_of(rolling)

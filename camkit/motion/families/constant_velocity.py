@@ -42,7 +42,7 @@ class ConstantVelocity(Law):
     blend: Value = quantity("b", 0.25, 0.01, 0.5, "", "share of the time spent in each blend")
     shape: str = choice("", "cycloidal", {shape: shape for shape in SHAPES}, "what the blends are")
 
-    name = "constant velocity"
+    name = "constant velocity with blends"
 
     def __post_init__(self) -> None:
         what, must = "the blend of the constant velocity law", "be above 0 and at most 0.5"
