@@ -145,7 +145,7 @@ def test_an_unknown_path_is_refused_in_a_sentence(path, sentence):
 
 
 def test_what_is_refused_is_refused_by_its_owner():
-    with pytest.raises(ValueError, match=r"^the spring rate c \(closing spring\) is -1 N/mm; it must be"):
+    with pytest.raises(ValueError, match=r"^the spring rate \(closing spring\) is -1 N/mm; it must be"):
         with_quantities(TranslatingRollerCam(), {"load.spring_rate": -1e3})
     with pytest.raises(ValueError, match=r"^the rotation is 'left'; it must be one of 1 \(counter-clockwise\), -1"):
         with_quantities(TranslatingRollerCam(), {"rotation": "left"})

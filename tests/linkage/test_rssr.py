@@ -518,10 +518,10 @@ def test_other_refusals():
         EXAMPLE.analyse(0.0, branch=2)
     with pytest.raises(
         ValueError,
-        match=r"^the crank l_1 \(crank: axis to ball joint\) is -5 mm; it must be a finite number above 0 mm$",
+        match=r"^the crank \(crank: axis to ball joint\) is -5 mm; it must be a finite number above 0 mm$",
     ):
         RSSR(crank=-5 * mm)
-    with pytest.raises(ValueError, match="axis distance h_0"):
+    with pytest.raises(ValueError, match="axis distance"):
         RSSR(axis_distance=-1 * mm)
 
 

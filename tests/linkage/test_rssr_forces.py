@@ -138,5 +138,5 @@ def test_a_population_of_loads():
 
 
 def test_a_load_refuses_a_mass_below_nothing():
-    with pytest.raises(ValueError, match=r"^the mass m \(.*\) is -1 kg; it must be a finite number of at least 0 kg$"):
+    with pytest.raises(ValueError, match=r"^the mass \(.*\) is -1 kg; it must be a finite number of at least 0 kg$"):
         RockerLoad(mass=-1)

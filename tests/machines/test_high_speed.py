@@ -483,18 +483,18 @@ def test_a_weak_spring_loses_contact():
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"arm_length": 0.0}, r"the arm length l .* is 0 mm; it must be a finite number above 0 mm"),
-        ({"roller_radius": -1 * mm}, r"the roller radius r .* is -1 mm"),
-        ({"max_radius": np.inf}, r"the maximum radius r_k2 .* is inf mm"),
-        ({"swing": np.nan}, r"the swing PS .* is nan deg"),
-        ({"swing": 0.0}, r"the swing PS .* is 0 deg; it must be a finite number above 0 deg"),
-        ({"centre_distance": -200 * mm}, r"the centre distance L .* is -200 mm"),
-        ({"return_angle": -90 * deg}, r"the return angle phi_2 .* is -90 deg"),
-        ({"speed": 0.0}, r"the speed n .* is 0 %"),
-        ({"spring_factor": -1.0}, r"the spring factor K .* is -1; it must be a finite number of at least 0"),
+        ({"arm_length": 0.0}, r"the arm length .* is 0 mm; it must be a finite number above 0 mm"),
+        ({"roller_radius": -1 * mm}, r"the roller radius .* is -1 mm"),
+        ({"max_radius": np.inf}, r"the maximum radius .* is inf mm"),
+        ({"swing": np.nan}, r"the swing .* is nan deg"),
+        ({"swing": 0.0}, r"the swing .* is 0 deg; it must be a finite number above 0 deg"),
+        ({"centre_distance": -200 * mm}, r"the centre distance .* is -200 mm"),
+        ({"return_angle": -90 * deg}, r"the return angle .* is -90 deg"),
+        ({"speed": 0.0}, r"the speed .* is 0 %"),
+        ({"spring_factor": -1.0}, r"the spring factor .* is -1; it must be a finite number of at least 0"),
         ({"contact": 10 * mm}, r"the contact is 0.01; it must be a ContactPair"),
         ({"load": 10.0}, r"the load is 10; it must be one of inertia and closing spring, constant torque"),
-        ({"rise_angle": 0.0}, r"the rise angle phi_1 .* is 0 deg; it must be a finite number above 0 deg"),
+        ({"rise_angle": 0.0}, r"the rise angle .* is 0 deg; it must be a finite number above 0 deg"),
         ({"return_angle": 280 * deg}, r"swings over 370 deg of the cam; there are 360 deg"),
         ({"arm_length": 30 * mm}, r"has to come 160 mm from the cam axis .* reaches 170 to 230 mm"),
         ({"arm_length": 400 * mm}, r"has to come 160 mm .* an arm of 400 mm at 200 mm reaches 200 to 600 mm"),
@@ -517,9 +517,9 @@ def test_what_cannot_be_built_is_refused_in_a_sentence(change, sentence):
 @pytest.mark.parametrize(
     ("load", "sentence"),
     [
-        (lambda: InertialSpringLoad(0.0), r"the inertia speed2 J omega\^2 .* is 0 N m; it must be .* above 0 N m"),
-        (lambda: InertialSpringLoad(closing=-0.1), r"the closing alpha_s .* is -0.1; it must be .* at least 0"),
-        (lambda: ConstantTorque(np.inf), r"the torque M .* is inf N m; it must be a finite number above 0 N m"),
+        (lambda: InertialSpringLoad(0.0), r"the inertia speed2 .* is 0 N m; it must be .* above 0 N m"),
+        (lambda: InertialSpringLoad(closing=-0.1), r"the closing .* is -0.1; it must be .* at least 0"),
+        (lambda: ConstantTorque(np.inf), r"the torque .* is inf N m; it must be a finite number above 0 N m"),
     ],
 )
 def test_a_load_that_makes_no_sense_is_refused_in_a_sentence(load, sentence):
@@ -639,13 +639,13 @@ NO_FORCE = r"the force curve does not give a force for each way between 0 and 18
         ({"force_curve": ((0, 1), (0, 2))}, r"the force curve's way must grow"),
         ({"force_curve": ((0, 1), (0.01, np.nan))}, r"the force curve has an entry that is not a finite number"),
         ({"max_radius": 700 * mm}, r"has to come 745 mm from the cam axis"),
-        ({"stroke": 0.0}, r"the stroke h .* is 0 mm; it must be a finite number above 0 mm"),
-        ({"stroke": -18 * mm}, r"the stroke h .* is -18 mm; it must be a finite number above 0 mm"),
+        ({"stroke": 0.0}, r"the stroke .* is 0 mm; it must be a finite number above 0 mm"),
+        ({"stroke": -18 * mm}, r"the stroke .* is -18 mm; it must be a finite number above 0 mm"),
         ({"force_curve": lambda s: 5 if s > 0 else 1}, NO_FORCE),
         ({"force_curve": lambda s: None}, NO_FORCE),
         ({"force_curve": lambda s: 1 / s}, NO_FORCE),
         ({"force_curve": lambda s: [1.0, 2.0]}, NO_FORCE),
-        ({"weight": 0.0}, r"the weight G .* is 0 N; it must be a finite number above 0 N"),
+        ({"weight": 0.0}, r"the weight .* is 0 N; it must be a finite number above 0 N"),
     ],
 )
 def test_a_press_that_cannot_be_built_is_refused_in_a_sentence(change, sentence):
