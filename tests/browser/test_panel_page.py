@@ -107,7 +107,7 @@ def test_an_impossible_design_is_announced(page: Page, explorer: Locator) -> Non
     box = explorer.get_by_role("spinbutton", name="lift arm, mm")
     box.fill("-3")
     box.press("Enter")
-    expect(explorer.get_by_role("alert")).to_contain_text("This cannot be built: the lift arm l_1")
+    expect(explorer.get_by_role("alert")).to_contain_text("This cannot be built: the lift arm (pivot")
     explorer.get_by_role("button", name="Reset").press("Enter")
     expect(explorer.get_by_role("alert")).to_have_count(0)
 
