@@ -304,7 +304,7 @@ def _refuse_gaps(a: np.ndarray, names: Sequence[str]) -> None:
     groups, group = _groups(a)
     if groups > 1:
         called = names or [str(i + 1) for i in range(len(a))]
-        first, rest = (", ".join(called[i] for i in np.flatnonzero(side)) for side in (group == 0, group != 0))
+        first, rest = (", ".join(called[int(i)] for i in np.flatnonzero(side)) for side in (group == 0, group != 0))
         what = "" if names else "criterion "
         raise ValueError(f"no judgement connects {what}{first} with {what}{rest}; judge one such pair")
 
