@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -69,7 +70,7 @@ class FlatAnalysis(CamAnalysis):
         drops = (corner.value > 0) & ~np.isnan(found.value)
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
 
-    curvature_limit = ""
+    curvature_limit: ClassVar[str] = ""
 
     @property
     def max_curvature(self) -> Value:

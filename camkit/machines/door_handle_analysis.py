@@ -72,7 +72,7 @@ class DoorHandleAnalysis:
         arms = [(*bodies.rocker(name, pivot, end), bodies.roller(name, end, radius)) for name, (pivot, end) in cranks]
         return (*disk, *(body for arm in arms for body in arm))
 
-    curvature_limit = CamAnalysis.curvature_limit
+    curvature_limit: ClassVar[str] = CamAnalysis.curvature_limit
 
     @property
     def max_curvature(self) -> Value:
