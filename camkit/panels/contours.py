@@ -150,7 +150,7 @@ class ContourPanel(Panel):
                 self._show()
 
     def _show(self) -> None:
-        here = self.plane.study.around(self.explorer.design).x0
+        here = self.plane.study.x_of(self.explorer.design)
         self.take.disabled = self.optimum is None
         first, *rest = self._lines()
         self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")

@@ -270,9 +270,9 @@ class Study(Generic[D]):
         return self.x_of(self.start)
 
     def x_of(self, design: Analysable) -> np.ndarray:
-        """The free values of a design of the same kind as the start, ``(n_free,)``, SI."""
+        """The free values of a design of the same kind as the start, made ready for them, ``(n_free,)``, SI."""
         refuse_design(design, "the design")
-        return np.array(self._paths.values(design), dtype=float)
+        return np.array(self._paths.values(_ready(design, self.free)), dtype=float)
 
     @cached_property
     def limits(self) -> tuple[tuple[Measure, float, int], ...]:

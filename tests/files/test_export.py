@@ -300,9 +300,9 @@ def test_a_bad_file_of_another_kind_is_named():
         ValueError, match=r"^the file holds an oscillating roller cam; a door handle cam is wanted here$"
     ):
         from_json(to_json(OscillatingRollerCam()), DoorHandleCam)
-    with pytest.raises(ValueError, match=r"^the file holds a door handle cam; a session is wanted here$"):
+    with pytest.raises(ValueError, match=r"^the file holds a door handle cam; a study is wanted here$"):
         from_json(GOOD, Session)
-    with pytest.raises(ValueError, match=r"^the file holds a session; a door handle cam is wanted here$"):
+    with pytest.raises(ValueError, match=r"^the file holds a study; a door handle cam is wanted here$"):
         from_json(to_json(Session(door_handle_study(), DoorHandleCam())), DoorHandleCam)
 
 

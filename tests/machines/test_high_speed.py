@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from camkit.cam.force_closure import ContactPair, jump_speed, preload_needed
 from camkit.contact import contact_modulus
-from camkit.files import from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share
 from camkit.machines.high_speed_cam import HighSpeedCam
@@ -733,7 +733,10 @@ def test_a_study_around_a_cam_makes_it_ready_for_what_is_free():
 def test_other_free_quantities_make_the_start_of_a_study_ready():
     """However the paths come, and refused for several cams at once."""
     plain = high_speed_study().around(HighSpeedCam(rise_law=Cycloidal()))
-    assert plain.freeing({"rise_law.c0": (-0.1, 0.1)}).start.rise_law == ShapedLaw(Cycloidal())
+    shaped = plain.freeing({"rise_law.c0": (-0.1, 0.1)})
+    assert shaped.start.rise_law == ShapedLaw(Cycloidal())
+    assert shaped.x_of(plain.start) == shaped.x0 == [0.0]
+    assert Session(shaped, plain.start).design == plain.start  # the page keeps what its menu shows
     weakest = high_speed_study(free_laws=True, free_spring=False).freeing({"spring_factor": (0.2, 3.0)})
     assert weakest.x0 == pytest.approx([2.544160], abs=5e-7)
     paths = ["spring_factor", "rise_law.c0"]

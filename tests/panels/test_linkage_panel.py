@@ -87,7 +87,10 @@ def test_a_crank_that_turns_fully_has_a_whole_turn():
 
 def test_a_pointer_turns_the_view_in_space_only(panel):
     azimuth, elevation = panel.positions["azimuth"], panel.positions["elevation"]
-    pointed, height = panel._orbit.pointed, np.divide(*panel.picture.figure.get_size_inches()[::-1])
+    height = np.divide(*panel.picture.figure.get_size_inches()[::-1])
+
+    def pointed(kind, x, y):
+        panel.picture.widget._handle_custom_msg({"kind": kind, "x": x, "y": y}, [])
 
     def at():
         return azimuth.value / deg, elevation.value / deg

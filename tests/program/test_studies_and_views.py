@@ -152,7 +152,9 @@ def test_a_view_replays(name, view):
     design, function = DESIGNS[name], shown(VIEWS[name, view], ANGLES)
     position = {k: v for k, v in POSITIONS.items() if k in positions_of(VIEWS[name, view])}
     program, seen = record(function, design, position), 0
-    for seed in range(10):
+    for seed in range(60):
+        if seen == 6:
+            break
         values = {path: float(column[0, 0]) for path, column in designs_beside(design, 1, seed).items()}
         place = {k: v + 0.3 * seed for k, v in position.items()}
         try:
@@ -165,7 +167,7 @@ def test_a_view_replays(name, view):
         for key, value in expected.items():
             size = np.max(abs(np.asarray(value)), initial=0, where=np.isfinite(value))
             assert_allclose(found[key], value, rtol=1e-12, atol=1e-12 * size, err_msg=key)
-    assert seen
+    assert seen >= 3
 
 
 @pytest.mark.parametrize(("name", "view"), NOT_YET)
