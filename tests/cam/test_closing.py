@@ -132,6 +132,12 @@ def test_a_cam_with_an_array_for_its_table_is_one_design():
 # ---------------------------------------------------------------- jump and preload
 
 
+@pytest.mark.parametrize("cam", [TranslatingRollerCam(), TranslatingFlatCam(), OscillatingFlatCam()])
+def test_a_cam_at_rest_throws_no_follower_off_whatever_the_sign_of_its_0(cam):
+    for rest in (0.0, -0.0):
+        assert jump_margin(with_quantities(cam, {"load.speed": rest}).analyse()) == np.inf
+
+
 @every_cam
 def test_a_follower_jumps_just_above_its_jump_speed(cam):
     """Contact force over a fine table: positive everywhere below that speed, negative somewhere above it."""

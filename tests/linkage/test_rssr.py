@@ -115,6 +115,12 @@ def test_the_possible_angles_of_linkages_whose_limits_merge():
     for turns in (parallelogram, folded_once):
         assert turns.possible_crank_angles() == pytest.approx(np.array([[0, 2 * np.pi]]))
     assert assembled_once.possible_crank_angles().shape == (0, 2)
+    folded_inside = RSSR(
+        100 * mm, 150 * mm, 50 * mm, 0, 0, axis_distance=100 * mm, axis_angle=0.0
+    )  # plane: cosine rule
+    assert np.degrees(folded_inside.possible_crank_angles()) == pytest.approx(np.array([[60, 300]]), abs=1e-5)
+    stretched_at_0 = RSSR(100 * mm, 150 * mm, 50 * mm, 0, 0, axis_distance=300 * mm, axis_angle=0.0)
+    assert stretched_at_0.possible_crank_angles().shape == (0, 2)
 
 
 def test_the_possible_angles_are_those_at_which_it_can_be_assembled():

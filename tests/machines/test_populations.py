@@ -4,31 +4,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from every_machine import MACHINES
 from numpy.testing import assert_allclose
 
-from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
-from camkit.cam.force_closure import ContactPair
-from camkit.cam.pair import ConjugatePair
-from camkit.machines import CabinDoorLinkage, CamLever, DoorHandleCam, HighSpeedCam, UniversalJointShaft, ValveCam
+from camkit.machines import UniversalJointShaft
 from camkit.quantities import measures_of, quantities_of, value_of, with_quantities
 
-PAIR = {"contact": ContactPair()}
-MACHINES = {
-    "roller": TranslatingRollerCam(**PAIR),
-    "roller in a groove": TranslatingRollerCam(groove=True, **PAIR),
-    "face": TranslatingFlatCam(**PAIR),
-    "roller on an arm": OscillatingRollerCam(**PAIR),
-    "roller on an arm in a groove": OscillatingRollerCam(groove=True, **PAIR),
-    "face on an arm": OscillatingFlatCam(**PAIR),
-    "pair of cams": ConjugatePair(),
-    "pair of cams on arms": ConjugatePair(OscillatingRollerCam(groove=False)),
-    "high speed": HighSpeedCam(),
-    "lever": CamLever(),
-    "door handle": DoorHandleCam(),
-    "valve": ValveCam(),
-    "cabin door": CabinDoorLinkage(),
-    "shaft": UniversalJointShaft(),
-}
 ANGLES, STEP = 31, 0.01
 CURVES = ("contact_force", "cam_torque", "contact_pressure", "efficiency", "rubbing")
 every_machine = pytest.mark.parametrize("design", MACHINES.values(), ids=MACHINES)

@@ -4,19 +4,13 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from every_machine import MACHINES
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
-from camkit.cam.force_closure import ContactPair
-from camkit.cam.pair import ConjugatePair
 from camkit.linkage import DoubleUniversalJoint
 from camkit.machines import (
-    CabinDoorLinkage,
     CamLever,
-    DoorHandleCam,
     HighSpeedCam,
-    UniversalJointShaft,
-    ValveCam,
     cam_lever_study,
     corrected_valve_study,
     door_handle_paper_study,
@@ -54,24 +48,7 @@ STUDIES = {
     "high speed, weakest spring": high_speed_study(free_laws=True, free_spring=False),
     "lever": cam_lever_study(),
 }
-PAIR = {"contact": ContactPair()}
-DESIGNS = {
-    "roller": TranslatingRollerCam(**PAIR),
-    "roller in a groove": TranslatingRollerCam(groove=True, **PAIR),
-    "face": TranslatingFlatCam(**PAIR),
-    "roller on an arm": OscillatingRollerCam(**PAIR),
-    "roller on an arm in a groove": OscillatingRollerCam(groove=True, **PAIR),
-    "face on an arm": OscillatingFlatCam(**PAIR),
-    "pair of cams": ConjugatePair(),
-    "pair of cams on arms": ConjugatePair(OscillatingRollerCam(groove=False)),
-    "high speed": HighSpeedCam(),
-    "lever": CamLever(),
-    "door handle": DoorHandleCam(),
-    "valve": ValveCam(),
-    "cabin door": CabinDoorLinkage(),
-    "shaft": UniversalJointShaft(),
-    "double joint": DoubleUniversalJoint(),
-}
+DESIGNS = MACHINES | {"double joint": DoubleUniversalJoint()}
 ANGLES = 61
 POSITIONS = {"turn": 1.3, "azimuth": 0.5, "elevation": 0.4}
 NOT_YET = {
