@@ -104,6 +104,8 @@ class Loops:
             assert call.function
             return np.asarray(call.function(moved, *others, **call.named))
         out = self._new(call.shape)
+        if not out.size:
+            return out
         if isinstance(row, Each):
             self._each(row, call, out.ravel())
             return out

@@ -46,7 +46,7 @@ def javascript(program: Program) -> str:
         *(f"H.set([{','.join(map(_number, values))}],{at});" for at, values in loops.constants.items()),
         *(f"function f{k}(){{{text}}}" for k, text in enumerate(functions)),
     ]
-    slices = ",".join(f"H.slice({at[0]},{at[-1] + 1})" for at in loops.outputs)
+    slices = ",".join(f"H.slice({at[0]},{at[-1] + 1})" if at.size else "[]" for at in loops.outputs)
     calls = "".join(f"f{k}();" for k in range(len(functions)))
     return "\n".join([*lines, f"return X=>{{H.set(X);{calls}return [{slices}]}}}})()"])
 

@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
-from ...quantities import Quantity, numbered, row
+from ...quantities import Quantity, floats, numbered, row
 from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
@@ -71,7 +71,7 @@ class FreePolynomial(Law):
         object.__setattr__(self, "start", _values("start", self.start))
         object.__setattr__(self, "end", _values("end", self.end))
         refuse_lengths(self)
-        _inverse(self._conditions)
+        _factors(self._conditions)
 
     @property
     def _given(self) -> list[tuple[Condition, Value]]:
@@ -83,12 +83,6 @@ class FreePolynomial(Law):
         return tuple(condition for condition, _ in self._given)
 
     @property
-    def coefficients(self) -> Value:
-        """The factors of the Legendre polynomials of ``2 u - 1``: shape ``(k,)``, or ``(k, p, 1)``."""
-        values = np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for _, value in self._given)))
-        return np.tensordot(_inverse(self._conditions), values, axes=1)
-
-    @property
     def continuity(self) -> int:
         """As for every law; 0 where only the position is that of a dwell, -1 where not even that."""
         ends = [self(u) for u in (0.0, 1.0)]
@@ -96,22 +90,34 @@ class FreePolynomial(Law):
         return ([*rest, False].index(False)) - 1
 
     def at(self, u: Array) -> Kinematics:
-        c, x = self.coefficients, 2 * u - 1
-        return Kinematics(*(2**k * legval(x, legder(c, k), tensor=False) for k in range(4)))
+        given = np.stack(np.broadcast_arrays(*(floats(value) for _, value in self._given)))
+        parts, of_one = _factors(self._conditions), (1,) * (given.ndim - 1)
+        each = ((part.reshape(part.shape + of_one) * given).sum(1) for part in parts)
+        legendre = _legendre(2 * u - 1, len(given))
+        return Kinematics(*(sum(c * P for c, P in zip(cs, legendre, strict=False)) for cs in each))
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
 
 
+def _legendre(x: Array, count: int) -> list[Array]:
+    """``P0, P1, ...`` at ``x``: ``(k + 1) P_k+1 = (2 k + 1) x P_k - k P_k-1``."""
+    found = [1 + 0 * x, x]
+    for k in range(1, count - 1):
+        found.append(((2 * k + 1) * x * found[k] - k * found[k - 1]) / (k + 1))
+    return found
+
+
 @lru_cache(maxsize=256)
-def _inverse(conditions: tuple[Condition, ...]) -> Array:
-    """From given values to Legendre coefficients."""
+def _factors(conditions: tuple[Condition, ...]) -> tuple[Array, ...]:
+    """From given values to the Legendre factors of ``s, v, a, j``: a row for each polynomial."""
     every = np.eye(len(conditions))
     rows = [2**k * legval(2 * u - 1, legder(every, k)) for u, k in conditions]
     if not rows or np.linalg.matrix_rank(np.array(rows)) < len(rows):
         given = ", ".join(f"{LETTERS[k]}({u:g})" for u, k in conditions) or "nothing"
         raise ValueError(f"the free polynomial is given {given}; that does not determine a polynomial: add an s")
-    return np.linalg.inv(np.array(rows))
+    inverse = np.linalg.inv(np.array(rows))
+    return tuple(2**k * legder(inverse, k) for k in range(4))
 
 
 def _values(word: str, given: object) -> tuple[Value | None, ...]:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from math import factorial
 
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from ...quantities import Quantity, numbered, row
+from ...quantities import Quantity, floats, known, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
@@ -85,20 +86,11 @@ class SplineLaw(Law):
         rest = [np.all(np.equal(v, 0)) and np.all(np.equal(w, 0)) for v, w in zip(self.start, self.end, strict=True)]
         return [*rest, False].index(False)
 
-    @cached_property
-    def _single(self) -> BSpline | None:
-        """The law as one curve; ``None`` for a population."""
-        basis = _basis(self.u, len(self.start))
-        values = (0.0, *self.s, 1.0, *self.start, *self.end)
-        return None if any(map(np.ndim, values)) else BSpline(basis.t, basis.c @ np.array(values), basis.k)
-
     def at(self, u: Array) -> Kinematics:
-        if self._single is not None:
-            return Kinematics(*(self._single(u, k) for k in range(4)))
-        basis = _basis(self.u, len(self.start))
         values = (0.0, *self.s, 1.0, *self.start, *self.end)
-        curves = [basis(u, k) for k in range(4)]
-        return Kinematics(*(sum(y * curve[..., i] for i, y in enumerate(values)) for curve in curves))
+        given, pieces = np.stack(np.broadcast_arrays(*map(floats, values))), _pieces(self.u, len(self.start))
+        powers = (pieces.reshape(pieces.shape + (1,) * (given.ndim - 1)) * given).sum(2)
+        return _piecewise(powers, (0.0, *self.u), u)
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
@@ -119,13 +111,35 @@ def _row(values: object, what: str) -> tuple[float, ...]:
 
 
 @lru_cache(maxsize=64)
-def _basis(knots: tuple[float, ...], given: int) -> BSpline:
-    """The splines that have one of the points or end values 1 and all others 0, in the order of ``values``."""
+def _pieces(knots: tuple[float, ...], given: int) -> Array:
+    """The powers of the splines that have one of the points or end values 1 and all others 0, in their order."""
     points = len(knots) + 2
     unit = np.eye(points + 2 * given)
     start = [(k + 1, unit[points + k]) for k in range(given)]
     end = [(k + 1, unit[points + given + k]) for k in range(given)]
-    return make_interp_spline((0.0, *knots, 1.0), unit[:points], k=2 * given + 1, bc_type=(start, end))
+    basis = make_interp_spline((0.0, *knots, 1.0), unit[:points], k=2 * given + 1, bc_type=(start, end))
+    return _powers(basis, (0.0, *knots))
+
+
+def _powers(spline: BSpline, starts: tuple[float, ...]) -> Array:
+    """What stands before each power of the distance from the start of each piece: ``(degree + 1, pieces, ...)``."""
+    return np.stack([spline(starts, k) / factorial(k) for k in range(spline.k + 1)])
+
+
+def _piecewise(powers: Array, starts: tuple[float, ...], u: Array) -> Kinematics:
+    """The motion of polynomials, each from its start to the next one's; ``(.., pieces, p, 1)`` of a population."""
+    x, factors = u - starts[0], list(powers[:, 0])
+    if known(u):
+        place = np.searchsorted(starts[1:], u, side="right")
+        rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
+        x, factors = u - np.asarray(starts)[place], list(powers[:, place, *rows])
+    for k in () if known(u) else range(1, len(starts)):
+        pairs, here = zip(powers[:, k], factors, strict=True), u >= starts[k]
+        x, factors = np.where(here, u - starts[k], x), [np.where(here, *pair) for pair in pairs]
+    s, v, a, j = (0.0 * x,) * 4
+    for c in factors[::-1]:
+        s, v, a, j = s * x + c, v * x + s, a * x + v, j * x + a
+    return Kinematics(s, v, 2 * a, 6 * j)
 
 
 @dataclass(frozen=True)
@@ -170,13 +184,17 @@ class TableLaw(Law):
     def _spline(self) -> BSpline:
         return _smoothed(np.array(self.u), np.array(self.s), self.tolerance)
 
+    @cached_property
+    def _pieces(self) -> Array:
+        return _powers(self._spline, self.u[:-1])
+
     @property
     def error(self) -> float:
         """The largest deviation of the law from a row of the table, a share of the lift."""
         return float(np.max(np.abs(self._spline(self.u) - self.s)))
 
     def at(self, u: Array) -> Kinematics:
-        return Kinematics(*(self._spline(u, k) for k in range(4)))
+        return _piecewise(self._pieces, self.u[:-1], u)
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
