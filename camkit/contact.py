@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .quantities.kinds import numbers, refuse_shapes
-from .quantities.known import fails
+from .quantities.known import unless
 from .quantities.types import Array, Value
 
 GOLDEN = (np.sqrt(5) - 1) / 2
@@ -45,11 +45,11 @@ def contact_modulus(first: Value, second: Value, first_poisson: Value = 0.3, sec
     names = ("moduli", "other moduli", "Poisson's ratios", "other ratios")
     refuse_shapes(dict(zip(names, (*moduli, *ratios), strict=True)))
     for modulus in moduli:
-        if fails(np.isfinite(modulus) & (modulus > 0)):
-            raise ValueError(f"the elastic modulus is {modulus / 1e9:.6g} GPa; it must be a finite number above 0 GPa")
+        if refuse := unless(np.isfinite(modulus) & (modulus > 0)):
+            refuse(f"the elastic modulus is {modulus / 1e9:.6g} GPa; it must be a finite number above 0 GPa")
     for ratio in ratios:
-        if fails((ratio >= 0) & (ratio <= 0.5)):
-            raise ValueError(f"Poisson's ratio is {ratio:.6g}; it must lie between 0 and 0.5")
+        if refuse := unless((ratio >= 0) & (ratio <= 0.5)):
+            refuse(f"Poisson's ratio is {ratio:.6g}; it must lie between 0 and 0.5")
     possible = reduce(np.logical_and, (*(E > 0 for E in moduli), *((nu >= 0) & (nu <= 0.5) for nu in ratios)))
     with np.errstate(divide="ignore", invalid="ignore"):
         compliance = sum((1 - nu**2) / E for E, nu in zip(moduli, ratios, strict=True))

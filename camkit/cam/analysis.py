@@ -19,7 +19,7 @@ from ..extrema import Extreme
 from ..geometry import Body, rotated
 from ..motion import Kinematics, MotionProgram
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
-from ..quantities import counted, fails
+from ..quantities import counted, unless
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from . import bodies, statics
@@ -109,10 +109,10 @@ class CamAnalysis(ABC):
         """Whether the design can be built, ``(..., 1)``."""
         return np.all(self.clear, axis=-1, keepdims=True) if self is self.resolved else self.resolved.buildable
 
-    def refuse_impossible(self) -> None:
-        """``ValueError`` in a sentence if this is one design and it cannot be built."""
-        if not columns(self.cam) and fails(self.buildable[..., 0]):
-            raise ValueError(self.resolved.refusal())
+    def refuse_impossible(self, before: Callable[[], str] = str) -> None:
+        """``ValueError`` in a sentence, with words ``before`` it, if this is one design and it cannot be built."""
+        if not columns(self.cam) and (refuse := unless(self.buildable[..., 0])):
+            refuse(before() + self.resolved.refusal())
 
     @property
     @abstractmethod

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..geometry import Body, Outline
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity
+from ..quantities import Design, choice, quantity, text_if
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
@@ -152,26 +152,23 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
 
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
-        low, high = np.degrees([self._swing.min(), self._swing.max()])
-        if low <= -90 or high >= 90:
-            return (
-                f"the arm swings from {low:.4g} to {high:.4g} deg from the line of centres; "
-                "it must stay between -90 and 90 deg"
-            )
-        if self._gain.min() <= 0:
-            return (
-                f"the arm moves with the cam by {1 - self._gain.min():.4g} rad for each rad of cam angle; "
-                "it must stay below 1, or the face is touched nowhere"
-            )
-        if self._face_distance.min() <= 0:
-            return (
-                f"the face comes down to {self._face_distance.min() / mm:.4g} mm from the cam axis; "
-                "it must stay above 0 mm"
-            )
-        return (
+        low, high = np.degrees(self._swing.min()), np.degrees(self._swing.max())
+        gain, distance = self._gain.min(), self._face_distance.min()
+        short = (
             f"the face is touched up to {self._contact_length.max() / mm:.4g} mm from the arm's pivot; "
             f"the arm is {self.cam.arm_length / mm:.4g} mm long and must reach that far"
         )
+        near = f"the face comes down to {distance / mm:.4g} mm from the cam axis; it must stay above 0 mm"
+        fast = (
+            f"the arm moves with the cam by {1 - gain:.4g} rad for each rad of cam angle; "
+            "it must stay below 1, or the face is touched nowhere"
+        )
+        far = (
+            f"the arm swings from {low:.4g} to {high:.4g} deg from the line of centres; "
+            "it must stay between -90 and 90 deg"
+        )
+        slow = text_if(gain <= 0, fast, text_if(distance <= 0, near, short))
+        return text_if((low <= -90) | (high >= 90), far, slow)
 
     @cached_property
     def arm_angle(self) -> np.ndarray:

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..geometry import Body
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity
+from ..quantities import Design, choice, quantity, text_if
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm
@@ -104,14 +104,13 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
         psi = self.cam.start_angle + self.motion.s
-        if psi.min() <= 0 or psi.max() >= np.pi:
-            return (
-                f"the arm swings from {np.degrees(psi.min()):.4g} to {np.degrees(psi.max()):.4g} deg from the line "
-                "of centres; it must stay between 0 and 180 deg"
-            )
-        return (
+        low, high = psi.min(), psi.max()
+        return text_if(
+            (low <= 0) | (high >= np.pi),
+            f"the arm swings from {np.degrees(low):.4g} to {np.degrees(high):.4g} deg from the line "
+            "of centres; it must stay between 0 and 180 deg",
             f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
-            f"{self._pitch_radius(psi).min() / mm:.4g} mm of the cam axis; it must stay outside it"
+            f"{self._pitch_radius(psi).min() / mm:.4g} mm of the cam axis; it must stay outside it",
         )
 
     def _pitch_radius(self, psi: Value) -> Array:

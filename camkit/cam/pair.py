@@ -16,7 +16,7 @@ import numpy as np
 from ..extrema import Extreme
 from ..geometry import Body, Outline
 from ..motion.resolution import Resolution
-from ..quantities import Design, choice, counted, quantities_of, quantity, words
+from ..quantities import Design, choice, counted, declarations, quantity, words
 from ..quantities.types import Array, Value
 from ..units import rpm
 from .analysis import CamAnalysis
@@ -105,13 +105,14 @@ class ConjugatePair(Design):
         turn = np.linspace(0, 1, counted(n, "cam angles")) * self.cam.motion.span
         analysis = ConjugatePairAnalysis(self, turn)
         analysis.first.refuse_impossible()
-        try:
-            analysis.second.refuse_impossible()
-        except ValueError as refusal:
-            own = quantities_of(self)
-            sizes = ", ".join(f"the {words(name)} is {own[name].text(getattr(self, name))}" for name in self._given)
-            raise ValueError(f"the second cam cannot be built; {sizes}: {refusal}") from None
+        analysis.second.refuse_impossible(self._before)
         return analysis
+
+    def _before(self) -> str:
+        """What stands before the sentence that refuses the second cam."""
+        own = declarations(self)
+        sizes = ", ".join(f"the {words(name)} is {own[name].text(getattr(self, name))}" for name in self._given)
+        return f"the second cam cannot be built; {sizes}: "
 
 
 @dataclass(frozen=True)
@@ -136,15 +137,13 @@ class ConjugatePairAnalysis:
     @cached_property
     def first(self) -> CamAnalysis:
         """The first cam, in the machine's frame."""
-        return self._of(self.cam.first)
+        first: CamAnalysis = self.cam.first.analyse(2)
+        return replace(first, cam_angle=self.cam_angle, rough=self.rough)
 
     @cached_property
     def second(self) -> CamAnalysis:
         """The second cam, in a frame of its own."""
-        return self._of(self.cam.second)
-
-    def _of(self, cam: Any) -> CamAnalysis:
-        return replace(cam.analyse(2), cam_angle=self.cam_angle, rough=self.rough)
+        return replace(self.first, cam=self.cam.second)
 
     @property
     def curves(self) -> dict[str, CamAnalysis]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..extrema import Extreme
-from ..quantities import fails
+from ..quantities import unless
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
 from ..study.study import Study
@@ -43,8 +43,8 @@ def if_possible(size: Value, drop: Extreme, excepted: bool | Array = False) -> V
     however large it is.  ``ValueError`` for one design, if it is not ``excepted``.
     """
     possible = (drop.value == 0) | excepted
-    if fails(possible):
-        raise ValueError(
+    if refuse := unless(possible):
+        refuse(
             f"the follower's speed drops at once at a cam angle of {drop.cam_angle / deg:.4g} deg; no size keeps a "
             "least radius of curvature there: choose a motion whose speed does not jump"
         )

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..geometry import Body, Outline
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, fails, quantity
+from ..quantities import Design, choice, quantity, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -96,8 +96,8 @@ class TranslatingFlatCam(Design):
         Given in the machine's frame turned by half a turn, so its follower again slides along +y.
         """
         distance = a_number(distance, "the distance of the faces")
-        if fails(distance > self.base_radius):
-            raise ValueError(
+        if refuse := unless(distance > self.base_radius):
+            refuse(
                 f"the faces are {distance / mm:.4g} mm apart; the first stands {self.base_radius / mm:.4g} mm above "
                 "the cam axis, and the second must stand below it"
             )

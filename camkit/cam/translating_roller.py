@@ -18,7 +18,7 @@ import numpy as np
 
 from ..geometry import Body
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, fails, quantity
+from ..quantities import Design, choice, quantity, text_if, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -71,8 +71,8 @@ class TranslatingRollerCam(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fails(abs(self.offset) < self.prime_radius):
-            raise ValueError(
+        if refuse := unless(abs(self.offset) < self.prime_radius):
+            refuse(
                 f"the offset of the follower is {self.offset / mm:.4g} mm; base circle and roller make "
                 f"{self.prime_radius / mm:.4g} mm, and it must stay below that"
             )
@@ -134,8 +134,8 @@ class TranslatingRollerCam(Design):
         distance = a_number(distance, "the distance of the rollers")
         r = self.roller_radius if roller_radius is None else a_number(roller_radius, "the second roller's radius")
         height = distance - self.start_height
-        if fails(height > 0):
-            raise ValueError(
+        if refuse := unless(height > 0):
+            refuse(
                 f"the rollers' centres are {distance / mm:.4g} mm apart; the first stands "
                 f"{self.start_height / mm:.4g} mm above the cam axis, and the second must stand below it"
             )
@@ -163,13 +163,11 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
         h = self.cam.start_height + self.motion.s
-        if h.min() <= 0:
-            return (
-                f"the roller's centre comes down to {h.min() / mm:.4g} mm above the cam axis; it must stay above 0 mm"
-            )
-        return (
+        return text_if(
+            h.min() <= 0,
+            f"the roller's centre comes down to {h.min() / mm:.4g} mm above the cam axis; it must stay above 0 mm",
             f"the roller of radius {self.cam.roller_radius / mm:.4g} mm comes within "
-            f"{np.hypot(self.cam.offset, h).min() / mm:.4g} mm of the cam axis; it must stay outside it"
+            f"{np.hypot(self.cam.offset, h).min() / mm:.4g} mm of the cam axis; it must stay outside it",
         )
 
     @cached_property

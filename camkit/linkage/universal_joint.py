@@ -15,15 +15,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..quantities import Design, Measure, counted, fails, quantity
+from ..quantities import Design, Measure, counted, quantity, unless
 from ..quantities.types import Value
 from ..units import deg
 from .cross import Cross
 
 
 def _refuse_square(name: str, angle: Value) -> None:
-    if fails(angle < np.pi / 2):
-        raise ValueError(f"the {name} is {angle / deg:.6g} deg; a universal joint turns below 90 deg only")
+    if refuse := unless(angle < np.pi / 2):
+        refuse(f"the {name} is {angle / deg:.6g} deg; a universal joint turns below 90 deg only")
 
 
 FEWEST = 61

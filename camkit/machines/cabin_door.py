@@ -29,7 +29,7 @@ from ..linkage.measures import (
 from ..linkage.rssr import RSSR, Links
 from ..linkage.rssr_analysis import RSSRAnalysis
 from ..linkage.space import Box
-from ..quantities import Measure, choice, counted, fails, quantity
+from ..quantities import Measure, choice, counted, quantity, unless
 from ..quantities.kinds import refuse_arguments, shown
 from ..study.study import Space, Study
 from ..units import deg, mm
@@ -85,8 +85,8 @@ class CabinDoorLinkage(Links):
             raise ValueError(f"the branch is {shown(self.branch)}; it must be +1 or -1")
         object.__setattr__(self, "branch", Branch(self.branch))
         super().__post_init__()
-        if fails(self.start_angle != self.end_angle):
-            raise ValueError(
+        if refuse := unless(self.start_angle != self.end_angle):
+            refuse(
                 f"the crank sweeps from {self.start_angle / deg:.5g} to {self.end_angle / deg:.5g} deg; it must move"
             )
 

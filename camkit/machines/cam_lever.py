@@ -20,7 +20,7 @@ from ..cam import bodies
 from ..cam.loads import Table, as_table, tabulated
 from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
-from ..quantities import Measure, fails, quantity, unremarked
+from ..quantities import Measure, quantity, unless, unremarked
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.study import Study
@@ -79,8 +79,8 @@ class CamLever(FreeLawCam):
             object.__setattr__(self, "force_curve", as_table("force curve", "way", "force", self.force_curve))
         super().__post_init__()
         reaches = self.stroke < 2 * self.lever
-        if fails(reaches):
-            raise ValueError(
+        if refuse := unless(reaches):
+            refuse(
                 f"the stroke is {self.stroke / mm:.4g} mm; a lever of {self.lever / mm:.4g} mm "
                 f"gives less than {2 * self.lever / mm:.4g} mm"
             )

@@ -34,7 +34,7 @@ from ..cam.oscillating_roller import OscillatingRollerCam
 from ..decision import Judgements
 from ..geometry import angle_opposite, end_to_end
 from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, Measure, choice, counted, fails, quantity
+from ..quantities import Design, Measure, choice, counted, quantity, unless
 from ..quantities.kinds import listed, refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.study import Space, Study, weighted
@@ -82,22 +82,22 @@ class DoorHandleCam(Design):
     def __post_init__(self) -> None:
         super().__post_init__()
         shares = self.relief_cam_angle < self.handle_angle
-        if fails(shares):
-            raise ValueError(
+        if refuse := unless(shares):
+            refuse(
                 f"the relief cam angle is {self.relief_cam_angle / deg:.4g} deg of {self.handle_angle / deg:.4g} deg "
                 "handle angle; it must leave some for the lift crank"
             )
         fits = self.handle_angle + self.lift_cam_angle <= 2 * np.pi
-        if fails(fits):
-            raise ValueError(
+        if refuse := unless(fits):
+            refuse(
                 "relief curve, transition arc and lift curve need "
                 f"{(self.handle_angle + self.lift_cam_angle) / deg:.4g} deg of the cam; there are 360 deg"
             )
         reaches = np.isfinite(self._relief_rest_angle)
-        if fails(reaches):
+        if refuse := unless(reaches):
             low = abs(self.relief_centre_distance - self.relief_arm) / mm
             high = (self.relief_centre_distance + self.relief_arm) / mm
-            raise ValueError(
+            refuse(
                 f"the relief roller has to rest on the lift curve's base circle of {self.base_radius / mm:.4g} mm; "
                 f"an arm of {self.relief_arm / mm:.4g} mm at {self.relief_centre_distance / mm:.4g} mm reaches "
                 f"{low:.4g} to {high:.4g} mm"

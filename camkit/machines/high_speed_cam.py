@@ -24,7 +24,7 @@ from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
 from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
-from ..quantities import Design, choice, counted, fails, quantities_of, quantity
+from ..quantities import Design, choice, counted, quantities_of, quantity, unless
 from ..quantities.design import refuse_population
 from ..quantities.types import Array, Value
 from ..units import deg, mm
@@ -116,8 +116,8 @@ class HighSpeedCam(FreeLawCam):
     def _refuse_intervals(self) -> None:
         moving = self.rise_angle + self.return_angle
         fits = moving < 2 * np.pi
-        if fails(fits):
-            raise ValueError(
+        if refuse := unless(fits):
+            refuse(
                 f"the arm swings over {moving / deg:.4g} deg of the cam; there are 360 deg, and two dwells "
                 "need some of them"
             )
@@ -126,19 +126,19 @@ class HighSpeedCam(FreeLawCam):
     def _refuse_sizes(self) -> None:
         L, l, psi = self.centre_distance, self.arm_length, self.end_angle
         reaches, starts, clear = psi < np.pi, self.start_angle > 0, self.min_radius > 0
-        if fails(reaches):
-            raise ValueError(
+        if refuse := unless(reaches):
+            refuse(
                 f"the roller's centre has to come {(self.max_radius + self.roller_radius) / mm:.4g} mm from the cam "
                 f"axis (r_k2 + r); an arm of {l / mm:.4g} mm at {L / mm:.4g} mm reaches {abs(L - l) / mm:.4g} to "
                 f"{(L + l) / mm:.4g} mm"
             )
-        if fails(starts):
-            raise ValueError(
+        if refuse := unless(starts):
+            refuse(
                 f"the arm ends at {psi / deg:.4g} deg from the line of centres and swings "
                 f"{self.swing / deg:.4g} deg; it must start above 0 deg"
             )
-        if fails(clear):
-            raise ValueError(
+        if refuse := unless(clear):
+            refuse(
                 f"the smallest radius r_k1 of the profile is {self.min_radius / mm:.4g} mm; it must be above 0 mm: "
                 f"the roller of {self.roller_radius / mm:.4g} mm covers the cam axis"
             )

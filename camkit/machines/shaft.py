@@ -15,7 +15,7 @@ import numpy as np
 
 from ..data.materials import MATERIALS
 from ..data.tubes import TUBE_FILES, standard_tubes
-from ..quantities import Design, Measure, fails, quantities_of, quantity, refuse_population, value_of, words
+from ..quantities import Design, Measure, quantities_of, quantity, refuse_population, unless, value_of, words
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
 from ..study.design_map import DesignMap
@@ -57,20 +57,18 @@ class UniversalJointShaft(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fails(self.inner_diameter < self.outer_diameter):
-            raise ValueError(
+        if refuse := unless(self.inner_diameter < self.outer_diameter):
+            refuse(
                 f"the inner diameter is {self.inner_diameter / mm:.6g} mm; "
                 f"it must be below the outer diameter of {self.outer_diameter / mm:.6g} mm"
             )
-        if fails(self.speed <= self.max_speed):
-            raise ValueError(
+        if refuse := unless(self.speed <= self.max_speed):
+            refuse(
                 f"the lowest speed is {self.speed / rpm:.6g} rpm; "
                 f"it must not be above the highest speed of {self.max_speed / rpm:.6g} rpm"
             )
-        if fails(self.joint_angle < np.pi / 2):
-            raise ValueError(
-                f"the joint angle is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only"
-            )
+        if refuse := unless(self.joint_angle < np.pi / 2):
+            refuse(f"the joint angle is {self.joint_angle / deg:.6g} deg; a universal joint turns below 90 deg only")
         in_order = (self.inner_diameter < self.outer_diameter) & (self.speed <= self.max_speed)
         self._keep(in_order & (self.joint_angle < np.pi / 2))
 

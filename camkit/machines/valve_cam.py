@@ -20,7 +20,7 @@ import numpy as np
 from ..cam.force_closure import ContactPair
 from ..cam.slide import SlideFriction
 from ..motion import MotionProgram, Return, Rise
-from ..quantities import Design, choice, counted, fails, quantity
+from ..quantities import Design, choice, counted, quantity, unless
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm
@@ -73,18 +73,18 @@ class ValveCam(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fails(self._exponents_differ):
-            raise ValueError(
+        if refuse := unless(self._exponents_differ):
+            refuse(
                 f"the exponents are {', '.join(f'{e:.6g}' for e in self._exponents)}; "
                 f"each must lie at least {LEAST_GAP:g} above the one before"
             )
-        if fails(self._fits_the_turn):
-            raise ValueError(
+        if refuse := unless(self._fits_the_turn):
+            refuse(
                 f"two flanks and two ramps need {2 * (self.half_angle + self.ramp_angle) / deg:.4g} deg of the cam; "
                 "there are 360 deg"
             )
-        if fails(self.base_radius > self.ramp_height):
-            raise ValueError(
+        if refuse := unless(self.base_radius > self.ramp_height):
+            refuse(
                 f"the base radius is {self.base_radius / mm:.4g} mm and the ramp {self.ramp_height / mm:.4g} mm high; "
                 "the base circle must keep some radius"
             )

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..quantities import fails
+from ..quantities import unless
 from ..quantities.kinds import refuse_unequal
 from ..quantities.types import Value
 from .segments import Dwell, Move, Return, Segment, degrees, kind_of
@@ -41,8 +41,8 @@ def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Segme
 def _angle_left(segments: Sequence[Segment], i: int) -> Value:
     """What the others leave of the turn."""
     others = _of_the_others(segments, i, "angle")
-    if fails(others < TURN):
-        raise ValueError(
+    if refuse := unless(others < TURN):
+        refuse(
             f"the other segments take {degrees(others)} of the turn; they must leave some for the "
             f"{kind_of(segments[i])} that closes it"
         )
@@ -53,10 +53,10 @@ def _lift_left(segments: Sequence[Segment], i: int) -> Value:
     """What the segment has to move for the turn to end where it began."""
     others = _of_the_others(segments, i, "change")
     lift = others if isinstance(segments[i], Return) else -others
-    if fails(lift >= 0):
+    if refuse := unless(lift >= 0):
         kind = kind_of(segments[i])
-        raise ValueError(
-            f"the {kind} that closes the turn would have to move by {float(lift):.6g} (follower units); it must be "
+        refuse(
+            f"the {kind} that closes the turn would have to move by {lift:.6g} (follower units); it must be "
             f"at least 0: the lifts before it are too {'small' if kind == 'return' else 'large'}"
         )
     return lift

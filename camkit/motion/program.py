@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..geometry import end_to_end
-from ..quantities import Declared, Quantity, certain, fails, floats
+from ..quantities import Declared, Quantity, certain, floats, text_if, unless
 from ..quantities.kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import deg
@@ -319,12 +319,13 @@ def program_between(
 
 
 def _meant(program: MotionProgram) -> str:
-    """What to write where a segment's angle was given in degrees."""
-    for segment in program.segments:
-        if not np.ndim(segment.angle) and LIKELY_DEGREES <= segment.angle <= 360:
-            given = f"{segment.angle:.6g}"
-            return f" (the {kind_of(segment)} was given {given} rad; for degrees write {given} * deg)"
-    return ""
+    """What to write where a segment's angle, the first of them, was given in degrees."""
+    said = ""
+    for segment in reversed(program.segments):
+        likely, given = (segment.angle >= LIKELY_DEGREES) & (segment.angle <= 360), f"{segment.angle:.6g}"
+        words = f" (the {kind_of(segment)} was given {given} rad; for degrees write {given} * deg)"
+        said = text_if(likely, words, said)
+    return said
 
 
 def _refuse_program(program: MotionProgram) -> None:
@@ -338,17 +339,15 @@ def _refuse_program(program: MotionProgram) -> None:
     for name in program.names:
         if program.names.count(name) > 1 or name in ("start", "segments"):
             raise ValueError(f"a segment of the program is called {name}; it must have a name that nothing else has")
-    if fails(program._beyond <= ROUNDED):
-        much = program._beyond >= NEARLY
-        spans = degrees(program.span) if much else f"{degrees(program._beyond)} more than a full turn"
-        raise ValueError(f"the program spans {spans}; it can span at most 360 deg{_meant(program)}")
-    if fails(np.logical_not(program._misses)):
-        raise ValueError(
+    if refuse := unless(program._beyond <= ROUNDED):
+        little = f"{degrees(program._beyond)} more than a full turn"
+        spans = text_if(program._beyond >= NEARLY, degrees(program.span), little)
+        refuse(f"the program spans {spans}; it can span at most 360 deg{_meant(program)}")
+    if refuse := unless(np.logical_not(program._misses)):
+        refuse(
             f"the program spans {degrees(program.span, 10)}; {degrees(-program._beyond)} are missing to a full turn: "
             "lengthen a segment or add a dwell"
         )
-    if fails(program.closes):
-        gap = f"{float(program.levels[-1] - program.start):.6g}"
-        raise ValueError(
-            f"the program ends {gap} from its start after 360 deg; a full turn must come back to its start"
-        )
+    if refuse := unless(program.closes):
+        gap = f"{program.levels[-1] - program.start:.6g}"
+        refuse(f"the program ends {gap} from its start after 360 deg; a full turn must come back to its start")

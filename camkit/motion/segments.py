@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..quantities import Choice, Declared, Quantity, certain, fails
+from ..quantities import Choice, Declared, Quantity, certain, text_if, text_of, unless
 from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import in_unit
@@ -186,7 +186,7 @@ def kind_of(segment: Segment) -> str:
 
 def degrees(angle: Value, digits: int = 6) -> str:
     """An angle as a sentence says it."""
-    return f"{in_unit(float(angle), 'deg'):.{digits}g} deg" if finite(angle) else str(angle)
+    return text_of(in_unit(angle, "deg"), f"~.{digits}g") + text_if(finite(angle), " deg")
 
 
 def _refuse_name(segment: Segment) -> None:
@@ -198,9 +198,11 @@ def _refuse_name(segment: Segment) -> None:
 
 def _refuse_angle(segment: Segment) -> None:
     angle = number(segment.angle)
-    if angle is None or fails(positive(angle)):
-        said = shown(segment.angle) if angle is None else degrees(angle)
-        raise ValueError(f"the angle of the {kind_of(segment)} is {said}; it must be a finite angle above 0 deg")
+    must = "it must be a finite angle above 0 deg"
+    if angle is None:
+        raise ValueError(f"the angle of the {kind_of(segment)} is {shown(segment.angle)}; {must}")
+    if refuse := unless(positive(angle)):
+        refuse(f"the angle of the {kind_of(segment)} is {degrees(angle)}; {must}")
     if not certain(positive(angle)):
         angle = np.where(positive(angle), angle, np.nan)
     object.__setattr__(segment, "angle", angle)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ..quantities import D, quantities_of, unremarked, value_of, with_quantities
 from ..quantities.types import Array
 from .record import Call, CannotRecord, Recorded, Recording, Ref, mapped
+from .texts import Template, filled, numbers
 
 
 @dataclass(frozen=True)
@@ -27,11 +28,35 @@ class Program:
     calls: tuple[Call, ...]
     """Inputs first, in order; of those that follow each needs only what stands before it."""
     inputs: tuple[str, ...]
-    outputs: Mapping[str, Ref | np.ndarray]
-    """Of each output the `Ref` of its call, or what it is whatever the inputs are."""
+    outputs: Mapping[str | int, Ref | np.ndarray]
+    """Of each output the `Ref` of its call, or what it is whatever the inputs are; what texts need, by its number."""
+    texts: Mapping[str, Template] = field(default_factory=dict)
+    """Outputs that are texts, in parts."""
+    refusals: Mapping[int, Template] = field(default_factory=dict)
+    """In order the numbers of what must hold of one design, and the sentence that refuses it if one does not."""
 
-    def __call__(self, inputs: Mapping[str, ArrayLike]) -> dict[str, Array]:
-        """The outputs of other inputs, of the same shapes as those that it was recorded with."""
+    def __call__(self, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
+        """The outputs of other inputs, of the same shapes as those that it was recorded with; texts come last."""
+        results = self._results(inputs)
+        found = {name: _found(out, results) for name, out in self.outputs.items() if isinstance(name, str)}
+        return found | {name: filled(template, results) for name, template in self.texts.items()}
+
+    def refusal(self, inputs: Mapping[str, ArrayLike]) -> str:
+        """The sentence that refuses one design of other inputs; empty if it can be built.
+
+        >>> from camkit.quantities import unless
+        >>> def wide(given):
+        ...     if refuse := unless(given["x"] > 0):
+        ...         refuse(f"the width is {given['x']:.1f}; it must be above 0")
+        ...     return {}
+        >>> program = recorded(wide, {"x": 1.0})
+        >>> program.refusal({"x": 2.0}), program.refusal({"x": -2.0})
+        ('', 'the width is -2.0; it must be above 0')
+        """
+        results = self._results(inputs)
+        return next((filled(sentence, results) for ok, sentence in self.refusals.items() if not results[ok]), "")
+
+    def _results(self, inputs: Mapping[str, ArrayLike]) -> dict[int, Array]:
         results: dict[int, Array] = {}
         for k, (name, call) in enumerate(zip(self.inputs, self.calls, strict=False)):
             value = np.asarray(inputs[name], dtype=float)[()]
@@ -41,7 +66,7 @@ class Program:
         with np.errstate(all="ignore"):
             for k in self.needed:
                 results[k] = _run(self.calls[k], results)
-        return {name: _found(out, results) for name, out in self.outputs.items()}
+        return results
 
     @cached_property
     def needed(self) -> list[int]:
@@ -83,8 +108,14 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
             outputs = function(given)
     except Exception as error:
         raise _reason(error) from error
-    found = {k: Ref(v.number) if isinstance(v, Recorded) else np.asarray(v) for k, v in outputs.items()}
-    return Program(tuple(recording.calls), tuple(inputs), found)
+    texts = {name: recording.texts.parted(value) for name, value in outputs.items() if isinstance(value, str)}
+    arrays = {name: value for name, value in outputs.items() if name not in texts}
+    found: dict[str | int, Ref | np.ndarray] = {
+        name: Ref(value.number) if isinstance(value, Recorded) else np.asarray(value) for name, value in arrays.items()
+    }
+    needed = (*recording.refusals, *(k for t in (*recording.refusals.values(), *texts.values()) for k in numbers(t)))
+    found |= {k: Ref(k) for k in needed}
+    return Program(tuple(recording.calls), tuple(inputs), found, texts, recording.refusals)
 
 
 def _reason(error: BaseException) -> BaseException:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from ..quantities.known import known
 from .operations import TABLE, Each, Move, Written
+from .texts import Template, Texts
 from .written import whole
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
@@ -70,6 +71,8 @@ class Recording:
 
     def __init__(self) -> None:
         self.calls: list[Call] = []
+        self.texts = Texts()
+        self.refusals: dict[int, Template] = {}
         self._known: dict[object, Recorded] = {}
 
     def input(self, value: ArrayLike) -> Recorded:
@@ -156,9 +159,27 @@ class Recorded(NDArrayOperatorsMixin):
         return np.transpose(self)
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        raise cannot("a truth value, a number or a plain array of a recorded value is asked for")
+        raise cannot("a truth value, a number, a text or a plain array of a recorded value is asked for")
 
-    __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __format__ = _refuse
+    __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __str__ = _refuse
+
+    def __format__(self, spec: str) -> str:
+        if self.ndim or not spec:
+            raise cannot("a text of several numbers, or of one without a format, is asked for")
+        return self.recording.texts.placed((self.number, spec))
+
+    def text_if(self, words: str) -> str:
+        """A part of a text that is there where this holds."""
+        if self.ndim:
+            raise cannot("a text is asked for where several values hold")
+        return self.recording.texts.placed((self.number, self.recording.texts.parted(words)))
+
+    def refusing(self) -> Callable[[str], None] | None:
+        """What notes the sentence for a design for which this does not hold; members of a population have none."""
+        return None if self.ndim or self.number in self.recording.refusals else self._note
+
+    def _note(self, sentence: str) -> None:
+        self.recording.refusals[self.number] = self.recording.texts.parted(sentence)
 
     def __setitem__(self, at: object, value: object) -> None:
         raise cannot("a recorded array is written into")

@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike
 
 from ..units import factor, in_unit
 from .kinds import listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
-from .known import certain, fails
-from .types import Value
+from .known import certain, text_if, text_of, unless
+from .types import Array, Value
 
 OURS = __name__.partition(".")[0]
 BEYOND = 1000
@@ -118,22 +118,22 @@ class Quantity:
         """The hard limit in words; the largest size is named where the declaration gives it."""
         return self._possible(self.at_most is not None)
 
-    def possible_for(self, value: float) -> str:
+    def possible_for(self, value: Value) -> str:
         """The hard limit in words for somebody who wanted ``value`` (SI): the size too, if that is missed."""
         least = f"at least {self._top * BELOW:.6g} {self.unit}".rstrip()
-        if 0 < value < self._least and self.at_least is None:
-            return f"a finite number of {least}"
-        said = self._possible(np.isfinite(value) and abs(value) > self._most)
-        return f"{said} and {least} unless it is 0" if 0 < value < self._least else said
+        tiny, huge = (value > 0) & (value < self._least), np.isfinite(value) & (np.abs(value) > self._most)
+        if self.at_least is not None:
+            return self._possible(huge) + text_if(tiny, f" and {least} unless it is 0")
+        return text_if(tiny, f"a finite number of {least}", self._possible(huge))
 
-    def _possible(self, most: object) -> str:
+    def _possible(self, most: bool | Array) -> str:
         unit = f" {self.unit}" if self.unit else ""
         upto = f"at most {self.most:.6g}{unit}"
         if self.at_least is not None:
-            return f"a finite number of at least {self.at_least:g}{unit}" + f" and {upto}" * bool(most)
+            return f"a finite number of at least {self.at_least:g}{unit}" + text_if(most, f" and {upto}")
         if self.above is not None:
-            return f"a finite number above {self.above:g}{unit}" + f" and {upto}" * bool(most)
-        return "a finite number" + f" of a size of {upto}" * bool(most)
+            return f"a finite number above {self.above:g}{unit}" + text_if(most, f" and {upto}")
+        return "a finite number" + text_if(most, f" of a size of {upto}")
 
     def allows(self, value: object) -> Any:
         """Whether ``value`` (SI) can be built, element by element."""
@@ -146,9 +146,10 @@ class Quantity:
             return ok & (read > self.above * self.factor) & (read >= self._least)
         return ok
 
-    def text(self, value: float) -> str:
+    def text(self, value: Value) -> str:
         """``value`` (SI) as a person reads it."""
-        return f"{in_unit(one_number(value, f'the number {self.symbol}'), self.unit):.6g} {self.unit}".rstrip()
+        read = in_unit(one_number(value, f"the number {self.symbol}"), self.unit)
+        return f"{text_of(read, '~.6g')} {self.unit}".rstrip()
 
     def unit_left_out(self, value: float) -> bool:
         """Whether ``value`` (SI) is as round as people type, far out of the range, and within it if in the unit."""
@@ -348,10 +349,10 @@ class Declared:
         if value is not given:
             object.__setattr__(self, name, value)
         ok = declared.allows(value)
-        if fails(ok):
-            raise ValueError(
-                f"the {words(name)} ({declared.meaning}) is {declared.text(float(value))}; "
-                f"it must be {declared.possible_for(float(value))}"
+        if refuse := unless(ok):
+            refuse(
+                f"the {words(name)} ({declared.meaning}) is {declared.text(value)}; "
+                f"it must be {declared.possible_for(value)}"
             )
         if type(value) is float:
             declared.remark(name, value)

@@ -18,7 +18,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .known import certain, fails, floats, known
+from .known import certain, fails, floats, known, text_of, unless
 from .types import Value
 
 LONGEST = 60
@@ -74,23 +74,24 @@ def a_number(
     ValueError: the speed is -1; it must be at least 0
     """
     read = number(value)
-    if read is not None:
-        ok = np.isfinite(read) & (True if holds is None else holds(read))
-        if certain(ok):
-            return read
-        if np.ndim(read) or not known(read):
-            return np.where(ok, read, np.nan)
-    raise ValueError(f"{what} is {shown(value)}; it must {must}")
+    if read is None:
+        raise ValueError(f"{what} is {shown(value)}; it must {must}")
+    ok = np.isfinite(read) & (True if holds is None else holds(read))
+    if certain(ok):
+        return read
+    if refuse := unless(ok):
+        refuse(f"{what} is {shown(value)}; it must {must}")
+    return np.where(ok, read, np.nan)
 
 
 def one_number(
     value: object, what: str, must: str = "be a finite number", holds: Callable[[float], bool] | None = None
 ) -> float:
     """``value`` as a float, finite or not; ``ValueError`` for what is no single number or not as ``holds`` asks."""
-    read = number(value)
+    read: Any = number(value)
     if read is None or np.ndim(read) or (holds and not holds(float(read))):
         raise ValueError(f"{what} is {shown(value)}; it must {must}")
-    return float(read)
+    return float(read) if known(read) else read
 
 
 def numbers(value: object, what: str) -> np.ndarray:
@@ -146,6 +147,8 @@ def shown(value: object) -> str:
     """
     if isinstance(value, str) and len(value) + 2 > LONGEST:
         value = f"{value[:27]}...{value[-27:]}"
+    if not known(value):
+        return text_of(value, ".6g")
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, np.ndarray) and not plain(value):

@@ -6,6 +6,7 @@ having ``recorded``; so physics needs to know nothing of programs.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -47,3 +48,53 @@ def fails(ok: ArrayLike) -> bool:
     if type(ok) is bool:
         return not ok
     return np.ndim(ok) == 0 and known(ok) and not ok
+
+
+def unless(ok: Any) -> Callable[[str], None] | None:
+    """What refuses a design in a sentence, unless ``ok`` holds: ``ValueError`` if it is one false answer (`fails`).
+
+    Of what is recorded both are noted.
+
+    >>> if refuse := unless(2.5 < 2):
+    ...     refuse("it is too large")
+    Traceback (most recent call last):
+        ...
+    ValueError: it is too large
+    """
+    if ok is True:
+        return None
+    if fails(ok):
+        return _refuse
+    return None if known(ok) else ok.refusing()
+
+
+def _refuse(sentence: str) -> None:
+    raise ValueError(sentence)
+
+
+def text_if(ok: Any, words: str, otherwise: str = "") -> str:
+    """``words`` if ``ok`` holds, of one design; what is recorded has both, of which one is there.
+
+    >>> text_if(2 > 1, "and more"), text_if(2 < 1, "and more")
+    ('and more', '')
+    """
+    if known(ok):
+        return words if ok else otherwise
+    return "".join(holds.text_if(said) for holds, said in ((ok, words), (np.logical_not(ok), otherwise)) if said)
+
+
+def text_of(value: Any, spec: str) -> str:
+    """A number by a format of Python's; with ``~`` before it, first without the noise after 15 digits.
+
+    One more is ``measure``: four digits, and from 1e4 to 1e6 all those before the point.
+
+    >>> text_of(2.675000000000001, "~.3g"), text_of(12345.67, "measure"), text_of(1.2345, "measure")
+    ('2.67', '12346', '1.234')
+    """
+    if not known(value):
+        return format(value, spec)
+    if spec.startswith("~"):
+        value, spec = float(f"{value:.15g}"), spec[1:]
+    if spec == "measure":
+        spec = ".0f" if 1e4 <= abs(value) < 1e6 else ".4g"
+    return format(value, spec)

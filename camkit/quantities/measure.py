@@ -12,7 +12,7 @@ import numpy as np
 from ..units import factor, in_unit
 from .applied import applied
 from .kinds import one_number, plain, refuse_kinds, shown
-from .known import known
+from .known import known, text_of
 from .types import Value
 
 
@@ -85,10 +85,10 @@ class Measure:
         """Name and unit, for an axis or a heading."""
         return f"{self.name}  [{self.unit}]" if self.unit else self.name
 
-    def text(self, value: float) -> str:
+    def text(self, value: Value) -> str:
         """``value`` (SI) as a person reads it."""
         read = in_unit(one_number(value, f"the {self.name}", "be one number"), self.unit)
-        return f"{read:{'.0f' if 1e4 <= abs(read) < 1e6 else '.4g'}} {self.unit}".rstrip()
+        return f"{text_of(read, '~measure')} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
