@@ -1,187 +1,160 @@
-"""A program as loops: every number has an address on one heap, and what is done to it stands in stages of few loops.
+"""A program as loops: every number has an address on one heap, and each loop does one operation again and again.
 
-Moves cost nothing: they are done to the addresses.  What is done for each element becomes a loop over a stretch of
-addresses; loops of one length whose elements need only each other's go together, and what only they read is never
-stored.
+Moves cost nothing: they are done to the addresses.  A loop whose result stays where it is folds many numbers into one;
+one that reads what it has just written adds up.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from bisect import bisect_right
 from functools import cached_property
+from math import prod
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .operations import POWERS, TABLE, Along, Each, Fold, Move, Pick
+from .operations import TABLE, Along, Each, Fold, Move
 from .program import Program
 from .record import Call, Ref, mapped
+from .written import picked
 
-LONGEST = 80
-"""So many steps, at most, are in one loop: an engine optimises no function that is too long."""
-TRUTHS: dict[Any, Any] = {np.add: np.logical_or, np.multiply: np.logical_and}
-"""What sum and product of truths are."""
+COPY = "{0}"
 
 
 class Span(NamedTuple):
-    """What an operand reads: as many addresses as there are elements from ``first`` on, or (``step`` 0) this one."""
+    """Addresses one after the other: from which number of an array on, the first, and the step to the next."""
 
+    begin: int
     first: int
     step: int
 
 
-@dataclass(eq=False)
-class Step:
-    """``code`` of operands for each of ``count`` elements, with results from the address ``out`` on.
+class Loop(NamedTuple):
+    """``operation``, so many times: on the spans of its result, which is first, and of what it is made of."""
 
-    With a ``start`` they are folded into one result.  A step without ``count`` is a call, which reads whole rows.
-    """
+    operation: str
+    times: int
+    spans: tuple[Span, ...]
 
-    code: str
-    out: int
-    count: int
-    operands: Sequence[Any]
-    results: int
-    start: float | None = None
-    group: tuple[int, ...] = ()
-    stored: bool = False
 
-    def reads(self) -> Iterator[tuple[Any, range]]:
-        """Each operand that is read, and its addresses."""
-        for x in self.operands:
-            if isinstance(x, Span):
-                yield x, range(x.first, x.first + (self.count - 1) * x.step + 1)
-            elif isinstance(x, range):
-                yield x, x
+class Place:
+    """Where the numbers of an array are."""
 
-    def beside(self, made: Step, operand: object) -> bool:
-        """Whether each element needs only the one beside it of what has been ``made``: both can go in one loop."""
-        return made.start is None and made.count == self.count > 1 and operand == Span(made.out, 1)
+    def __init__(self, addresses: np.ndarray) -> None:
+        self.addresses, self.size = addresses, addresses.size
+
+    @cached_property
+    def spans(self) -> list[Span]:
+        """The same as spans: each goes on until the next begins."""
+        flat = self.addresses.ravel()
+        steps, begin, found = flat[1:] - flat[:-1], 0, list[Span]()
+        for k in (np.flatnonzero(steps[1:] != steps[:-1]) + 1).tolist():
+            if k > begin:  # the step from k to k + 1 is another than the one before
+                found.append(Span(begin, int(flat[begin]), int(steps[begin])))
+                begin = k + 1
+        return [*found, Span(begin, int(flat[begin]), int(steps[begin]) if begin < len(steps) else 0)]
+
+    def spread(self, shape: tuple[int, ...]) -> list[Span]:
+        """Its spans if it is broadcast to a shape."""
+        whole = self.size in (1, prod(shape))
+        return self.spans if whole else Place(np.broadcast_to(self.addresses, shape)).spans
 
 
 class Loops:
-    """The steps of a program, and where its constants and outputs stand on a heap of a ``size``; inputs come first."""
+    """The loops of a program in order, and its constants, which stand on the heap first; its inputs come next."""
 
     def __init__(self, program: Program) -> None:
-        self.size, self.constants = 0, dict[int, np.ndarray]()
-        self._steps, self._at, self._known = (list[Step](), dict[int, np.ndarray](), dict[Any, np.ndarray]())
-        for k in range(len(program.inputs)):
-            self._at[k] = self._new(program.calls[k].shape)
+        self.loops = list[Loop]()
+        self._size, self._constants, self._known = 0, list[np.ndarray](), dict[Any, Place]()
+        self._at = {k: self._new(program.calls[k].shape) for k in range(len(program.inputs))}
+        self.inputs = self._size
         for k in program.needed:
             self._at[k] = self._lowered(program.calls[k])
-        self.outputs = [self._in_a_row(np.ravel(self._addresses(out))) for out in program.outputs.values()]
+        outputs = [self._in_a_row(np.ravel(self._place(out).addresses)) for out in program.outputs.values()]
+        self.constants = np.concatenate([*self._constants[::-1], []])
+        self.size = len(self.constants) + self._size
+        self.outputs = [(len(self.constants) + int(at[0]), len(at)) if at.size else (0, 0) for at in outputs]
+        """Where each output begins on the heap, and how many numbers it has."""
 
-    @cached_property
-    def groups(self) -> list[list[Step]]:
-        """The steps that go together, in the order in which they run: single numbers, loops, calls of each stage."""
-        _schedule(self._steps, self.size, self.outputs)
-        found = defaultdict(list)
-        for step in self._steps:
-            found[step.group].append(step)
-        return [found[key] for key in sorted(found)]
+    def _new(self, shape: tuple[int, ...]) -> Place:
+        first, self._size = self._size, self._size + prod(shape)
+        place = Place(np.arange(first, self._size).reshape(shape))
+        place.spans = [Span(0, first, int(place.size > 1))]
+        return place
 
-    def _new(self, shape: tuple[int, ...]) -> np.ndarray:
-        first, self.size = self.size, self.size + int(np.prod(shape))
-        return np.arange(first, self.size).reshape(shape)
-
-    def _addresses(self, argument: Any) -> np.ndarray:
+    def _place(self, argument: Any) -> Place:
+        """Where an argument is; constants stand at negative addresses until all are there."""
         if isinstance(argument, Ref):
             return self._at[argument.number]
         value = np.asarray(argument, dtype=float)
         key = value.shape, value.tobytes()
         if key not in self._known:
-            self._known[key] = self._new(value.shape)
-            self.constants[self.size - value.size] = value.ravel()
+            end = -sum(map(len, self._constants))
+            self._constants.append(value.ravel())
+            self._known[key] = Place(np.arange(end - value.size, end).reshape(value.shape))
         return self._known[key]
 
-    def _lowered(self, call: Call) -> np.ndarray:
-        """The addresses of the result of a call; its steps are noted."""
-        row, first, others = TABLE[call.function], call.arguments[0], call.arguments[1:]
+    def _lowered(self, call: Call) -> Place:
+        """Where the result of a call is; its loops are noted."""
+        assert call.function
+        row = TABLE[np.logical_or if call.function is np.add and call.dtype == bool else call.function]
         if isinstance(row, Move):
-            moved = mapped(self._addresses, first) if isinstance(first, (tuple, list)) else self._addresses(first)
-            assert call.function
-            return np.asarray(call.function(moved, *others, **call.named))
+            first, *others = call.arguments
+            moved = mapped(lambda x: self._place(x).addresses, first)
+            return Place(np.asarray(call.function(moved, *others, **call.named)))
+        if not prod(call.shape):
+            return self._new(call.shape)
+        if isinstance(row, (Fold, Along)):
+            return self._along(row, call)
+        assert isinstance(row, Each)
+        operands = [self._place(x) for x in call.arguments]
+        if call.function is picked:  # what counts is where each row begins
+            operands[0] = Place(self._in_a_row(operands[0].addresses)[..., :1])
+        return self._loop(row.javascript, self._new(call.shape), *operands)
+
+    def _along(self, row: Fold | Along, call: Call) -> Place:
+        first, *others = call.arguments
+        axis = call.named.get("axis", others[0] if others else row.axis)
+        rows = _rows(self._place(first).addresses, axis)
+        rows = rows if isinstance(row, Fold) else self._in_a_row(rows)
         out = self._new(call.shape)
-        if not out.size:
-            return out
-        if isinstance(row, Each):
-            self._each(row, call, out.ravel())
-            return out
-        values = self._addresses(first)
+        into = _rows(out.addresses, axis) if out.size == rows.size else out.addresses.reshape(-1, 1)
         if isinstance(row, Fold):
-            self._fold(row, _rows(values, _axis(call, 0)), out.ravel())
-        elif isinstance(row, Along):
-            rows = _rows(values, _axis(call, row.axis))
-            into = _rows(out, _axis(call, row.axis)) if out.shape == values.shape else out.reshape(-1, 1)
-            for one, to in zip(rows, into, strict=True):
-                self._call(row.javascript, one, to)
-        else:
-            assert isinstance(row, Pick)
-            for one, to, place in zip(*_picked(call, values, self._addresses(others[0])), strict=True):
-                self._call("pick", one, out.ravel()[to : to + 1], place)
+            self._fold(row.javascript, rows, into)
+            return out
+        for one, to in zip(rows.tolist(), into.tolist(), strict=True):
+            self.loops.append(Loop(row.javascript, len(one), (Span(0, to[0], 1), Span(0, one[0], 1))))
         return out
 
-    def _each(self, row: Each, call: Call, out: np.ndarray) -> None:
-        given, truths = (call.arguments, call.dtype.kind == "b" and call.function in TRUTHS)
-        code = TABLE[TRUTHS[call.function]].javascript if truths else row.javascript  # type: ignore[union-attr]
-        operands = [x if _literal(x) else _spread(self._addresses(x), call.shape) for x in given]
-        if row is TABLE[np.power] and _literal(given[1]) and given[1] in POWERS:
-            code, operands = POWERS[given[1]], operands[:1]
-        self._loop(code, out, operands)
+    def _loop(self, operation: str, out: Place, *operands: Place) -> Place:
+        """A loop for each stretch in which all go on by even steps; where its results are."""
+        each = [out.spans, *(operand.spread(out.addresses.shape) for operand in operands)]
+        begins = sorted({span.begin for spans in each for span in spans}) if max(map(len, each)) > 1 else [0]
+        for begin, end in zip(begins, [*begins[1:], out.size], strict=True):
+            self.loops.append(Loop(operation, end - begin, tuple(_from(begin, spans) for spans in each)))
+        return out
 
-    def _loop(self, code: str, out: np.ndarray, operands: Sequence[Any]) -> None:
-        """Steps for each stretch in which the addresses of all operands grow by 0 or 1."""
-        for low, high in _stretches([x for x in operands if not _literal(x)], len(out)):
-            spans = [float(x) if _literal(x) else _span(x[low:high]) for x in operands]
-            self._steps.append(Step(code, int(out[low]), high - low, spans, high - low))
-
-    def _fold(self, row: Fold, rows: np.ndarray, out: np.ndarray) -> None:
-        """A loop along each row or, where there are more rows than columns, one over the rows for each column."""
-        code = TABLE[row.by].javascript  # type: ignore[union-attr]
-        if len(rows) < rows.shape[1]:
-            for to, one in zip(out, map(self._in_a_row, rows), strict=True):
-                self._steps.append(Step(code, int(to), len(one), [_span(one)], 1, row.start))
-            return
-        so_far: Any = row.start
-        for column in rows.T:
-            so_far, before = self._new(out.shape), so_far
-            self._loop(code, so_far, [before, column])
-        self._loop("{0}", out, [so_far])
-
-    def _call(self, name: str, row: np.ndarray, to: np.ndarray, *more: np.ndarray) -> None:
-        """A call of a function of the page's library, which goes along a row."""
-        row, into = self._in_a_row(row), to if _even(to) else self._new(to.shape)
-        places = [row[0], len(row), into[0], *more]
-        reads = [range(row[0], row[-1] + 1), *(range(place, place + 1) for place in more)]
-        self._steps.append(Step(f"{name}({','.join(map(str, places))});", int(into[0]), 0, reads, len(into)))
-        if into is not to:
-            self._loop("{0}", to, [into])
+    def _fold(self, operation: str, rows: np.ndarray, into: np.ndarray) -> None:
+        """The first number of each row, and what comes of it with each of the rest; the longer way in one loop."""
+        self._loop(COPY, Place(into[:, :1]), Place(rows[:, :1]))
+        rest, kept = rows[:, 1:], into.shape == rows.shape
+        result = into[:, 1:] if kept else np.broadcast_to(into, rest.shape)
+        each = [result, into[:, :-1] if kept else result, rest]
+        if rest.size:
+            self._loop(operation, *map(Place, each if len(rows) < len(rest.T) else map(np.transpose, each)))
 
     def _in_a_row(self, addresses: np.ndarray) -> np.ndarray:
-        """The addresses one after the other; copied where they are not."""
-        if _even(addresses):
+        """Addresses one after the other; copied where they are not."""
+        if (np.diff(addresses.ravel()) == 1).all():
             return addresses
-        copied = self._new(addresses.shape)
-        self._loop("{0}", copied, [addresses])
-        return copied
+        return self._loop(COPY, self._new(addresses.shape), Place(addresses)).addresses
 
 
-def _literal(argument: Any) -> bool:
-    return not isinstance(argument, (Ref, np.ndarray)) and np.ndim(argument) == 0
-
-
-def _even(addresses: np.ndarray) -> bool:
-    return bool((np.diff(addresses) == 1).all())
-
-
-def _spread(addresses: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    return (addresses if addresses.shape == shape else np.broadcast_to(addresses, shape)).ravel()
-
-
-def _axis(call: Call, default: int | None) -> Any:
-    return call.named.get("axis", call.arguments[1] if len(call.arguments) > 1 else default)
+def _from(begin: int, spans: list[Span]) -> Span:
+    """What is left, from a number on, of the span that it is in."""
+    span = spans[bisect_right(spans, begin, key=attrgetter("begin")) - 1] if len(spans) > 1 else spans[0]
+    return Span(begin, span.first + (begin - span.begin) * span.step, span.step)
 
 
 def _rows(addresses: np.ndarray, axis: Any) -> np.ndarray:
@@ -189,63 +162,4 @@ def _rows(addresses: np.ndarray, axis: Any) -> np.ndarray:
     addresses = np.atleast_1d(addresses)
     axes = tuple(range(addresses.ndim)) if axis is None else axis if isinstance(axis, tuple) else (axis,)
     last = np.moveaxis(addresses, axes, range(-len(axes), 0))
-    return last.reshape(int(np.prod(last.shape[: last.ndim - len(axes)])), -1)
-
-
-def _picked(call: Call, values: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, range, np.ndarray]:
-    """For each result the row from which it is picked, its number, and the address of its place in the row."""
-    if call.function is np.take:
-        rows, places = (np.repeat(_rows(values, _axis(call, None)), places.size, 0), places.ravel())
-        places = np.tile(places, len(rows) // len(places))
-    else:
-        places = np.broadcast_to(places, (*np.broadcast_shapes(values.shape[:-1], places.shape[:-1]), places.shape[-1]))
-        rows = np.broadcast_to(values[..., None, :], (*places.shape, values.shape[-1])).reshape(places.size, -1)
-    return rows, range(places.size), places.ravel()
-
-
-def _span(addresses: np.ndarray) -> Span:
-    return Span(int(addresses[0]), int(addresses[1] - addresses[0]) if len(addresses) > 1 else 0)
-
-
-def _stretches(operands: Sequence[np.ndarray], count: int) -> Iterator[tuple[int, int]]:
-    """From where to where every operand's addresses grow by one number, 0 or 1."""
-    if count < 2 or not operands:
-        yield from [(0, count)] * bool(count)
-        return
-    steps = np.diff(np.reshape(operands, (len(operands), count)), axis=-1)
-    ok = ((steps == 0) | (steps == 1)).all(0)
-    same = np.append(False, (steps[:, 1:] == steps[:, :-1]).all(0))
-    low = 0
-    for k in np.flatnonzero(~(ok & same)):
-        if k > low or not ok[k]:  # the step from k to k + 1 is another than the one before
-            yield low, int(k) + 1
-            low = int(k) + 1
-    yield low, count
-
-
-def _schedule(steps: Sequence[Step], size: int, outputs: Sequence[np.ndarray]) -> None:
-    """The group of each step, its stage first, and which results are read from the heap."""
-    maker, counts = np.full(size, -1), defaultdict[Any, int](int)
-    for k, step in enumerate(steps):
-        stage = max((_earliest(steps[m], step, x) for m, x in _made(maker, step)), default=0)
-        maker[step.out : step.out + step.results] = k
-        kind = (stage, 2 if step.count == 0 else int(step.count > 1), step.count)
-        step.group = (*kind, counts[kind] // LONGEST)
-        counts[kind] += 1
-    for step in steps:
-        for m, x in _made(maker, step):
-            steps[m].stored |= steps[m].group != step.group or not step.beside(steps[m], x)
-    for m in {m for addresses in outputs for m in maker[addresses].tolist() if m >= 0}:
-        steps[m].stored = True
-
-
-def _made(maker: np.ndarray, step: Step) -> Iterator[tuple[int, Any]]:
-    """The steps that make what a step reads, with the operand that reads it."""
-    for x, addresses in step.reads():
-        yield from ((m, x) for m in set(maker[addresses.start : addresses.stop].tolist()) if m >= 0)
-
-
-def _earliest(made: Step, step: Step, operand: object) -> int:
-    """The first stage in which a step can stand; single numbers come before the loops of a stage, calls after them."""
-    single = made.count == 1 and made.start is None
-    return made.group[0] + (not single and not step.beside(made, operand))
+    return last.reshape(prod(last.shape[: last.ndim - len(axes)]), -1)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -22,18 +22,18 @@ class Each:
 
     javascript: str
 
-    @cached_property
+    @property
     def operands(self) -> int:
         """How many numbers it takes."""
-        return sum(f"{{{k}}}" in self.javascript for k in range(3))
+        return 1 + ("{1}" in self.javascript) + ("{2}" in self.javascript)
 
 
 @dataclass(frozen=True)
 class Fold:
-    """Many numbers become one along axes: by the operation ``by``, from ``start``."""
+    """An operation on two numbers makes one of many along an axis, or of each and of all before it."""
 
-    by: Callable[..., object]
-    start: float
+    javascript: str
+    axis: int | None = 0
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,6 @@ class Along:
 
     javascript: str
     axis: int | None
-
-
-@dataclass(frozen=True)
-class Pick:
-    """Numbers are picked from rows, at computed places."""
 
 
 @dataclass(frozen=True)
@@ -61,22 +56,16 @@ class Written:
     by: Callable[..., object]
 
 
-Row = Each | Fold | Along | Pick | Move | Written
+Row = Each | Fold | Along | Move | Written
 
 
-def _library(*names: str) -> dict[object, Row]:
+def _library(*names: str) -> dict[object, Each]:
     """Functions of one number that JavaScript has by the same name."""
     spelled = {name: name.replace("arc", "a").replace("absolute", "abs") for name in names}
     return {getattr(np, name): Each(f"M.{spelled[name]}({{0}})") for name in names}
 
 
-def _truth(test: str) -> Each:
-    return Each(f"+({test})")
-
-
 _POWER = Each("pow({0},{1})")
-POWERS = {-1: "1/{0}", 0: "1", 0.5: "M.sqrt({0})", 1: "{0}", 2: "{0}*{0}", 3: "{0}*{0}*{0}"}
-"""Powers that need no logarithm; all but the cube are worked out in this way by numpy, too."""
 
 _MOVES: tuple[object, ...] = (
     *(operator.getitem, np.broadcast_to, np.stack, np.concatenate, np.expand_dims, np.squeeze, np.reshape, np.ravel),
@@ -84,7 +73,7 @@ _MOVES: tuple[object, ...] = (
     *(np.column_stack, np.atleast_1d, np.atleast_2d, np.copy, np.diagonal),
 )
 
-TABLE: dict[object, Row] = {
+_EACH: dict[Any, Each] = {
     np.add: Each("{0}+{1}"),
     np.subtract: Each("{0}-{1}"),
     np.multiply: Each("{0}*{1}"),
@@ -112,39 +101,37 @@ TABLE: dict[object, Row] = {
     np.radians: Each("{0}*(M.PI/180)"),
     np.rad2deg: Each("{0}*(180/M.PI)"),
     np.degrees: Each("{0}*(180/M.PI)"),
-    np.less: _truth("{0}<{1}"),
-    np.less_equal: _truth("{0}<={1}"),
-    np.greater: _truth("{0}>{1}"),
-    np.greater_equal: _truth("{0}>={1}"),
-    np.equal: _truth("{0}==={1}"),
-    np.not_equal: _truth("{0}!=={1}"),
-    np.logical_and: _truth("{0}!==0&&{1}!==0"),
-    np.logical_or: _truth("{0}!==0||{1}!==0"),
-    np.logical_xor: _truth("({0}!==0)!==({1}!==0)"),
-    np.logical_not: _truth("{0}===0"),
-    np.bitwise_and: _truth("{0}!==0&&{1}!==0"),
-    np.bitwise_or: _truth("{0}!==0||{1}!==0"),
-    np.bitwise_xor: _truth("{0}!=={1}"),
-    np.invert: _truth("{0}===0"),
-    np.isfinite: _truth("Number.isFinite({0})"),
-    np.isnan: _truth("{0}!=={0}"),
-    np.isinf: _truth("M.abs({0})===Infinity"),
+    np.less: Each("{0}<{1}"),
+    np.less_equal: Each("{0}<={1}"),
+    np.greater: Each("{0}>{1}"),
+    np.greater_equal: Each("{0}>={1}"),
+    np.equal: Each("{0}==={1}"),
+    np.not_equal: Each("{0}!=={1}"),
+    np.logical_and: Each("{0}!==0&&{1}!==0"),
+    np.logical_or: Each("{0}!==0||{1}!==0"),
+    np.logical_xor: Each("({0}!==0)!==({1}!==0)"),
+    np.logical_not: Each("{0}===0"),
+    np.bitwise_and: Each("{0}&{1}"),
+    np.bitwise_or: Each("{0}|{1}"),
+    np.bitwise_xor: Each("{0}^{1}"),
+    np.invert: Each("{0}===0"),
+    np.isfinite: Each("Number.isFinite({0})"),
+    np.isnan: Each("{0}!=={0}"),
+    np.isinf: Each("M.abs({0})===Infinity"),
     np.where: Each("{0}!==0?{1}:{2}"),
-    np.add.reduce: Fold(np.add, 0.0),
-    np.multiply.reduce: Fold(np.multiply, 1.0),
-    np.minimum.reduce: Fold(np.minimum, np.inf),
-    np.maximum.reduce: Fold(np.maximum, -np.inf),
-    np.fmin.reduce: Fold(np.fmin, np.nan),
-    np.fmax.reduce: Fold(np.fmax, np.nan),
-    np.logical_and.reduce: Fold(np.logical_and, 1.0),
-    np.logical_or.reduce: Fold(np.logical_or, 0.0),
-    np.bitwise_and.reduce: Fold(np.logical_and, 1.0),
-    np.bitwise_or.reduce: Fold(np.logical_or, 0.0),
-    np.argmax: Along("argmax", None),
-    np.add.accumulate: Along("accumulate", 0),
-    np.sort: Along("sorted", -1),
-    written.picked: Pick(),
+    written.picked: Each("H[a+{1}+({1}<0?{2}:0)]"),
     written.whole: Each("M.trunc({0})"),
+}
+_FOLDED = (np.add, np.multiply, np.minimum, np.maximum, np.fmin, np.fmax, np.logical_and, np.logical_or)
+
+TABLE: dict[object, Row] = {
+    **_EACH,
+    **{function.reduce: Fold(_EACH[function].javascript) for function in _FOLDED},
+    np.bitwise_and.reduce: Fold("{0}&{1}"),
+    np.bitwise_or.reduce: Fold("{0}|{1}"),
+    np.add.accumulate: Fold("{0}+{1}"),
+    np.argmax: Along("argmax", None),
+    np.sort: Along("sorted", -1),
     **dict.fromkeys(_MOVES, Move()),
     **{function: Written(by) for function, by in written.BY.items()},
 }

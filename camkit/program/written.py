@@ -18,8 +18,8 @@ def whole(values: Array) -> Array:
     return values.astype(int)
 
 
-def picked(values: Array, places: Array) -> Array:
-    """What stands in each row at the places of that row."""
+def picked(values: Array, places: Array, size: int) -> Array:
+    """What stands in each row, of so many numbers, at the places of that row."""
     return np.take_along_axis(values, places, axis=-1)
 
 
@@ -93,12 +93,12 @@ def _append(a: Array, values: Array, axis: int | None = None) -> Array:
 def _take(a: Any, indices: Any, axis: int | None = None) -> Any:
     a, size, shape = (np.ravel(a) if axis is None else _last(a, axis), np.size(indices), np.shape(indices))
     places = np.broadcast_to(np.ravel(indices), (*a.shape[:-1], size))
-    return np.reshape(a.recording.call(picked, a, places), (*a.shape[:-1], *shape))
+    return np.reshape(a.recording.call(picked, a, places, a.shape[-1]), (*a.shape[:-1], *shape))
 
 
 def _take_along_axis(arr: Any, indices: Any, axis: int = -1) -> Any:
-    recording = (indices if known(arr) else arr).recording
-    found = recording.call(picked, np.moveaxis(arr, axis, -1), np.moveaxis(indices, axis, -1))
+    recording, rows = ((indices if known(arr) else arr).recording, np.moveaxis(arr, axis, -1))
+    found = recording.call(picked, rows, np.moveaxis(indices, axis, -1), rows.shape[-1])
     return np.moveaxis(found, -1, axis)
 
 

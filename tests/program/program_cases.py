@@ -104,10 +104,10 @@ OF_ORDINARY = {
 def case(function):
     """A use of a function of the table, and the arrays that it takes."""
     row, use = TABLE[function], SPECIAL.get(function)
-    if isinstance(row, Each):
-        use, arrays = use or function, [ONE] if row.operands == 1 else list(PAIRS.T)
-    elif use:
+    if use and function is not np.where:
         arrays = [ROWS if function in OF_ROWS else ORDINARY if function in OF_ORDINARY else ONE]
+    elif isinstance(row, Each):
+        use, arrays = use or function, [ONE] if row.operands == 1 else list(PAIRS.T)
     else:
         use, arrays = (lambda m: function(m, axis=-1)), [ROWS]
     if function in TRUTHS:
