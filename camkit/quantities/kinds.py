@@ -137,7 +137,7 @@ ARRAYS = {
 """What an array holds, by the letter of its type; numbers need no word."""
 
 
-def shown(value: object) -> str:
+def shown(value: Any) -> str:
     """``value`` as a sentence can hold it.
 
     >>> shown("22"), shown([]), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
@@ -147,7 +147,7 @@ def shown(value: object) -> str:
     """
     if isinstance(value, str) and len(value) + 2 > LONGEST:
         value = f"{value[:27]}...{value[-27:]}"
-    if not known(value):
+    if not (known(value) or np.ndim(value)):
         return text_of(value, ".6g")
     if isinstance(value, np.generic):
         value = value.item()

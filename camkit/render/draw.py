@@ -246,7 +246,7 @@ def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, object],
         artist.set_bbox({"facecolor": colour("paper", theme=theme), "edgecolor": edge, "pad": 1.2, "alpha": 0.85})
     if mark.framed:
         style["color"] = colour("ink", theme=theme)
-    words = mark.words if isinstance(mark.words, shown.Formula) else plain(mark.said)
+    words = mark.words if isinstance(mark.words, shown.Formula) else plain(mark.words)
     at = mark.anchor.split()
     across = next((a for a in at if a in ("left", "right")), "center")
     upright = next((a for a in at if a in ("top", "bottom")), "center")

@@ -207,10 +207,10 @@ def weight_bars(judgements: Judgements) -> Picture:
     for i, (name, weight) in enumerate(zip(names, judgements.weights, strict=True)):
         marks.append(Line(name, [0, 100 * weight], [-i, -i], role="position", stroke="bar"))
         share = 100 * weight
-        marks.append(Text(f"{name} value", share + 1.5, -i, "{:.1f} %", values=(share,), anchor="left", size=11))
+        marks.append(Text(f"{name} value", share + 1.5, -i, f"{share:.1f} %", anchor="left", size=11))
     ratio = judgements.consistency_ratio
     marks.append(Points("inconsistent", gaps(100.0, ratio > 0.1), 0.62, role="trouble"))
-    marks.append(Text("ratio", 98, 0.62, "consistency ratio {:.3f}", values=(ratio,), anchor="right", size=11))
+    marks.append(Text("ratio", 98, 0.62, f"consistency ratio {ratio:.3f}", anchor="right", size=11))
     axes = Axes(
         title="Weights",
         xlabel="weight  [%]",

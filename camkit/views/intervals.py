@@ -84,9 +84,9 @@ def _told(way: str, part: Any, x: Value, top: Value, found: tuple[Value, Value],
         "undercut\n": ~there & cut,
         "loses\ncontact": ~there & held & ~cut,
     }
-    words = f"{way} {{:.4g}}\nat {{:.1f}}{along.sign}"
+    words = f"{way} {found[0]:.4g}\nat {found[1]:.1f}{along.sign}"
     return [
-        Text(f"{way} value", gaps(x, there), top, words, values=found, anchor="top"),
+        Text(f"{way} value", gaps(x, there), top, words, anchor="top"),
         *(
             Text(f"{way} {why}", gaps(x, where), top, f"{way} {why}", role="trouble", anchor="top")
             for why, where in reasons.items()

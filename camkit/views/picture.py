@@ -202,8 +202,6 @@ class Text(Mark):
     x: Value
     y: Value
     words: str
-    values: tuple[Value, ...] = field(kw_only=True, default=())
-    """Numbers for the braces in ``words``, if there are any: a view that is recorded does not know them."""
     anchor: str = field(kw_only=True, default="")
     """Which part of the words is at the place: "left" or "right", "top" or "bottom", or both; else the middle."""
     size: float = field(kw_only=True, default=10.0)
@@ -212,15 +210,6 @@ class Text(Mark):
     """Whether the background is kept clear behind them."""
     framed: bool = field(kw_only=True, default=False)
     """Whether a box around them has the colour of the role, and the words that of ink."""
-
-    @property
-    def said(self) -> str:
-        """The words with their numbers.
-
-        >>> Text("here", 1.0, 2.0, "{:.1f} mm", values=(3.14,)).said
-        '3.1 mm'
-        """
-        return self.words.format(*self.values) if self.values else self.words
 
 
 @dataclass(frozen=True)

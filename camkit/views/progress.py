@@ -144,7 +144,7 @@ def least_over_bound(name: str) -> View:
         bound = np.array([best.study.free[name][1] for best in found]) / declared.factor
         least = np.array([best.f for best in found]) / factor(measure.unit)
         told = [
-            Text(f"at {x:g}", x, y, " {:.2f}", values=(y,), anchor="left bottom", size=11)
+            Text(f"at {x:g}", x, y, f" {y:.2f}", anchor="left bottom", size=11)
             for x, y in zip(bound, least, strict=True)
         ]
         label = f"bound of the {words(name)}  [{declared.unit}]"

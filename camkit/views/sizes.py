@@ -45,8 +45,7 @@ def utilisation(analysis: Any) -> Picture:
         ends, y = np.stack([0 * use, np.minimum(use / percent, MOST)]), [-i, -i]
         marks.append(Line(name, gaps(ends, use <= 1), y, role="position", stroke="bar"))
         marks.append(Line(f"{name}, missed", gaps(ends, use > 1), y, role="trouble", stroke="bar"))
-        values = (use / percent,)
-        marks.append(Text(f"{name} value", 161, -i, "{:.1f} %", values=values, anchor="right", size=11))
+        marks.append(Text(f"{name} value", 161, -i, f"{use / percent:.1f} %", anchor="right", size=11))
     axes = Axes(
         title="Limits used up",
         xlabel="utilisation  [%]",
@@ -62,14 +61,14 @@ def section(analysis: Any) -> Picture:
     (_, own), *others = analysis.rings.items()
     outer, inner = (circle((0, 0), diameter / mm / 2) for diameter in own)
     window = np.maximum(82.0, 0.58 * own[0] / mm) * np.array([-1, 1])
-    numbers = (own[0] / mm, own[1] / mm, (own[0] - own[1]) / mm / 2)
+    D, d = own / mm
     return Picture.of(
         Axes(title="Section, to scale", xlabel="[mm]", ylabel="[mm]", equal=True, xlim=window, ylim=window),
         Polygon("wall", *np.hstack([outer, inner[:, ::-1]]), role="flank", opacity=0.55),
         Line("outside", *outer, role="position"),
         Line("inside", *inner, role="position"),
         [_ring(i, name, ring / mm) for i, (name, ring) in enumerate(others)],
-        Text("sizes", 0, 0, "D = {:.5g} mm\nd = {:.5g} mm\nwall {:.4g} mm", values=numbers, size=11),
+        Text("sizes", 0, 0, f"D = {D:.5g} mm\nd = {d:.5g} mm\nwall {(D - d) / 2:.4g} mm", size=11),
     )
 
 

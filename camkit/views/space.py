@@ -53,9 +53,8 @@ def linkage_in_space(
     _links(scene, here)
     _pressure_angles_at(scene, here)
     ends = (-scene.radius, scene.radius), (-1.2 * scene.radius, 0.96 * scene.radius)
-    stands = (here.crank_angle[0] / deg, here.rocker_angle[0] / deg)
-    said = "crank {:.1f}°   rocker {:.1f}°"
-    numbers = Text("numbers", ends[0][0], ends[1][1], said, values=stands, anchor="left top", size=11)
+    said = f"crank {here.crank_angle[0] / deg:.1f}°   rocker {here.rocker_angle[0] / deg:.1f}°"
+    numbers = Text("numbers", ends[0][0], ends[1][1], said, anchor="left top", size=11)
     return scene.picture(Axes(title="Linkage in space", equal=True, bare=True, xlim=ends[0], ylim=ends[1]), numbers)
 
 
@@ -166,7 +165,7 @@ def _pressure_angles_at(scene: Turntable, here: Any) -> None:
         arc = start[:, None] + 0.62 * size * fan / np.linalg.norm(fan, axis=0)
         scene.path(f"{name} arc", arc, at=18.0, **style)
         place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start, axis=0)
-        scene.words(name, place, f"{name} {{:.0f}}°", values=(angle[0] / deg,), size=11, bold=True)
+        scene.words(name, place, f"{name} {angle[0] / deg:.0f}°", size=11, bold=True)
 
 
 def _curve(key: str, x: Array, y: Array, turn: float | None, named: bool = True, **style: Unpack[Colour]) -> list[Mark]:

@@ -110,9 +110,8 @@ def sobol_bars(tolerances: Tolerances) -> Picture:
             label = words(name) if i == 0 else ""
             ends = gaps(np.stack([start, end]), end > start)
             marks.append(Line(f"{name} {i}", ends, [-i, -i], stroke="bar", label=label, **style))
-            middle, values = gaps((start + end) / 2, end - start > 8), (end - start,)
-            key = f"{name} {i} value"
-            marks.append(Text(key, middle, -i, "{:.0f}", role="paper", bold=True, size=11, values=values))
+            middle, share = gaps((start + end) / 2, end - start > 8), f"{end - start:.0f}"
+            marks.append(Text(f"{name} {i} value", middle, -i, share, role="paper", bold=True, size=11))
     for i in range(len(measures)):
         still = gaps(2.0, ~shares[i].any())
         marks.append(Text(f"still {i}", still, -i, "does not vary", role="guide", anchor="left", size=11))

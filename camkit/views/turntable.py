@@ -103,18 +103,10 @@ class Turntable:
         x, y, _ = self.seen(corners)
         self.put(at, Polygon(key, x, y, edged=edged, **style))
 
-    def words(
-        self,
-        key: str,
-        point: ArrayLike,
-        said: str,
-        size: float = 10.0,
-        bold: bool = False,
-        values: tuple[Value, ...] = (),
-    ) -> None:
+    def words(self, key: str, point: ArrayLike, said: str, size: float = 10.0, bold: bool = False) -> None:
         """A text at ``point`` ``(3,)``."""
         x, y, _ = self.seen(point)
-        self.put(19.0, Text(key, x, y, said, size=size, bold=bold, values=values))
+        self.put(19.0, Text(key, x, y, said, size=size, bold=bold))
 
     def axis(self, key: str, point: Array, along: Array, **style: Unpack[MarkStyle]) -> None:
         """A line through ``point``, ``along`` being direction and half its length."""

@@ -181,9 +181,9 @@ def test_the_name_of_a_limit_is_of_ink_in_a_frame_of_its_colour(ax, theme):
     assert to_hex(name.get_bbox_patch().get_facecolor()) == colour("paper", theme=theme)
 
 
-def test_words_take_their_numbers_and_are_not_shown_where_there_is_no_place(ax):
+def test_words_change_and_are_not_shown_where_there_is_no_place(ax):
     def told(x, value):
-        return Picture.of(Axes(), Text("told", x, 2.0, "{:.1f} mm", values=(value,)))
+        return Picture.of(Axes(), Text("told", x, 2.0, f"{value:.1f} mm"))
 
     draw_picture(told(1.0, 3.14), ax)
     assert artist_of(ax, "told").get_text() == "3.1 mm"

@@ -107,7 +107,7 @@ def test_level_curves_and_regions_of_a_known_field() -> None:
 
 def named(view) -> dict[str, Text]:
     """The words of a view on axes of 700 x 500 pixels, with those that its contours get."""
-    return {mark.key: mark for mark in outlined(view, np.array([700, 500])) if isinstance(mark, Text) and mark.said}
+    return {mark.key: mark for mark in outlined(view, np.array([700, 500])) if isinstance(mark, Text) and mark.words}
 
 
 def test_the_contours_of_the_area_have_their_values() -> None:
@@ -166,7 +166,7 @@ def test_the_bars_are_the_utilisations() -> None:
     for name, use in a.utilisation.items():
         assert shown[name].x[1] == pytest.approx(100 * use)
         assert np.isnan(shown[f"{name}, missed"].x).all()
-        assert shown[f"{name} value"].said == f"{100 * use:.1f} %"
+        assert shown[f"{name} value"].words == f"{100 * use:.1f} %"
     shown = utilisation(OTHERS[0].analyse())
     assert shown["twist, missed"].x[1] == 125
     assert shown["twist, missed"].role == "trouble"
@@ -180,7 +180,7 @@ def test_the_section_is_to_scale() -> None:
     for key, diameter in (("outside", 128.64), ("inside", 101.78)):
         assert np.hypot(shown[key].x, shown[key].y) == pytest.approx(diameter / 2)
     assert shown.axes.equal
-    assert shown["sizes"].said == "D = 128.64 mm\nd = 101.78 mm\nwall 13.43 mm"
+    assert shown["sizes"].words == "D = 128.64 mm\nd = 101.78 mm\nwall 13.43 mm"
     for name, ring in list(a.rings.items())[1:]:
         radius = np.hypot(shown[name].x, shown[name].y)
         assert np.nanmax(radius) == pytest.approx(ring[0] / mm / 2)

@@ -110,9 +110,9 @@ def test_links_in_space_are_where_the_analysis_has_them(design, azimuth, elevati
     faint = projected(design, turn, other, azimuth * deg, elevation * deg)
     np.testing.assert_allclose(np.diff(data(ax, "other branch")), np.diff(faint), atol=1e-9)
     numbers = f"crank {turn / deg:.1f}°   rocker {here.rocker_angle[0] / deg:.1f}°"
-    assert ax["numbers"].said == numbers
+    assert ax["numbers"].words == numbers
     for name, angle in (("α₁", here.crank_pressure_angle), ("α₂", here.rocker_pressure_angle)):
-        assert ax[name].said == f"{name} {angle[0] / deg:.0f}°"
+        assert ax[name].words == f"{name} {angle[0] / deg:.0f}°"
 
 
 def test_seen_from_above_circles_and_pressure_angles_are_true():
@@ -151,7 +151,7 @@ def test_where_the_crank_cannot_go_is_shown():
     assert 360 * np.isfinite(never[0]).mean() == pytest.approx(360 - np.ptp(possible), abs=6)
     assert np.isfinite(data(ax, "limits")).sum(-1).tolist() == [2, 2]
     high = PRACTICAL.analyse().turn_range[1] / deg
-    assert ax["numbers"].said.startswith(f"crank {high:.1f}°")
+    assert ax["numbers"].words.startswith(f"crank {high:.1f}°")
     assert ax["never"].role == "trouble"
 
 
