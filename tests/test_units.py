@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import camkit
-from camkit.units import convert, factor, in_unit
+from camkit.units import convert, factor, in_unit, known_units
 from camkit.units.typed import typed_number, typed_whole
 
 PREFIX = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1, "k": 1e3, "M": 1e6, "G": 1e9}
@@ -117,6 +117,15 @@ def test_numbers_of_every_type_are_converted():
         assert convert(one, "m", "mm") == 1000
     assert convert(0, "m", "mm") == 0
     assert np.isnan(convert(np.nan, "m", "mm"))
+
+
+def test_every_unit_is_listed_by_its_name():
+    units = known_units()
+    assert {"mm", "um", "µm", "°", "deg", "rpm", "in", "inch", "lbf", "psi", "%", "kPa", "min"} < set(units)
+    assert not {"kdeg", "mpsi", "kin"} & set(units)
+    for name, (worth, (length, mass, time, angle)) in units.items():
+        assert worth == factor(name)
+        assert convert(1.0, name, f"m^{length} kg^{mass} s^{time} rad^{angle}") == pytest.approx(worth, rel=1e-14)
 
 
 @pytest.mark.parametrize("text", [None, 1.0, b"1"])

@@ -90,6 +90,16 @@ def factor(unit: str) -> float:
     return _unit(unit).factor
 
 
+def known_units() -> dict[str, tuple[float, tuple[float, float, float, float]]]:
+    """Every unit by its name: its SI value, and the powers of length, mass, time and angle that it is made of.
+
+    >>> known_units()["kN"], known_units()["rpm"] == (rpm, (0, 0, -1, 1))
+    ((1000.0, (1, 1, -2, 0)), True)
+    """
+    prefixed = (prefix + name for prefix in _PREFIXES for name in _SI)
+    return {name: (one.factor, one.dimension) for name in (*_SI, *_OTHERS, *prefixed) if (one := _named(name))}
+
+
 def in_unit(value: Any, unit: str) -> Any:
     """``value`` (SI, number or array) expressed in ``unit``, free of the last digit's noise for a number.
 
