@@ -137,16 +137,22 @@ class RSSR(Links):
 
         A range that passes 0 begins below 0.
         """
-        ends = self.limit_angles()
-        turn = np.array([[0, 2 * np.pi]])
-        ranges = np.stack([ends, np.append(ends[1:], ends[:1] + 2 * np.pi)], axis=-1) if len(ends) else turn
+        return self.all_possible_crank_angles[np.isfinite(self.all_possible_crank_angles[:, 0])]
+
+    @cached_property
+    def all_possible_crank_angles(self) -> np.ndarray:
+        """The same filled up with ``nan``, ``(2, 2)``."""
+        turn, missing = 2 * np.pi, np.isnan(self.all_limit_angles)
+        ends = np.where(missing, np.where(missing[:1], 0.0, self.all_limit_angles[:1]), self.all_limit_angles)
+        starts = np.append(ends[:1], ends[1:] + np.where(missing[1:], turn, 0.0))
+        ranges = np.stack([starts, np.append(starts[1:], starts[:1] + turn)], axis=-1)
         possible = self._assembles_between(ranges)
-        if possible.all() or not possible.any():
-            return turn[: int(possible[0])]
-        low, high = ends[possible & ~np.roll(possible, 1)], ends[~possible & np.roll(possible, 1)]
-        high = np.roll(high, -int(high[0] < low[0]))
-        past_zero = high < low
-        return np.sort(np.stack([low - np.where(past_zero, 2 * np.pi, 0), high], axis=-1), axis=0)
+        possible = np.where(missing, possible[:1], possible)
+        before = np.roll(possible, 1)
+        low, high = (np.sort(np.where(begins, ends, np.nan))[:2] for begins in (possible & ~before, before & ~possible))
+        past_zero = (high[0] < low[0]) & (low == np.fmax.reduce(low))
+        parts = np.stack([np.sort(low - np.where(past_zero, turn, 0.0)), high], axis=-1)
+        return np.where(possible.all(), np.stack([[0.0, turn], [np.nan, np.nan]]), parts)
 
     def _assembles_between(self, ranges: Array) -> Array:
         """Whether the linkage can be assembled in ranges ``(k, 2)`` of crank angles that begin and end at a limit.

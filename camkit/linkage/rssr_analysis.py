@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from ..geometry import dot, inclination
-from ..quantities import fails
+from ..quantities import text_if, unless
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import limits
@@ -66,27 +66,30 @@ class RSSRAnalysis:
 
     def refuse_impossible(self) -> None:
         """``ValueError`` in a sentence if this is one design and it cannot be assembled."""
-        if not fails(self.buildable[..., 0]):
-            return
-        possible = self.linkage.possible_crank_angles()
-        if not len(possible):
-            low, high = self._joint_distances()
-            raise ValueError(
-                f"the coupler of {self.linkage.coupler / mm:.5g} mm cannot be assembled at any crank angle; "
-                f"from crank to rocker it is {low / mm:.5g} to {high / mm:.5g} mm"
-            )
-        ranges = " and ".join(f"{low / deg:.5g} to {high / deg:.5g}" for low, high in possible)
+        if refuse := unless(self.buildable[..., 0]):
+            (low, high), (other_low, other_high) = self.linkage.all_possible_crank_angles / deg
+            other = text_if(np.isfinite(other_low), f" and {other_low:.5g} to {other_high:.5g}")
+            refuse(text_if(np.isfinite(low), self._why_not(f"{low:.5g} to {high:.5g}{other}"), self._never()))
+
+    def _never(self) -> str:
+        low, high = self._joint_distances()
+        return (
+            f"the coupler of {self.linkage.coupler / mm:.5g} mm cannot be assembled at any crank angle; "
+            f"from crank to rocker it is {low / mm:.5g} to {high / mm:.5g} mm"
+        )
+
+    def _why_not(self, ranges: str) -> str:
+        """Which of the crank angles are not within the ranges that are possible."""
         if self.through:
             start, end = self.crank_angle[[0, -1]] / deg
-            part = "; give it other sizes for a whole turn, or analyse a part of the turn" if end - start >= 360 else ""
-            raise ValueError(
+            part = "; give it other sizes for a whole turn, or analyse a part of the turn"
+            return (
                 f"the crank cannot sweep from {start:.5g} to {end:.5g} deg: "
-                f"the linkage can be assembled from {ranges} deg only{part}"
+                f"the linkage can be assembled from {ranges} deg only" + text_if(end - start >= 360, part)
             )
-        first = self.crank_angle[~limits.reaches(*self._closure)][0]
-        raise ValueError(
-            f"at a crank angle of {first / deg:.5g} deg the linkage cannot be assembled; possible are {ranges} deg"
-        )
+        first = np.argmax(np.logical_not(limits.reaches(*self._closure)), axis=-1)[..., None]
+        angle = np.take_along_axis(self._turn, first, -1)[..., 0] / deg
+        return f"at a crank angle of {angle:.5g} deg the linkage cannot be assembled; possible are {ranges} deg"
 
     @cached_property
     def _room_to_turn(self) -> tuple[Array, Array, Array]:
@@ -129,13 +132,13 @@ class RSSRAnalysis:
         angles = start + np.sort(np.append(2 * np.pi * np.linspace(0, 1, n), beside))
         return RSSRAnalysis(self.linkage, angles[:, None], branch or self.branch, self.load)
 
-    def _joint_distances(self) -> tuple[float, float]:
+    def _joint_distances(self) -> tuple[Value, Value]:
         """The least and the largest distance from any place of the crank's ball joint to any of the rocker's."""
         a, b, k = self.linkage.closure(np.linspace(0, 2 * np.pi, 3601))
         twice = 2 * self.linkage.crank * self.linkage.rocker
         squared = self.linkage.coupler**2 + twice * k
         reach = twice * np.sqrt(a**2 + b**2)
-        return np.sqrt(max((squared - reach).min(), 0)), np.sqrt((squared + reach).max())
+        return np.sqrt(np.maximum((squared - reach).min(), 0)), np.sqrt((squared + reach).max())
 
     @cached_property
     def discriminant(self) -> np.ndarray:
