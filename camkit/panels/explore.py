@@ -21,13 +21,11 @@ from ..quantities import (
     unremarked,
     value_of,
     with_quantities,
-    words,
 )
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import html, table
-from ..render.picture import below, positions_of, small_png, strip
+from ..render.picture import VIEWPOINT, below, positions_of, small_png, strip, turn_range
 from ..study.study import keeps, refuse_limits
-from ..study.tolerances import ANGLES
 from ..units import deg
 from ..views.defaults import default_views
 from ..views.picture import View
@@ -37,11 +35,6 @@ from .kit.layout import button
 from .kit.orbit import Orbit
 from .kit.panel import IMPOSSIBLE, Panel, reason
 from .kit.picture import DRAWING, LivePicture
-
-VIEWPOINT = {
-    "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
-    "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
-}
 
 
 def changed(design: D, values: Mapping[str, object]) -> D:
@@ -155,11 +148,8 @@ class Explorer(Panel):
 
     def _turn_range(self) -> tuple[str, float, float]:
         """The angle that turns the mechanism, and how far: as the analysis says, or over its own angles."""
-        angle = next((a for a in ANGLES if hasattr(self.analysis, a)), None)
-        if angle is None:
-            raise ValueError(f"the {type(self.start).__name__} has no {' or '.join(map(words, ANGLES))} to turn it by")
-        values = getattr(self.analysis, "turn_range", getattr(self.analysis, angle))
-        return angle, float(np.min(values)), float(np.max(values))
+        angle, low, high = turn_range(self.analysis)
+        return angle, float(low), float(high)
 
     def _buttons(self) -> w.Widget:
         back = "back to the design and the position that the panel began with"

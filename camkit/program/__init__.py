@@ -4,7 +4,7 @@ A program holds numbers and the operations of one table (`operations`), and noth
 place, names stay outside.
 """
 
-from .program import Program, record, recorded
+from .program import Program, record, recorded, unrecorded
 from .record import CannotRecord
 
-__all__ = ["CannotRecord", "Program", "record", "recorded"]
+__all__ = ["CannotRecord", "Program", "record", "recorded", "unrecorded"]

@@ -24,7 +24,7 @@ argmax=(n,o,p,a)=>{let k=0;for(let j=1;j<n&&H[a+k]===H[a+k];j++){const x=H[a+j];
 sorted=(n,o,p,a)=>{H.copyWithin(o,a,a+n);H.subarray(o,o+n).sort()}"""
 """What the operations of the table need; ``H`` is the heap."""
 RUN = """L=[];
-H.set(constants);
+H.set(Float64Array.from(constants,Number));
 for(let o=constants.length,k=0;k<loops.length;){
 const[f,p,...steps]=kinds[loops[k++]],n=loops[k++],at=[0,0,0,0,0,0];
 o+=loops[k++];
@@ -64,11 +64,16 @@ def javascript(program: Program) -> str:
 
     >>> from camkit.program import recorded
     >>> javascript(recorded(lambda given: {"double": 2 * given["x"]}, {"x": 1.5})).removeprefix(f"({MACHINE})")
-    '(3,[2.0],[[2,1]],[[2,0,0,0]],[0,1,1,1,2])'
+    '(3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,1,2])'
     """
+    return f"({MACHINE})({numbers(program)[1:-1]})"
+
+
+def numbers(program: Program) -> str:
+    """What `MACHINE` takes, as JSON; constants are words, which can be infinite or no number."""
     loops = Loops(program)
-    numbers = (loops.size, loops.constants.tolist(), loops.outputs, *_table(loops))
-    return f"({MACHINE})({json.dumps(numbers, separators=(',', ':'))[1:-1]})"
+    constants = [repr(value).replace("inf", "Infinity").replace("nan", "NaN") for value in loops.constants.tolist()]
+    return json.dumps((loops.size, constants, loops.outputs, *_table(loops)), separators=(",", ":"))
 
 
 def _table(loops: Loops) -> tuple[list[tuple[int, ...]], list[int]]:

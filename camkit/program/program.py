@@ -107,7 +107,7 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
         with unremarked(), np.errstate(all="ignore"):
             outputs = function(given)
     except Exception as error:
-        raise _reason(error) from error
+        raise unrecorded(error) or error from error
     texts = {name: recording.texts.parted(value) for name, value in outputs.items() if isinstance(value, str)}
     arrays = {name: value for name, value in outputs.items() if name not in texts}
     found: dict[str | int, Ref | np.ndarray] = {
@@ -118,12 +118,12 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
     return Program(tuple(recording.calls), tuple(inputs), found, texts, recording.refusals)
 
 
-def _reason(error: BaseException) -> BaseException:
+def unrecorded(error: BaseException) -> CannotRecord | None:
     """What cannot be recorded, if that is behind an error: numpy and others put their own before it."""
     behind: BaseException | None = error
     while behind and not isinstance(behind, CannotRecord):
         behind = behind.__cause__ or behind.__context__
-    return behind or error
+    return behind if isinstance(behind, CannotRecord) else None
 
 
 def record(

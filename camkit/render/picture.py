@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import io
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -13,10 +14,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..quantities import Analysable, Measure, refuse_design, refuse_population
+from ..quantities import Analysable, Measure, Quantity, refuse_design, refuse_population, words
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, refuse_arguments
 from ..study.study import refuse_limits
+from ..study.tolerances import ANGLES
 from ..units import deg
 from ..views.defaults import default_views
 from ..views.picture import View
@@ -86,6 +88,30 @@ def positions_of(view: View) -> tuple[str, ...]:
     return tuple(name for name in POSITIONS if name in takes)
 
 
+VIEWPOINT = {
+    "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
+    "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
+}
+"""From where a mechanism in space is seen."""
+
+
+def turn_range(analysis: object) -> tuple[str, Any, Any]:
+    """The angle that turns the mechanism, by name, and from where to where: as the analysis says, or over its own."""
+    angle = next((name for name in ANGLES if hasattr(analysis, name)), None)
+    if angle is None:
+        raise ValueError(f"what is shown has no {' or '.join(map(words, ANGLES))} to turn it by")
+    if hasattr(analysis, "turn_range"):
+        return angle, *analysis.turn_range
+    values = getattr(analysis, angle)
+    return angle, np.min(values), np.max(values)
+
+
+def given_to(view: View, asked: Mapping[str, Any]) -> dict[str, Any]:
+    """What of ``asked`` a view takes."""
+    takes = inspect.signature(view).parameters
+    return {name: value for name, value in asked.items() if name in takes}
+
+
 def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: object) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
@@ -94,10 +120,9 @@ def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked:
     """
     with rc_context(theme_style()):
         for view, ax in zip(views, axes, strict=True):
-            takes = inspect.signature(view)
-            given = {name: value for name, value in asked.items() if name in takes.parameters}
+            given = given_to(view, asked)
             try:
-                takes.bind(analysis, **given)
+                inspect.signature(view).bind(analysis, **given)
             except TypeError as unfit:
                 raise ValueError(f"the view {_name(view)} cannot show an analysis: {unfit}") from None
             with applied(f"the view {_name(view)}", analysis):
@@ -163,6 +188,14 @@ def _bare(ax: Axes, title: str) -> None:
     legend = ax.get_legend()
     if legend:
         legend.remove()
+
+
+def saved(figure: Figure, kind: str) -> bytes:
+    """A figure as a file of a ``kind`` that matplotlib writes: "svg", "pdf"."""
+    out = io.BytesIO()
+    with rc_context(theme_style() | {"svg.hashsalt": "camkit"}):
+        figure.savefig(out, format=kind, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind))
+    return out.getvalue()
 
 
 def below(*pictures: bytes) -> bytes:

@@ -64,13 +64,19 @@ function toEven(text, size, n) {
 }
 
 /**
- * A sentence with its numbers: a part is a text, or the place of an output, whose first number counts, and a spec.
- * @param {(string | [number, string])[]} parts
+ * A sentence with its numbers: a part is a text, or the place of an output, whose first number counts, with a spec
+ * ("~" before it: free of the noise after 15 digits), or with parts that are there if it is not 0.
+ * @param {(string | [number, any])[]} parts
  * @param {ArrayLike<number>[]} outputs
  * @returns {string}
  */
 export function fill(parts, outputs) {
-  return parts.map((part) => (typeof part === "string" ? part : format(outputs[part[0]][0], part[1]))).join("");
+  return parts.map((part) => (typeof part === "string" ? part : filled(outputs[part[0]][0], part[1], outputs))).join("");
+}
+
+function filled(value, how, outputs) {
+  if (typeof how !== "string") return value ? fill(how, outputs) : "";
+  return how.startsWith("~") ? format(Number(format(value, ".15g")), how.slice(1)) : format(value, how);
 }
 
 const LONGEST = 40; // so many characters at most are read as a number

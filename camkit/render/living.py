@@ -1,0 +1,373 @@
+"""A design as a page that computes: its views and measures are recorded once, and the page runs them as sliders move.
+
+What the page shows is plain JSON, its texts included; what it computes is a program (`camkit.program`), whose outputs
+the JSON names by their numbers.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..program import CannotRecord, Program, record, unrecorded
+from ..program.page import MACHINE, numbers
+from ..program.texts import Template
+from ..quantities import (
+    Analysable,
+    Measure,
+    Paths,
+    Quantity,
+    choices_of,
+    measures_of,
+    quantities_of,
+    refuse_design,
+    value_of,
+    words,
+)
+from ..quantities.known import known
+from ..study.study import refuse_limits
+from ..units import deg, factor, known_units
+from ..views.defaults import default_views
+from ..views.picture import Mark, Picture, View
+from .contours import outlined
+from .draw import ROLES, STROKES, colour
+from .picture import VIEWPOINT, given_to, positions_of, turn_range
+
+PAGE = Path(__file__).with_name("page")
+MODULES = ("numbers", "picture", "controls", "panel")
+"""What every page is made of, each on those before it."""
+SIZE = np.array([400.0, 300.0])
+"""For which a picture that does not compute chooses its contours' names, pixels."""
+DASHES: Mapping[str, Sequence[float]] = {"-": (), "--": (3.7, 1.6), ":": (1.0, 1.65), "-.": (6.4, 1.6, 1.0, 1.6)}
+"""Of a line, in its widths."""
+
+WORDS = ("key", "role", "stroke", "mark", "fill", "anchor", "along", "log")
+"""Of marks and axes: words that say how, and are never shown."""
+
+Json = Any
+"""What JSON can hold."""
+
+
+@dataclass
+class Outputs:
+    """The outputs of a recording so far, and how a page finds a value among them."""
+
+    found: dict[str, object] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+
+    def at(self, value: object) -> Json:
+        """A plain number as it is, an array or what is recorded by the number of its output, a text by its name."""
+        if value is None or isinstance(value, (bool, int)) or (type(value) is float and np.isfinite(value)):
+            return value
+        if isinstance(value, str):
+            self.texts[name := f"text {len(self.texts)}"] = value
+            return {"text": name}
+        if isinstance(value, Mapping):
+            return {key: self.at(entry) for key, entry in value.items()}
+        if isinstance(value, (list, tuple)):
+            if any(part is None or isinstance(part, (str, list, tuple)) for part in value):
+                return [self.at(part) for part in value]
+            value = np.stack(value) if len(value) else np.empty(0)
+        self.found[str(len(self.found))] = np.asarray(value, dtype=float) if known(value) else value
+        return {"at": len(self.found) - 1}
+
+    def picture(self, picture: Picture, name: str, why: str = "") -> Json:
+        """A picture by the name of its view, and ``why`` it does not compute if it does not."""
+        marks = outlined(picture, SIZE) if why else picture.marks
+        return {"name": name, "still": why, "axes": self._parts(picture.axes), "marks": [*map(self._mark, marks)]}
+
+    def _mark(self, mark: Mark) -> Json:
+        return {"kind": type(mark).__name__.lower(), **self._parts(mark)}
+
+    def _parts(self, thing: Any) -> Json:
+        parts = ((f.name, getattr(thing, f.name)) for f in fields(thing))
+        return {name: value if name in WORDS and isinstance(value, str) else self.at(value) for name, value in parts}
+
+
+Shown = tuple[Any, Mapping[str, float]]
+"""A design, and where it stands."""
+
+
+@dataclass(frozen=True)
+class Living:
+    """What a page shows, and the program that it runs; without one somebody else has to `show` it every design."""
+
+    structure: Mapping[str, Json]
+    show: Callable[..., dict[str, Json]]
+    """Pictures, positions and measures of a design that stands at a position, and the arrays that they name."""
+    still: Callable[..., dict[str, Json]]
+    """The pictures that do not compute, by their number, and the arrays that they name."""
+    program: Program | None = None
+    why: str = ""
+    """Why there is no program."""
+
+    @cached_property
+    def packed(self) -> bytes:
+        """The program as JSON, packed by gzip: numbers, and no word of the design; or nothing."""
+        return gzip.compress(numbers(self.program).encode(), 6, mtime=0) if self.program else b""
+
+    def html(self) -> str:
+        """One file, without any outside address."""
+        if not self.program:
+            raise CannotRecord(self.why)
+        parts = {
+            "style": (PAGE / "panel.css").read_text(encoding="utf-8"),
+            "structure": in_html(self.structure),
+            "program": base64.b64encode(self.packed).decode("ascii"),
+            "script": script("page.js"),
+        }
+        page = (PAGE / "page.html").read_text(encoding="utf-8")
+        return re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], page)
+
+
+def living(
+    design: Analysable,
+    views: Sequence[View] = (),
+    measures: Sequence[Measure] | None = None,
+    at_most: Mapping[Measure, float] | None = None,
+    at_least: Mapping[Measure, float] | None = None,
+    free: Sequence[str] | None = None,
+    position: Mapping[str, float] | None = None,
+) -> Living:
+    """``design`` through ``views`` (those of what its analysis offers), with ``measures`` (all of them) and limits.
+
+    ``free`` are the paths that have a control (all of them), ``position`` is where the mechanism stands first.
+    """
+    refuse_design(design, "the design of the page")
+    refuse_limits(at_most or {}, at_least or {})
+    analysis = design.analyse()
+    views = tuple(views) or default_views(analysis)
+    measures = measures_of(design) if measures is None else tuple(measures)
+    limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {m: (v, -1) for m, v in (at_least or {}).items()}
+    asked: dict[str, object] = {"limits": {measure: value for measure, (value, _) in limits.items()}}
+    first = _first_positions(analysis, views) | dict(position or {})
+    shown: dict[str, Json] = {}
+
+    def show(design: Analysable, **position: float) -> dict[str, Any]:
+        """Arrays and texts of a design, which may be recorded."""
+        now, outputs = design.analyse(), Outputs()
+        shown["pictures"] = [_picture(view, (now, position), (analysis, first), asked, outputs) for view in views]
+        shown["positions"] = [outputs.at(row) for row in _position_rows(now, first)]
+        shown["measures"] = [_measure(m, m(now), limits.get(m), outputs) for m in measures]
+        shown["trouble"] = outputs.at(_trouble(now))
+        return outputs.found | outputs.texts
+
+    def seen(design: Analysable, **position: float) -> dict[str, Json]:
+        return _plainly(shown, show(design, **position))
+
+    def still(design: Analysable, **position: float) -> dict[str, Json]:
+        outputs, now = Outputs(), design.analyse()
+        pictures = {
+            str(k): outputs.picture(view(now, **given_to(view, {**asked, **position})), _name(view), picture["still"])
+            for k, (view, picture) in enumerate(zip(views, structure["pictures"], strict=True))
+            if picture["still"]
+        }
+        return _plainly({"pictures": pictures}, outputs.found | outputs.texts)
+
+    program, why = None, ""
+    try:
+        program = record(show, design, first)
+        moving = _worded(shown, _templates(program)) | {"refusals": _refusals(program)}
+    except CannotRecord as error:
+        why, moving = str(error), {**seen(design, **first), "arrays": [], "refusals": []}
+    structure = _structure(design, free) | moving
+    return Living(structure, seen, still, program, why)
+
+
+def _plainly(shown: Json, found: Mapping[str, Any]) -> dict[str, Json]:
+    """What is shown, with its texts, and beside it the arrays that it names."""
+    texts = {name: value for name, value in found.items() if isinstance(value, str)}
+    return _worded(shown, texts) | {"arrays": [np.ravel(v) for v in found.values() if not isinstance(v, str)]}
+
+
+def _worded(shown: Json, texts: Mapping[str, Json]) -> Json:
+    """``shown`` with texts in the place of their names."""
+    if isinstance(shown, dict):
+        return texts[shown["text"]] if "text" in shown else {name: _worded(part, texts) for name, part in shown.items()}
+    return [_worded(part, texts) for part in shown] if isinstance(shown, list) else shown
+
+
+def _templates(program: Program) -> dict[str, Json]:
+    """Texts as the page fills them: plain ones as they are, others in pieces."""
+    places = _places(program)
+    pieces = {name: _pieces(template, places) for name, template in program.texts.items()}
+    return {name: "".join(p) if all(isinstance(piece, str) for piece in p) else p for name, p in pieces.items()}
+
+
+def _refusals(program: Program) -> Json:
+    """In order: the output that must be 1, and the sentence that refuses the design if it is not."""
+    places = _places(program)
+    return [{"at": places[ok], "words": _pieces(sentence, places)} for ok, sentence in program.refusals.items()]
+
+
+def _places(program: Program) -> dict[Any, int]:
+    return {name: place for place, name in enumerate(program.outputs)}
+
+
+def _pieces(template: Template, places: Mapping[Any, int]) -> list[Json]:
+    """Of a text: words, and an output with its format, or with the pieces that are there if it holds."""
+    return [
+        piece
+        if isinstance(piece, str)
+        else [places[piece[0]], piece[1] if isinstance(piece[1], str) else _pieces(piece[1], places)]
+        for piece in template
+    ]
+
+
+def _trouble(analysis: object) -> str:
+    """What the analysis says is wrong with the design, if it can be recorded."""
+    try:
+        return str(getattr(analysis, "trouble", ""))
+    except Exception as error:
+        if unrecorded(error) is None:
+            raise
+    return ""
+
+
+def _first_positions(analysis: object, views: Sequence[View]) -> dict[str, float]:
+    """Where the mechanism stands first, and from where it is seen, for the positions that the views ask for."""
+    names = dict.fromkeys(name for view in views for name in positions_of(view))
+    seen = {name: declared.default * deg for name, declared in VIEWPOINT.items()}
+    return {name: seen[name] if name in seen else float(turn_range(analysis)[1]) for name in names}
+
+
+def _position_rows(analysis: object, first: Mapping[str, float]) -> Iterator[Json]:
+    """The controls of the positions: how the angle is called, and from where to where it goes."""
+    for name, value in first.items():
+        if name == "turn":
+            label, low, high = turn_range(analysis)
+        else:
+            label, low, high = name, VIEWPOINT[name].low * deg, VIEWPOINT[name].high * deg
+        yield {"name": name, "label": words(label), "low": low, "high": high, "value": value}
+
+
+def _picture(view: View, now: Shown, first: Shown, asked: dict[str, object], outputs: Outputs) -> Json:
+    """What a view shows now; of the first design, and why, where that cannot be recorded."""
+    try:
+        return outputs.picture(view(now[0], **given_to(view, {**asked, **now[1]})), _name(view))
+    except Exception as error:
+        if (why := unrecorded(error)) is None:
+            raise
+    return outputs.picture(view(first[0], **given_to(view, {**asked, **first[1]})), _name(view), str(why))
+
+
+def _name(view: View) -> str:
+    return str(getattr(view, "__name__", "") or getattr(getattr(view, "func", None), "__name__", "view"))
+
+
+def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, outputs: Outputs) -> Json:
+    row = {"name": measure.name, "unit": measure.unit, "factor": factor(measure.unit), **outputs.at({"value": value})}
+    return row | ({"limit": limit[0], "sense": limit[1]} if limit else {})
+
+
+def _structure(design: Analysable, free: Sequence[str] | None) -> dict[str, Json]:
+    """What the page says of the design: its quantities, in the order of the program's inputs, and what is chosen."""
+    shown = None if free is None else set(Paths(design, free).declared)
+    return {
+        "name": re.sub(r"(?<=[a-z])(?=[A-Z][a-z])", " ", type(design).__name__).capitalize(),
+        "quantities": [
+            _quantity(path, d, value_of(design, path)) | {"free": shown is None or path in shown}
+            for path, d in quantities_of(design).items()
+        ],
+        "choices": [
+            {"path": path, "name": words(path), "options": list(d.named), "chosen": d.text(value_of(design, path))}
+            for path, d in choices_of(design).items()
+            if shown is None or path in shown
+        ],
+        "look": look(),
+        "units": known_units(),
+    }
+
+
+def _quantity(path: str, declared: Quantity, value: float) -> Json:
+    own = ("symbol", "unit", "low", "high", "meaning", "factor")
+    group, _, _ = path.rpartition(".")
+    size = "size" if declared.unit in ("mm", "m", "um", "deg", "") else "power, speed, material"
+    return {
+        "group": words(group) or size,
+        "name": words(path),
+        "value": value,
+        **{name: getattr(declared, name) for name in own},
+    }
+
+
+def look() -> Json:
+    """How roles look in each theme, and the strokes and dashes of lines, widths in points."""
+    return {
+        "roles": {
+            name: {"light": role.light, "dark": role.dark, "width": role.width, "dashes": DASHES[str(role.dashes)]}
+            for name, role in ROLES.items()
+        },
+        "series": {theme: [colour("series", i, theme) for i in range(20)] for theme in ("light", "dark")},
+        "strokes": {name: _stroke(style) for name, style in STROKES.items()},
+    }
+
+
+def _stroke(style: Mapping[str, object]) -> Json:
+    width, dashes, cap = (style.get(name) for name in ("linewidth", "linestyle", "solid_capstyle"))
+    return {"width": width, "dashes": dashes and DASHES[str(dashes)], "cap": cap}
+
+
+def in_html(content: Json) -> str:
+    """JSON that stands in an element of a page: nothing in it ends the element or begins a comment.
+
+    >>> in_html({"name": "</script><!--"})
+    '{"name":"\\u003c/script>\\u003c!--"}'
+    """
+    return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def script(entry: str) -> str:
+    """The page's modules in one file, each in a scope of its own, those it needs before it; ``entry`` comes last.
+
+    What runs programs is made of the table of operations, and the same for all.
+    """
+    machine = f"const machine = {MACHINE};"
+    return "\n".join([machine, *(_scoped(name) for name in MODULES), _linked(entry)])
+
+
+def _scoped(name: str) -> str:
+    """A module as a constant that holds what it exports."""
+    text = _linked(f"{name}.js")
+    exported = re.findall(r"^export (?:async )?(?:function|class|const) (\w+)", text, re.MULTILINE)
+    body = re.sub(r"^export ", "", text, flags=re.MULTILINE)
+    return f"const {name} = (() => {{\n{body}return {{ {', '.join(exported)} }};\n}})();"
+
+
+def _linked(file: str) -> str:
+    """The text of a module, what it imports taken from the constants before it."""
+    text = (PAGE / file).read_text(encoding="utf-8")
+    return re.sub(r'^import (\{.*\}) from "\./(\w+)\.js";', r"const \1 = \2;", text, flags=re.MULTILINE)
+
+
+def to_html(
+    design: Analysable,
+    *views: View,
+    path: str | PathLike[str],
+    measures: Sequence[Measure] | None = None,
+    at_most: Mapping[Measure, float] | None = None,
+    at_least: Mapping[Measure, float] | None = None,
+) -> None:
+    """Write ``design`` as one HTML file that computes without Python: sliders, ``views``, ``measures``, limits.
+
+    Without ``views`` it shows what the analysis offers, without ``measures`` all of them.  Choices stay as they are.
+    The file asks for nothing from outside.  `CannotRecord` where the analysis cannot be recorded.
+
+    >>> import tempfile
+    >>> from camkit import TranslatingRollerCam
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     to_html(TranslatingRollerCam(), path=Path(folder) / "cam.html")
+    ...     (Path(folder) / "cam.html").stat().st_size < 500_000
+    True
+    """
+    Path(path).write_text(living(design, views, measures, at_most, at_least).html(), encoding="utf-8")

@@ -1,0 +1,71 @@
+// The page as a widget of a notebook: it computes and draws by itself and tells the kernel what a person settled on.
+import { Panel, programOf } from "./panel.js";
+
+/** What runs the program: the page, or the kernel if there is none. @param {any} model */
+async function engineOf(model) {
+  const packed = model.get("program");
+  return packed.byteLength ? { run: await programOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)) } : asking(model);
+}
+
+/** Arrays that came in buffers. @param {DataView[]} buffers */
+const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
+
+/** The kernel computes: one question at a time, and of those that wait the newest. @param {any} model */
+function asking(model) {
+  let number = 0;
+  /** @type {((outputs: any) => void) | null} */ let answered = null;
+  model.on("msg:custom", (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
+    if (message.answer !== number) return;
+    const { pictures, positions, measures, trouble, sentence } = message;
+    answered?.(Object.assign(arrays(buffers), sentence ? { sentence } : { structure: { pictures, positions, measures, trouble } }));
+  });
+  return { run: (/** @type {Float64Array} */ values) => new Promise((resolve) => { answered = resolve; model.send({ compute: [...values], number: ++number }); }) };
+}
+
+/** Give the person a file. @param {string} name @param {DataView} content */
+function download(name, content) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([content]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+const GONE = "The kernel has ended: this page computes on by itself; run the cell again to send designs to a new one.";
+
+/** @param {{model: any, el: HTMLElement}} host */
+async function render({ model, el }) {
+  const root = el.appendChild(document.createElement("div"));
+  /** @type {any} */ let panel = null;
+  const host = {
+    changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) { model.set({ values, computed }); model.save_changes(); },
+    choose: (/** @type {string} */ path, /** @type {string} */ option) => model.send({ choose: [path, option] }),
+    file: (/** @type {string} */ kind) => model.send({ file: kind }),
+    open: (/** @type {string} */ text) => model.send({ open: text }),
+  };
+  const begin = async () => {
+    const engine = await engineOf(model), structure = structuredClone(model.get("structure"));
+    panel?.end();
+    panel = el.camkit = new Panel(root, structure, engine, host);
+    panel.say(model.get("message"));
+  };
+  const moved = () => {
+    const values = model.get("values"), shown = panel?.values ?? [];
+    if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
+  };
+  const heard = {
+    "change:program": begin,
+    "change:values": moved,
+    "change:message": () => panel?.say(model.get("message")),
+    "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
+      if (message.file) download(message.file, buffers[0]);
+      if (message.still) panel?.redraw(message.pictures, arrays(buffers));
+    },
+    "comm_live_update": () => { if (!model.comm_live) panel?.say(GONE); },
+  };
+  for (const [event, act] of Object.entries(heard)) model.on(event, act);
+  await begin();
+  return () => { panel?.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
+}
+
+export default { render };
