@@ -4,6 +4,7 @@ from ..quantities.extras import extra
 
 with extra("camkit.render"):
     from .draw import draw_picture
+    from .living import to_html
     from .picture import Still, draw, layout, picture
 
 __all__ = [
@@ -12,4 +13,5 @@ __all__ = [
     "draw_picture",
     "layout",
     "picture",
+    "to_html",
 ]

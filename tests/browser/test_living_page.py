@@ -1,0 +1,220 @@
+"""A design as one file: what the page computes and draws is what the package computes, and names stay names."""
+
+import gzip
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from every_machine import MACHINES
+
+from camkit import mm
+from camkit.program import CannotRecord
+from camkit.quantities import Design, Measure, measures_of, quantities_of, quantity, with_quantities
+from camkit.render import to_html
+from camkit.render.living import living
+from camkit.render.picture import positions_of
+from camkit.views import default_views
+from camkit.views.picture import Axes, Line, Picture, Points, Text
+
+MOST_BYTES = 500_000
+SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
+    const plain = (v) => (typeof v === "object" && v !== null ? Array.from(v, String) : typeof v === "number" ? [String(v)] : v);
+    const mark = (m) => Object.fromEntries(Object.entries(m).map(([name, v]) => [name, plain(v)]));
+    return { sentence, values, measures: measures.map((m) => m.text),
+             pictures: pictures.map((p) => ({ ...p, marks: p.marks.map(mark) })) }; }"""
+DRAWN = "() => globalThis.camkit?.outputs && !camkit.frame"
+DRAG = """([share, k]) => { const slider = document.querySelectorAll(".camkit-left input[type=range]")[k];
+    slider.value = Number(slider.min) + share * (slider.max - slider.min);
+    for (const kind of ["input", "change"]) slider.dispatchEvent(new Event(kind)); }"""
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """Opens the page of a design; gives it with its own errors and what it asks for from outside."""
+    pages = []
+
+    def open_page(design, *views, **options):
+        path = tmp_path / "design.html"
+        to_html(design, *views, path=path, **options)
+        page = browser.new_page(viewport={"width": 934, "height": 612})
+        page.heard = []
+        page.on("pageerror", lambda error: page.heard.append(str(error)))
+        page.on("request", lambda r: page.heard.append(r.url) if not r.url.startswith(("file:", "blob:")) else None)
+        page.goto(path.as_uri())
+        page.wait_for_function(DRAWN)
+        pages.append(page)
+        return page
+
+    yield open_page
+    for page in pages:
+        page.close()
+
+
+def same(found, expected, name):
+    """Whether arrays are equal, gaps included, to a share of the largest number."""
+    found = np.array([float(x.replace("Infinity", "inf")) for x in found])
+    expected = np.ravel(np.asarray(expected, dtype=float))
+    if len(found) != len(expected):  # one value for all places
+        found, expected = np.broadcast_arrays(found, expected)
+    size = abs(expected[np.isfinite(expected)]).max(initial=0.0)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * size, err_msg=name)
+
+
+def compare(shown, design, views, measures):
+    """What a page shows against what the package draws and measures for its values."""
+    paths = list(quantities_of(design))
+    now = with_quantities(design, dict(zip(paths, shown["values"], strict=False)))
+    analysis, given = now.analyse(), shown["values"][len(paths) :]
+    names = list(dict.fromkeys(name for view in views for name in positions_of(view)))
+    position = dict(zip(names, given, strict=True))
+    for view, drawn in zip(views, shown["pictures"], strict=True):
+        picture = view(analysis, **{name: position[name] for name in positions_of(view)})
+        marks = {mark["key"]: mark for mark in drawn["marks"]}
+        assert drawn["name"] == view.__name__
+        for mark in picture.marks:
+            found = marks.pop(mark.key)
+            for part in ("x", "y", "low", "high", "radius"):
+                if part in found:
+                    same(found[part], getattr(mark, part), f"{view.__name__} {mark.key} {part}")
+            if isinstance(mark, Text) and found["words"]:
+                assert found["words"] == mark.words
+        assert not marks
+    numbers = [m.text(m.one(analysis)).partition(" ")[0] for m in measures]
+    assert numbers == [text.replace("°", " °").partition(" ")[0] for text in shown["measures"]]
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_page_shows_what_the_package_computes(name, opened):
+    design = MACHINES[name]
+    still = {p["name"] for p in living(design).structure["pictures"] if p["still"]}
+    assert still <= {"plane_of_sizes", "section"}  # a search stands behind them
+    views = [view for view in default_views(design.analyse()) if view.__name__ not in still]
+    page = opened(design, *views)
+    compare(page.evaluate(SHOWN), design, views, measures_of(design))
+    seen = 0
+    for k in range(6):
+        page.evaluate(DRAG, [0.35 + 0.07 * k, k])
+        page.wait_for_function(DRAWN)
+        shown = page.evaluate(SHOWN)
+        if not shown["sentence"]:
+            compare(shown, design, views, measures_of(design))
+            seen += 1
+    assert seen
+    assert not page.heard
+
+
+def test_a_page_is_small_and_asks_for_nothing(tmp_path):
+    for name, design in MACHINES.items():
+        path = tmp_path / f"{name}.html"
+        to_html(design, path=path)
+        assert path.stat().st_size < MOST_BYTES
+        assert "http" not in path.read_text(encoding="utf-8").replace("http-equiv", "")
+
+
+def test_a_page_refuses_in_the_words_of_the_package(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    before = page.evaluate(SHOWN)
+    box = page.get_by_label("lift arm, mm, number")
+    box.fill("400")
+    box.press("Enter")
+    page.wait_for_function("() => camkit.sentence && !camkit.frame")
+    shown = page.evaluate(SHOWN)
+    with pytest.raises(ValueError) as refused:  # noqa: PT011
+        design.replace(lift_arm=400 * mm)
+    assert shown["sentence"] == str(refused.value)
+    assert str(refused.value) in page.locator(".camkit-over").inner_text()
+    assert shown["pictures"] == before["pictures"]  # the last good one
+    page.keyboard.press("Control+z")
+    page.wait_for_function("() => !camkit.sentence && !camkit.frame")
+    assert page.evaluate(SHOWN) == before
+
+
+def test_a_text_that_is_no_number_is_refused_in_place(opened):
+    page = opened(MACHINES["door handle"])
+    box = page.get_by_label("lift arm, mm, number")
+    for text in ("abc", "1 kg", ""):
+        box.fill(text)
+        box.press("Enter")
+        assert page.locator(".camkit-refusal:not(:empty)").count() == 1
+        assert page.evaluate("camkit.values[0]") == 0.05
+    box.fill("1 7/8 in")
+    box.press("Enter")
+    assert page.evaluate("camkit.values[0]") == pytest.approx(1.875 * 0.0254, rel=1e-12)
+    assert page.locator(".camkit-refusal:not(:empty)").count() == 0
+
+
+def test_it_turns_and_one_line_runs_through_the_curves(opened):
+    page = opened(MACHINES["door handle"])
+    turn = len(quantities_of(MACHINES["door handle"]))
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function(f"() => camkit.values[{turn}] > 0.3")
+    page.get_by_role("button", name="Pause").click()
+    page.wait_for_function("() => !camkit.playing && !camkit.frame")
+    shown = page.evaluate(SHOWN)
+    compare(
+        shown,
+        MACHINES["door handle"],
+        default_views(MACHINES["door handle"].analyse()),
+        measures_of(MACHINES["door handle"]),
+    )
+    cursor = page.evaluate("camkit.charts[2].how.cursor")
+    assert cursor == pytest.approx(np.rad2deg(shown["values"][turn]))
+
+
+EVIL = "<img src=x onerror=\"window.ran=1\" class='evil'>'\"</script><script>window.ran=1</script><!--\u2028\u2029${window.ran=1}`\\"
+
+
+@dataclass(frozen=True)
+class Evil(Design):
+    """A design whose every name is a piece of a page."""
+
+    x: float = quantity(EVIL, 1, 0.1, 4, "mm", EVIL)
+
+    def analyse(self, n=5):
+        return Made(self)
+
+
+@dataclass(frozen=True)
+class Made:
+    cam: Evil
+
+
+def evil_view(analysis):
+    x = analysis.cam.x
+    marks = (
+        Points("a", [x], [2 * x], label=EVIL),
+        Line(EVIL, [x, 2 * x], [x, x], label=f"{EVIL} {x:.3g}"),
+        Text("t", x, x, f"{EVIL} {x:.3g}"),
+    )
+    return Picture.of(Axes(title=EVIL, xlabel=EVIL, ylabel=EVIL, xticks={0.001: EVIL}), *marks)
+
+
+def test_names_that_are_pieces_of_a_page_stay_names(opened):
+    evil_view.__name__ = EVIL
+    size = Measure(EVIL, "mm", lambda analysis: analysis.cam.x)
+    page = opened(Evil(), evil_view, measures=[size], at_most={size: 2 * mm})
+    page.get_by_role("button", name="Numbers").click()
+    page.evaluate(DRAG, [0.9, 0])
+    page.wait_for_function(DRAWN)
+    shown = page.evaluate(SHOWN)
+    assert shown["pictures"][0]["name"] == EVIL
+    assert page.locator(".evil").count() == 0
+    assert page.evaluate("window.ran") is None
+    assert not page.heard
+    assert EVIL in page.locator(".camkit-numbers").inner_text()
+
+
+def test_a_program_holds_no_word_of_the_design():
+    packed = living(Evil(), [evil_view]).packed
+    assert set(gzip.decompress(packed).decode()) <= set('0123456789.,-+e[]"NaInfity')
+
+
+def test_what_cannot_be_recorded_is_no_page(tmp_path):
+    @dataclass(frozen=True)
+    class Truth(Evil):
+        def analyse(self, n=5):
+            return Made(self) if self.x > 0.001 else Made(self)
+
+    with pytest.raises(CannotRecord, match="a truth value"):
+        to_html(Truth(), evil_view, path=tmp_path / "truth.html")
