@@ -10,7 +10,7 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from os import PathLike
@@ -94,22 +94,83 @@ class Outputs:
         return {name: value if name in WORDS and isinstance(value, str) else self.at(value) for name, value in parts}
 
 
-Shown = tuple[Any, Mapping[str, float]]
-"""A design, and where it stands."""
-
-
 @dataclass(frozen=True)
 class Living:
-    """What a page shows, and the program that it runs; without one somebody else has to `show` it every design."""
+    """What a page shows of a design, and the program that it runs; without one somebody else has to `show` it others.
 
-    structure: Mapping[str, Json]
-    show: Callable[..., dict[str, Json]]
-    """Pictures, positions and measures of a design that stands at a position, and the arrays that they name."""
-    still: Callable[..., dict[str, Json]]
-    """The pictures that do not compute, by their number, and the arrays that they name."""
-    program: Program | None = None
-    why: str = ""
-    """Why there is no program."""
+    ``first`` is where the mechanism stands first, ``free`` are the paths that have a control (all of them).
+    """
+
+    design: Analysable
+    views: tuple[View, ...]
+    measures: tuple[Measure, ...]
+    limits: Mapping[Measure, tuple[float, int]]
+    """By measure its value in SI and its sense: 1 for at most, -1 for at least."""
+    first: Mapping[str, float]
+    free: Sequence[str] | None = None
+
+    def show(self, design: Analysable, **position: float) -> dict[str, Json]:
+        """Pictures, positions and measures of a design that stands at a position, and the arrays that they name."""
+        outputs = Outputs()
+        return _plainly(self._shown(design, position, outputs), outputs)
+
+    def show_still(self, design: Analysable) -> dict[str, Json]:
+        """The pictures that do not compute, by their number, and the arrays that they name."""
+        outputs, analysis = Outputs(), design.analyse()
+        still = {k: p["still"] for k, p in enumerate(self.structure["pictures"]) if p["still"]}
+        shown = {str(k): self._picture(self.views[k], analysis, self.first, outputs, why) for k, why in still.items()}
+        return _plainly({"pictures": shown}, outputs)
+
+    def _shown(self, design: Analysable, position: Mapping[str, float], outputs: Outputs) -> dict[str, Json]:
+        """Everything that follows from a design, which may be recorded."""
+        now = design.analyse()
+        return {
+            "pictures": [self._seen(view, now, position, outputs) for view in self.views],
+            "positions": [outputs.at(row) for row in _position_rows(now, self.first)],
+            "measures": [_measure(m, m(now), self.limits.get(m), outputs) for m in self.measures],
+            "trouble": outputs.at(_trouble(now)),
+        }
+
+    def _seen(self, view: View, now: object, position: Mapping[str, float], outputs: Outputs) -> Json:
+        """What a view shows now; of the first design, and why, where that cannot be recorded."""
+        try:
+            return self._picture(view, now, position, outputs)
+        except Exception as error:
+            if (why := unrecorded(error)) is None:
+                raise
+        return self._picture(view, self.design.analyse(), self.first, outputs, str(why))
+
+    def _picture(
+        self, view: View, analysis: object, position: Mapping[str, float], outputs: Outputs, why: str = ""
+    ) -> Json:
+        asked = {"limits": {measure: value for measure, (value, _) in self.limits.items()}, **position}
+        return outputs.picture(view(analysis, **given_to(view, asked)), _name(view), why)
+
+    @cached_property
+    def _recorded(self) -> tuple[dict[str, Json], Program | None, str]:
+        """What is shown, the program, and why there is none."""
+        shown: dict[str, Json] = {}
+
+        def show(design: Analysable, **position: float) -> dict[str, Any]:
+            outputs = Outputs()
+            shown.update(self._shown(design, position, outputs))
+            return outputs.found | outputs.texts
+
+        try:
+            program = record(show, self.design, self.first)
+        except CannotRecord as error:
+            return self.show(self.design, **self.first) | {"arrays": [], "refusals": []}, None, str(error)
+        return _worded(shown, _templates(program)) | {"refusals": _refusals(program)}, program, ""
+
+    @cached_property
+    def structure(self) -> dict[str, Json]:
+        """What the page shows, as plain JSON, its texts included; arrays are named by the number of an output."""
+        return _structure(self.design, self.free) | self._recorded[0]
+
+    @property
+    def program(self) -> Program | None:
+        """What the page runs: of the quantities of the design and its positions."""
+        return self._recorded[1]
 
     @cached_property
     def packed(self) -> bytes:
@@ -117,9 +178,9 @@ class Living:
         return gzip.compress(numbers(self.program).encode(), 6, mtime=0) if self.program else b""
 
     def html(self) -> str:
-        """One file, without any outside address."""
+        """One file, without any outside address; `CannotRecord` where there is no program."""
         if not self.program:
-            raise CannotRecord(self.why)
+            raise CannotRecord(self._recorded[2])
         parts = {
             "style": (PAGE / "panel.css").read_text(encoding="utf-8"),
             "structure": in_html(self.structure),
@@ -139,55 +200,19 @@ def living(
     free: Sequence[str] | None = None,
     position: Mapping[str, float] | None = None,
 ) -> Living:
-    """``design`` through ``views`` (those of what its analysis offers), with ``measures`` (all of them) and limits.
-
-    ``free`` are the paths that have a control (all of them), ``position`` is where the mechanism stands first.
-    """
+    """``design`` through ``views`` (those of what its analysis offers), with ``measures`` (all of them) and limits."""
     refuse_design(design, "the design of the page")
     refuse_limits(at_most or {}, at_least or {})
     analysis = design.analyse()
     views = tuple(views) or default_views(analysis)
     measures = measures_of(design) if measures is None else tuple(measures)
     limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {m: (v, -1) for m, v in (at_least or {}).items()}
-    asked: dict[str, object] = {"limits": {measure: value for measure, (value, _) in limits.items()}}
-    first = _first_positions(analysis, views) | dict(position or {})
-    shown: dict[str, Json] = {}
-
-    def show(design: Analysable, **position: float) -> dict[str, Any]:
-        """Arrays and texts of a design, which may be recorded."""
-        now, outputs = design.analyse(), Outputs()
-        shown["pictures"] = [_picture(view, (now, position), (analysis, first), asked, outputs) for view in views]
-        shown["positions"] = [outputs.at(row) for row in _position_rows(now, first)]
-        shown["measures"] = [_measure(m, m(now), limits.get(m), outputs) for m in measures]
-        shown["trouble"] = outputs.at(_trouble(now))
-        return outputs.found | outputs.texts
-
-    def seen(design: Analysable, **position: float) -> dict[str, Json]:
-        return _plainly(shown, show(design, **position))
-
-    def still(design: Analysable, **position: float) -> dict[str, Json]:
-        outputs, now = Outputs(), design.analyse()
-        pictures = {
-            str(k): outputs.picture(view(now, **given_to(view, {**asked, **position})), _name(view), picture["still"])
-            for k, (view, picture) in enumerate(zip(views, structure["pictures"], strict=True))
-            if picture["still"]
-        }
-        return _plainly({"pictures": pictures}, outputs.found | outputs.texts)
-
-    program, why = None, ""
-    try:
-        program = record(show, design, first)
-        moving = _worded(shown, _templates(program)) | {"refusals": _refusals(program)}
-    except CannotRecord as error:
-        why, moving = str(error), {**seen(design, **first), "arrays": [], "refusals": []}
-    structure = _structure(design, free) | moving
-    return Living(structure, seen, still, program, why)
+    return Living(design, views, measures, limits, _first_positions(analysis, views) | dict(position or {}), free)
 
 
-def _plainly(shown: Json, found: Mapping[str, Any]) -> dict[str, Json]:
+def _plainly(shown: Json, outputs: Outputs) -> dict[str, Json]:
     """What is shown, with its texts, and beside it the arrays that it names."""
-    texts = {name: value for name, value in found.items() if isinstance(value, str)}
-    return _worded(shown, texts) | {"arrays": [np.ravel(v) for v in found.values() if not isinstance(v, str)]}
+    return _worded(shown, outputs.texts) | {"arrays": [np.ravel(value) for value in outputs.found.values()]}
 
 
 def _worded(shown: Json, texts: Mapping[str, Json]) -> Json:
@@ -249,16 +274,6 @@ def _position_rows(analysis: object, first: Mapping[str, float]) -> Iterator[Jso
         else:
             label, low, high = name, VIEWPOINT[name].low * deg, VIEWPOINT[name].high * deg
         yield {"name": name, "label": words(label), "low": low, "high": high, "value": value}
-
-
-def _picture(view: View, now: Shown, first: Shown, asked: dict[str, object], outputs: Outputs) -> Json:
-    """What a view shows now; of the first design, and why, where that cannot be recorded."""
-    try:
-        return outputs.picture(view(now[0], **given_to(view, {**asked, **now[1]})), _name(view))
-    except Exception as error:
-        if (why := unrecorded(error)) is None:
-            raise
-    return outputs.picture(view(first[0], **given_to(view, {**asked, **first[1]})), _name(view), str(why))
 
 
 def _name(view: View) -> str:
