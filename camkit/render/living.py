@@ -62,7 +62,7 @@ Json = Any
 class Outputs:
     """The outputs of a recording so far, and how a page finds a value among them."""
 
-    found: dict[str, object] = field(default_factory=dict)
+    found: dict[str, Any] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
 
     def at(self, value: object) -> Json:
