@@ -55,10 +55,10 @@ class Place:
                 begin = k + 1
         return [*found, Span(begin, int(flat[begin]), int(steps[begin]) if begin < len(steps) else 0)]
 
-    def spread(self, shape: tuple[int, ...]) -> list[Span]:
-        """Its spans if it is broadcast to a shape."""
-        whole = self.size in (1, prod(shape))
-        return self.spans if whole else Place(np.broadcast_to(self.addresses, shape)).spans
+    def spread(self, out: Place) -> list[Span]:
+        """Its spans if it is broadcast to the shape of a result."""
+        whole = self.size == 1 or self.size == out.size
+        return self.spans if whole else Place(np.broadcast_to(self.addresses, out.addresses.shape)).spans
 
 
 class Loops:
@@ -129,8 +129,11 @@ class Loops:
 
     def _loop(self, operation: str, out: Place, *operands: Place) -> Place:
         """A loop for each stretch in which all go on by even steps; where its results are."""
-        each = [out.spans, *(operand.spread(out.addresses.shape) for operand in operands)]
-        begins = sorted({span.begin for spans in each for span in spans}) if max(map(len, each)) > 1 else [0]
+        each = [out.spans, *[operand.spread(out) for operand in operands]]
+        if max(map(len, each)) == 1:
+            self.loops.append(Loop(operation, out.size, tuple([spans[0] for spans in each])))
+            return out
+        begins = sorted({span.begin for spans in each for span in spans})
         for begin, end in zip(begins, [*begins[1:], out.size], strict=True):
             self.loops.append(Loop(operation, end - begin, tuple(_from(begin, spans) for spans in each)))
         return out
@@ -153,7 +156,7 @@ class Loops:
 
 def _from(begin: int, spans: list[Span]) -> Span:
     """What is left, from a number on, of the span that it is in."""
-    span = spans[bisect_right(spans, begin, key=attrgetter("begin")) - 1] if len(spans) > 1 else spans[0]
+    span = spans[bisect_right(spans, begin, key=attrgetter("begin")) - 1]
     return Span(begin, span.first + (begin - span.begin) * span.step, span.step)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -76,7 +76,7 @@ class Program:
         while waiting:
             if (k := waiting.pop()) not in found:
                 found.add(k)
-                waiting += _refs(self.calls[k])
+                waiting += _refs(self.calls[k].arguments)
         return sorted(k for k in found if self.calls[k].function is not None)
 
 
@@ -89,10 +89,12 @@ def _found(argument: Any, results: Mapping[int, Array]) -> Any:
     return results[argument.number] if isinstance(argument, Ref) else argument
 
 
-def _refs(call: Call) -> Iterator[int]:
-    found: list[int] = []
-    mapped(lambda x: found.append(x.number) if isinstance(x, Ref) else None, call.arguments)
-    return iter(found)
+def _refs(arguments: Sequence[object]) -> Iterator[int]:
+    for x in arguments:
+        if isinstance(x, Ref):
+            yield x.number
+        elif isinstance(x, (tuple, list)):
+            yield from _refs(x)
 
 
 def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs: Mapping[str, ArrayLike]) -> Program:

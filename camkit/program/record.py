@@ -60,10 +60,10 @@ class Call(NamedTuple):
 
 def mapped(f: Callable[[object], object], value: Any) -> Any:
     """``f`` of every argument in nested tuples and lists."""
-    if isinstance(value, (tuple, list)):
-        each = [mapped(f, x) for x in value]
-        return each if isinstance(value, list) else tuple(each)
-    return f(value)
+    if not isinstance(value, (tuple, list)):
+        return f(value)
+    each = [mapped(f, x) if isinstance(x, (tuple, list)) else f(x) for x in value]
+    return each if isinstance(value, list) else tuple(each)
 
 
 class Recording:
@@ -90,7 +90,7 @@ class Recording:
             raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
         if not isinstance(row, (Each, Move)) and named.keys() - {"axis", "keepdims"}:
             raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
-        key = (function, _key(arguments), _key(tuple(named.items())))
+        key = (function, *map(_key, arguments), repr(named))
         if key not in self._known:
             value = function(*mapped(_value, arguments), **named)
             self._known[key] = self._noted(function, mapped(_ref, arguments), named, value)
@@ -106,7 +106,7 @@ class Recording:
         if value.dtype.kind not in "fbiu":
             raise cannot("complex numbers and texts cannot be recorded")
         self.calls.append(Call(function, arguments, named, value.shape, value.dtype))
-        return Recorded(self, len(self.calls) - 1, value)
+        return Recorded(self, Ref(len(self.calls) - 1), value)
 
 
 def _name_of(function: object) -> str:
@@ -126,7 +126,7 @@ def _value(argument: object) -> object:
 
 
 def _ref(argument: object) -> object:
-    return Ref(argument.number) if isinstance(argument, Recorded) else argument
+    return argument.ref if isinstance(argument, Recorded) else argument
 
 
 def _key(argument: object) -> object:
@@ -137,7 +137,7 @@ def _key(argument: object) -> object:
         return (type(argument), *map(_key, argument))
     if isinstance(argument, np.ndarray):
         return argument.shape, argument.dtype.str, argument.tobytes()
-    return type(argument), repr(argument)
+    return repr(argument)
 
 
 class Recorded(NDArrayOperatorsMixin):
@@ -146,11 +146,12 @@ class Recorded(NDArrayOperatorsMixin):
     ``value`` is what it is of the inputs that the recording is made with: it says shape and kind, nothing else.
     """
 
+    __slots__ = ("dtype", "ndim", "number", "recording", "ref", "shape", "size", "value")
     recorded = True
     """By which physics can tell it from a known value (see `camkit.quantities.known`)."""
 
-    def __init__(self, recording: Recording, number: int, value: np.ndarray) -> None:
-        self.recording, self.number, self.value = recording, number, value
+    def __init__(self, recording: Recording, ref: Ref, value: np.ndarray) -> None:
+        self.recording, self.ref, self.number, self.value = recording, ref, ref.number, value
         self.shape, self.dtype, self.ndim, self.size = (value.shape, value.dtype, value.ndim, value.size)
 
     @property
