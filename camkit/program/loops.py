@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .operations import TABLE, Along, Each, Fold, Move
+from .operations import ALONG, EACH, FOLDS, MOVES
 from .program import Program
-from .record import Call, Ref, mapped
+from .record import Recorded, mapped
 from .written import picked
 
 COPY = "{0}"
@@ -85,7 +85,7 @@ class Loops:
 
     def _place(self, argument: Any) -> Place:
         """Where an argument is; constants stand at negative addresses until all are there."""
-        if isinstance(argument, Ref):
+        if isinstance(argument, Recorded):
             return self._at[argument.number]
         value = np.asarray(argument, dtype=float)
         key = value.shape, value.tobytes()
@@ -95,36 +95,32 @@ class Loops:
             self._known[key] = Place(np.arange(end - value.size, end).reshape(value.shape))
         return self._known[key]
 
-    def _lowered(self, call: Call) -> Place:
+    def _lowered(self, call: Recorded) -> Place:
         """Where the result of a call is; its loops are noted."""
-        assert call.function
-        row = TABLE[np.logical_or if call.function is np.add and call.dtype == bool else call.function]
-        if isinstance(row, Move):
+        function = np.logical_or if call.function is np.add and call.dtype == bool else call.function
+        if function in MOVES:
             first, *others = call.arguments
             moved = mapped(lambda x: self._place(x).addresses, first)
-            return Place(np.asarray(call.function(moved, *others, **call.named)))
-        if not prod(call.shape):
+            return Place(np.asarray(function(moved, *others, **call.named)))
+        if not call.size:
             return self._new(call.shape)
-        if isinstance(row, (Fold, Along)):
-            return self._along(row, call)
-        assert isinstance(row, Each)
-        operands = [self._place(x) for x in call.arguments]
-        if call.function is picked:  # what counts is where each row begins
-            operands[0] = Place(self._in_a_row(operands[0].addresses)[..., :1])
-        return self._loop(row.javascript, self._new(call.shape), *operands)
+        if function in EACH:
+            operands = [self._place(x) for x in call.arguments]
+            if function is picked:  # what counts is where each row begins
+                operands[0] = Place(self._in_a_row(operands[0].addresses)[..., :1])
+            return self._loop(EACH[function], self._new(call.shape), *operands)
+        return self._along(function, self._place(call.arguments[0]).addresses, call)
 
-    def _along(self, row: Fold | Along, call: Call) -> Place:
-        first, *others = call.arguments
-        axis = call.named.get("axis", others[0] if others else row.axis)
-        rows = _rows(self._place(first).addresses, axis)
-        rows = rows if isinstance(row, Fold) else self._in_a_row(rows)
+    def _along(self, function: object, values: np.ndarray, call: Recorded) -> Place:
+        name, default = ALONG.get(function, ("", 0))
+        axis = call.named.get("axis", call.arguments[1] if len(call.arguments) > 1 else default)
+        rows = self._in_a_row(_rows(values, axis)) if name else _rows(values, axis)
         out = self._new(call.shape)
         into = _rows(out.addresses, axis) if out.size == rows.size else out.addresses.reshape(-1, 1)
-        if isinstance(row, Fold):
-            self._fold(row.javascript, rows, into)
-            return out
-        for one, to in zip(rows.tolist(), into.tolist(), strict=True):
-            self.loops.append(Loop(row.javascript, len(one), (Span(0, to[0], 1), Span(0, one[0], 1))))
+        if not name:
+            self._fold(FOLDS[function], rows, into)
+        for one, to in zip(rows.tolist(), into.tolist(), strict=True) if name else ():
+            self.loops.append(Loop(name, len(one), (Span(0, to[0], 1), Span(0, one[0], 1))))
         return out
 
     def _loop(self, operation: str, out: Place, *operands: Place) -> Place:

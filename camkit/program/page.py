@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 
 from .loops import Loops
-from .operations import TABLE, Along, Each
+from .operations import ALONG, EACH, operands
 from .program import Program
 
 LIBRARY = """M=Math,H=new Float64Array(size),
@@ -19,7 +19,6 @@ mod=(a,b)=>{const r=a%b;return r!==0&&(r<0)!==(b<0)?r+b:r},
 div=(a,b)=>{if(b===0)return a/b;const m=a%b,d=(a-m)/b-+(m!==0&&(m<0)!==(b<0)),f=M.floor(d);return d-f>0.5?f+1:f},
 pow=(a,b)=>b===2?a*a:b===3?a*a*a:a===1||b===0||a===-1&&M.abs(b)===Infinity?1:M.pow(a,b),
 copysign=(a,b)=>b<0||Object.is(b,-0)?-M.abs(a):M.abs(a),
-rint=a=>{const f=M.floor(a),d=a-f;return d<0.5||d===0.5&&f%2===0?f:f+1},
 argmax=(n,o,p,a)=>{let k=0;for(let j=1;j<n&&H[a+k]===H[a+k];j++){const x=H[a+j];if(x>H[a+k]||x!==x)k=j}H[o]=k},
 sorted=(n,o,p,a)=>{H.copyWithin(o,a,a+n);H.subarray(o,o+n).sort()}"""
 """What the operations of the table need; ``H`` is the heap."""
@@ -45,13 +44,13 @@ def _function(operation: str) -> str:
     """An operation as a function of how often it is done, and of the addresses and steps of its result and operands."""
     if "{" not in operation:
         return operation
-    names = NAMES[: 4 + 2 * ("{1}" in operation) + 2 * ("{2}" in operation)]
+    names = NAMES[: 2 + 2 * operands(operation)]
     steps = ",".join(f"{at}+={step}" for at, step in zip(names[::2], names[1::2], strict=True))
     said = operation.format(*(f"H[{at}]" for at in names[2::2]))
     return f"({','.join('n' + names)})=>{{for(;n>0;n--,{steps})H[o]={said}}}"
 
 
-OPERATIONS = dict.fromkeys(row.javascript for row in TABLE.values() if isinstance(row, (Each, Along)))
+OPERATIONS = dict.fromkeys([*EACH.values(), *(name for name, _ in ALONG.values())])
 NUMBERED = {operation: number for number, operation in enumerate(OPERATIONS)}
 MACHINE = "(size,constants,outputs,kinds,loops)=>{{const {},\nF=[{}],\n{}}}".format(
     LIBRARY, ",\n".join(map(_function, OPERATIONS)), RUN
@@ -83,9 +82,9 @@ def _table(loops: Loops) -> tuple[list[tuple[int, ...]], list[int]]:
     inputs one more than their address, which is no number below 1.
     """
     kinds, rows, at, begin = dict[tuple[int, ...], int](), list[int](), 0, len(loops.constants)
-    for operation, count, (result, *operands) in loops.loops:
-        kind = (NUMBERED[operation], result.step, *(span.step for span in operands))
+    for operation, count, (result, *others) in loops.loops:
+        kind = (NUMBERED[operation], result.step, *(span.step for span in others))
         rows += [kinds.setdefault(kind, len(kinds)), count, result.first - at]
-        rows += [x.first - result.first if x.first >= loops.inputs else x.first + begin + 1 for x in operands]
+        rows += [x.first - result.first if x.first >= loops.inputs else x.first + begin + 1 for x in others]
         at = result.first + count
     return list(kinds), rows

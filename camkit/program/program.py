@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike
 
 from ..quantities import D, quantities_of, unremarked, value_of, with_quantities
 from ..quantities.types import Array
-from .record import Call, CannotRecord, Recorded, Recording, Ref, mapped
+from .record import CannotRecord, Recorded, Recording
 from .texts import Template, filled, numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Program:
     """Calls of numpy in a straight line, from inputs to outputs, both by name.
 
@@ -25,11 +25,11 @@ class Program:
     {'area': np.float64(20.0)}
     """
 
-    calls: tuple[Call, ...]
+    calls: tuple[Recorded, ...]
     """Inputs first, in order; of those that follow each needs only what stands before it."""
     inputs: tuple[str, ...]
-    outputs: Mapping[str | int, Ref | np.ndarray]
-    """Of each output the `Ref` of its call, or what it is whatever the inputs are; what texts need, by its number."""
+    outputs: Mapping[str | int, Recorded | np.ndarray]
+    """Of each output its call, or what it is whatever the inputs are; what texts need, by its number."""
     texts: Mapping[str, Template] = field(default_factory=dict)
     """Outputs that are texts, in parts."""
     refusals: Mapping[int, Template] = field(default_factory=dict)
@@ -38,7 +38,8 @@ class Program:
     def __call__(self, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
         """The outputs of other inputs, of the same shapes as those that it was recorded with; texts come last."""
         results = self._results(inputs)
-        found = {name: _found(out, results) for name, out in self.outputs.items() if isinstance(name, str)}
+        outputs = {name: out for name, out in self.outputs.items() if isinstance(name, str)}
+        found = {name: results[out.number] if isinstance(out, Recorded) else out for name, out in outputs.items()}
         return found | {name: filled(template, results) for name, template in self.texts.items()}
 
     def refusal(self, inputs: Mapping[str, ArrayLike]) -> str:
@@ -65,33 +66,24 @@ class Program:
             results[k] = value
         with np.errstate(all="ignore"):
             for k in self.needed:
-                results[k] = _run(self.calls[k], results)
+                results[k] = self.calls[k].result(results)
         return results
 
     @cached_property
     def needed(self) -> list[int]:
         """The numbers of the calls that outputs depend on, in order, without the inputs."""
         found: set[int] = set()
-        waiting = [out.number for out in self.outputs.values() if isinstance(out, Ref)]
+        waiting = [out.number for out in self.outputs.values() if isinstance(out, Recorded)]
         while waiting:
             if (k := waiting.pop()) not in found:
                 found.add(k)
                 waiting += _refs(self.calls[k].arguments)
-        return sorted(k for k in found if self.calls[k].function is not None)
-
-
-def _run(call: Call, results: Mapping[int, Array]) -> Array:
-    assert call.function is not None
-    return call.function(*mapped(lambda x: _found(x, results), call.arguments), **call.named)
-
-
-def _found(argument: Any, results: Mapping[int, Array]) -> Any:
-    return results[argument.number] if isinstance(argument, Ref) else argument
+        return sorted(k for k in found if k >= len(self.inputs))
 
 
 def _refs(arguments: Sequence[object]) -> Iterator[int]:
     for x in arguments:
-        if isinstance(x, Ref):
+        if isinstance(x, Recorded):
             yield x.number
         elif isinstance(x, (tuple, list)):
             yield from _refs(x)
@@ -112,11 +104,12 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
         raise unrecorded(error) or error from error
     texts = {name: recording.texts.parted(value) for name, value in outputs.items() if isinstance(value, str)}
     arrays = {name: value for name, value in outputs.items() if name not in texts}
-    found: dict[str | int, Ref | np.ndarray] = {
-        name: Ref(value.number) if isinstance(value, Recorded) else np.asarray(value) for name, value in arrays.items()
+    found: dict[str | int, Recorded | np.ndarray] = {
+        name: value if isinstance(value, Recorded) else np.asarray(value) for name, value in arrays.items()
     }
     needed = (*recording.refusals, *(k for t in (*recording.refusals.values(), *texts.values()) for k in numbers(t)))
-    found |= {k: Ref(k) for k in needed}
+    found |= {k: recording.calls[k] for k in needed}
+    recording.values.clear()
     return Program(tuple(recording.calls), tuple(inputs), found, texts, recording.refusals)
 
 

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import operator
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike, DTypeLike
 
 from ..quantities.known import known
-from .operations import TABLE, Each, Move, Written
+from .operations import ALONG, EACH, FOLDS, MOVES, operands
 from .texts import Template, Texts
-from .written import whole
+from .written import BY, whole
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 
@@ -41,23 +40,6 @@ def _of_the_machinery(file: str) -> bool:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Ref:
-    """The result of a call, or an input, by its number."""
-
-    number: int
-
-
-class Call(NamedTuple):
-    """A function of numpy with its arguments, of which each recorded one is a `Ref`; of an input there is none."""
-
-    function: Callable[..., np.ndarray] | None
-    arguments: tuple[Any, ...]
-    named: dict[str, object]
-    shape: tuple[int, ...]
-    dtype: np.dtype
-
-
 def mapped(f: Callable[[object], object], value: Any) -> Any:
     """``f`` of every argument in nested tuples and lists."""
     if not isinstance(value, (tuple, list)):
@@ -67,46 +49,40 @@ def mapped(f: Callable[[object], object], value: Any) -> Any:
 
 
 class Recording:
-    """The calls that have been made so far, in order; one that is made again is the same."""
+    """The calls that have been made so far, in order, and what they give; one that is made again is the same."""
 
     def __init__(self) -> None:
-        self.calls: list[Call] = []
+        self.calls: list[Recorded] = []
+        self.values: list[np.ndarray] = []
         self.texts = Texts()
         self.refusals: dict[int, Template] = {}
         self._known: dict[object, Recorded] = {}
 
     def input(self, value: ArrayLike) -> Recorded:
         """An input, for which ``value`` stands while the program is recorded."""
-        return self._noted(None, (), {}, np.asarray(value, dtype=float)[()])
+        return Recorded(self, lambda: np.asarray(value, dtype=float)[()], (), {})
 
     def call(self, function: Callable[..., Any], *arguments: object, **named: object) -> Any:
-        """The result of a function of the table."""
-        row = TABLE.get(function)
-        if row is None:
-            raise cannot(f"{_name_of(function)} cannot be recorded; it is not in the table of operations")
-        if isinstance(row, Written):
-            return _written(row, function, arguments, named)
-        if isinstance(row, Each) and (len(arguments) != row.operands or named):
-            raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
-        if not isinstance(row, (Each, Move)) and named.keys() - {"axis", "keepdims"}:
-            raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
+        """The result of a function of numpy."""
+        if function in BY:
+            return _written(function, arguments, named)
+        _check(function, arguments, named)
         key = (function, *map(_key, arguments), repr(named))
         if key not in self._known:
-            value = function(*mapped(_value, arguments), **named)
-            self._known[key] = self._noted(function, mapped(_ref, arguments), named, value)
+            self._known[key] = Recorded(self, function, arguments, named)
         return self._known[key]
 
-    def _noted(
-        self,
-        function: Callable[..., Any] | None,
-        arguments: tuple[object, ...],
-        named: dict[str, object],
-        value: np.ndarray,
-    ) -> Recorded:
-        if value.dtype.kind not in "fbiu":
-            raise cannot("complex numbers and texts cannot be recorded")
-        self.calls.append(Call(function, arguments, named, value.shape, value.dtype))
-        return Recorded(self, Ref(len(self.calls) - 1), value)
+
+def _check(function: Callable[..., Any], arguments: tuple[object, ...], named: dict[str, object]) -> None:
+    """Raise `CannotRecord` unless it is known what the function is elsewhere."""
+    if function in EACH:
+        if named or len(arguments) != operands(EACH[function]):
+            raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
+    elif function in FOLDS or function in ALONG:
+        if named.keys() - {"axis", "keepdims"}:
+            raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
+    elif function not in MOVES:
+        raise cannot(f"{_name_of(function)} cannot be recorded; it is not in the table of operations")
 
 
 def _name_of(function: object) -> str:
@@ -114,19 +90,11 @@ def _name_of(function: object) -> str:
     return f"{owner.__name__ + '.' if isinstance(owner, np.ufunc) else ''}{getattr(function, '__name__', function)}"
 
 
-def _written(row: Written, function: object, arguments: tuple[object, ...], named: dict[str, object]) -> object:
+def _written(function: Any, arguments: tuple[object, ...], named: dict[str, object]) -> object:
     try:
-        return row.by(*arguments, **named)
+        return BY[function](*arguments, **named)
     except TypeError as unfit:
         raise cannot(f"{_name_of(function)} cannot be recorded with these arguments: {unfit}") from None
-
-
-def _value(argument: object) -> object:
-    return argument.value if isinstance(argument, Recorded) else argument
-
-
-def _ref(argument: object) -> object:
-    return argument.ref if isinstance(argument, Recorded) else argument
 
 
 def _key(argument: object) -> object:
@@ -143,16 +111,29 @@ def _key(argument: object) -> object:
 class Recorded(NDArrayOperatorsMixin):
     """An array of a recording: numpy computes with it as with any other, what is in it is known when it runs.
 
-    ``value`` is what it is of the inputs that the recording is made with: it says shape and kind, nothing else.
+    It is what ``function`` gives of ``arguments``, of which some may be recorded too.
     """
 
-    __slots__ = ("dtype", "ndim", "number", "recording", "ref", "shape", "size", "value")
+    __slots__ = ("arguments", "dtype", "function", "named", "ndim", "number", "recording", "shape", "size")
     recorded = True
     """By which physics can tell it from a known value (see `camkit.quantities.known`)."""
 
-    def __init__(self, recording: Recording, ref: Ref, value: np.ndarray) -> None:
-        self.recording, self.ref, self.number, self.value = recording, ref, ref.number, value
-        self.shape, self.dtype, self.ndim, self.size = (value.shape, value.dtype, value.ndim, value.size)
+    def __init__(
+        self, recording: Recording, function: Callable[..., Any], arguments: tuple[object, ...], named: dict[str, Any]
+    ) -> None:
+        self.recording, self.function, self.arguments, self.named = recording, function, arguments, named
+        value = self.result(recording.values)
+        if value.dtype.kind not in "fbiu":
+            raise cannot("complex numbers and texts cannot be recorded")
+        self.shape, self.dtype, self.ndim, self.size = value.shape, value.dtype, value.ndim, value.size
+        self.number = len(recording.calls)
+        recording.calls.append(self)
+        recording.values.append(value)
+
+    def result(self, results: Sequence[np.ndarray] | Mapping[int, np.ndarray]) -> np.ndarray:
+        """What it is, by the results of the calls before it."""
+        given = mapped(lambda x: results[x.number] if isinstance(x, Recorded) else x, self.arguments)
+        return self.function(*given, **self.named)
 
     @property
     def T(self) -> np.ndarray:
@@ -189,7 +170,7 @@ class Recorded(NDArrayOperatorsMixin):
         return id(self)
 
     def __len__(self) -> int:
-        return len(self.value)
+        return len(self.recording.values[self.number])
 
     def __iter__(self) -> Iterator[Any]:
         return (self[k] for k in range(len(self)))
@@ -221,7 +202,7 @@ class Recorded(NDArrayOperatorsMixin):
         self, function: Callable[..., Any], types: object, arguments: Any, named: dict[str, object]
     ) -> Any:
         if function in (np.shape, np.ndim, np.size):
-            return function(self.value, *arguments[1:], **named)
+            return function(self.recording.values[self.number], *arguments[1:], **named)
         return self.recording.call(function, *arguments, **named)
 
     def astype(self, dtype: DTypeLike, copy: bool = True) -> Any:

@@ -131,7 +131,6 @@ BY: dict[object, Callable[..., object]] = {
     np.zeros_like: lambda a: np.zeros(a.shape, dtype=a.dtype),
     np.ones_like: lambda a: np.ones(a.shape, dtype=a.dtype),
     np.full_like: lambda a, value: np.broadcast_to(value, a.shape),
-    np.outer: lambda a, b: np.ravel(a)[:, None] * np.ravel(b),
     np.append: _append,
     np.take: _take,
     np.take_along_axis: _take_along_axis,

@@ -5,8 +5,8 @@ from itertools import product
 
 import numpy as np
 
-from camkit.program.operations import TABLE, Each
-from camkit.program.written import picked, whole
+from camkit.program.operations import ALONG, EACH, FOLDS, MOVES, operands
+from camkit.program.written import BY, picked, whole
 from camkit.quantities import quantities_of, value_of
 
 AWKWARD = [
@@ -33,7 +33,6 @@ ORDINARY = np.random.default_rng(5).normal(size=(4, 7))
 TRUTHS = {
     np.bitwise_and,
     np.bitwise_or,
-    np.bitwise_xor,
     np.invert,
     np.bitwise_and.reduce,
     np.bitwise_or.reduce,
@@ -84,7 +83,6 @@ SPECIAL = {
     np.zeros_like: lambda x: x + np.zeros_like(x),
     np.ones_like: lambda x: x + np.ones_like(x),
     np.full_like: lambda x: x + np.full_like(x, 2.0),
-    np.outer: lambda x: np.outer(x, x[:3]),
 }
 OF_ROWS = {np.argmax, np.argmin, np.add.accumulate, np.sort, np.take_along_axis}
 OF_ORDINARY = {
@@ -103,11 +101,11 @@ OF_ORDINARY = {
 
 def case(function):
     """A use of a function of the table, and the arrays that it takes."""
-    row, use = TABLE[function], SPECIAL.get(function)
+    use = SPECIAL.get(function)
     if use and function is not np.where:
         arrays = [ROWS if function in OF_ROWS else ORDINARY if function in OF_ORDINARY else ONE]
-    elif isinstance(row, Each):
-        use, arrays = use or function, [ONE] if row.operands == 1 else list(PAIRS.T)
+    elif function in EACH:
+        use, arrays = use or function, [ONE] if operands(EACH[function]) == 1 else list(PAIRS.T)
     else:
         use, arrays = (lambda m: function(m, axis=-1)), [ROWS]
     if function in TRUTHS:
@@ -115,7 +113,8 @@ def case(function):
     return use, arrays
 
 
-CASES = {f"{i:03d} {getattr(f, '__qualname__', f)}": case(f) for i, f in enumerate(TABLE)}
+FUNCTIONS = [*EACH, *FOLDS, *ALONG, *sorted(MOVES, key=lambda f: f.__name__), *BY]
+CASES = {f"{i:03d} {getattr(f, '__qualname__', f)}": case(f) for i, f in enumerate(FUNCTIONS)}
 
 
 def expression(seed):
