@@ -6,14 +6,15 @@ Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (the degree-9 family of high-s
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from math import factorial
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
-from ...quantities import Quantity, floats, numbered, row
+from ...quantities import Quantity, floats, known, numbered, row
 from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
@@ -71,7 +72,7 @@ class FreePolynomial(Law):
         object.__setattr__(self, "start", _values("start", self.start))
         object.__setattr__(self, "end", _values("end", self.end))
         refuse_lengths(self)
-        _factors(self._conditions)
+        _powers(self._conditions)
 
     @property
     def _given(self) -> list[tuple[Condition, Value]]:
@@ -90,34 +91,57 @@ class FreePolynomial(Law):
         return ([*rest, False].index(False)) - 1
 
     def at(self, u: Array) -> Kinematics:
-        given = np.stack(np.broadcast_arrays(*(floats(value) for _, value in self._given)))
-        parts, of_one = _factors(self._conditions), (1,) * (given.ndim - 1)
-        each = ((part.reshape(part.shape + of_one) * given).sum(1) for part in parts)
-        legendre = _legendre(2 * u - 1, len(given))
-        return Kinematics(*(sum(c * P for c, P in zip(cs, legendre, strict=False)) for cs in each))
+        powers = of_values(_powers(self._conditions), [value for _, value in self._given])
+        return piecewise(powers, (0.0, 1.0), (0.5,), u)
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
 
 
-def _legendre(x: Array, count: int) -> list[Array]:
-    """``P0, P1, ...`` at ``x``: ``(k + 1) P_k+1 = (2 k + 1) x P_k - k P_k-1``."""
-    found = [1 + 0 * x, x]
-    for k in range(1, count - 1):
-        found.append(((2 * k + 1) * x * found[k] - k * found[k - 1]) / (k + 1))
-    return found
+def of_values(powers: Array, given: Sequence[Value]) -> Array:
+    """What stands before each power, ``(powers, pieces)`` or ``(.., p, 1)``, from what it is for each given value."""
+    values = np.stack(np.broadcast_arrays(*map(floats, given)))
+    return (powers.reshape(powers.shape + (1,) * (values.ndim - 1)) * values).sum(2)
+
+
+def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float], u: Array) -> Kinematics:
+    """A motion of polynomials in the distance from an origin each, with borders between them.
+
+    The first and the last are about the ends of the law: where it comes to rest its speed is no rounding.
+    """
+    x, factors = u - origins[0], list(powers[:, 0])
+    if known(u):
+        place = np.searchsorted(borders, u, side="right")
+        rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
+        x, factors = u - np.asarray(origins)[place], list(powers[:, place, *rows])
+    for k in () if known(u) else range(1, len(origins)):
+        pairs, here = zip(powers[:, k], factors, strict=True), u >= borders[k - 1]
+        x, factors = np.where(here, u - origins[k], x), [np.where(here, *pair) for pair in pairs]
+    s, v, a, j = (0.0 * x,) * 4
+    for c in factors[::-1]:
+        s, v, a, j = s * x + c, v * x + s, a * x + v, j * x + a
+    return Kinematics(s, v, 2 * a, 6 * j)
+
+
+def exact(powers: Array, conditions: Mapping[int, Condition]) -> Array:
+    """``powers`` of given values, of which some are, by their place, conditions at an end: to the last digit."""
+    for i, (u, k) in conditions.items():
+        powers[k, -int(u)] = 0.0
+        powers[k, -int(u), i] = 1 / factorial(k)
+    return powers
 
 
 @lru_cache(maxsize=256)
-def _factors(conditions: tuple[Condition, ...]) -> tuple[Array, ...]:
-    """From given values to the Legendre factors of ``s, v, a, j``: a row for each polynomial."""
+def _powers(conditions: tuple[Condition, ...]) -> Array:
+    """From given values to the powers of the distance from each end, ``(powers, 2, values)``."""
     every = np.eye(len(conditions))
     rows = [2**k * legval(2 * u - 1, legder(every, k)) for u, k in conditions]
     if not rows or np.linalg.matrix_rank(np.array(rows)) < len(rows):
         given = ", ".join(f"{LETTERS[k]}({u:g})" for u, k in conditions) or "nothing"
         raise ValueError(f"the free polynomial is given {given}; that does not determine a polynomial: add an s")
-    inverse = np.linalg.inv(np.array(rows))
-    return tuple(2**k * legder(inverse, k) for k in range(4))
+    inverse, ends = np.linalg.inv(np.array(rows)), np.array([-1.0, 1.0])
+    found = [2**k / factorial(k) * legval(ends, legder(inverse, k)).T for k in range(len(conditions))]
+    return exact(np.stack(found), dict(enumerate(conditions)))
 
 
 def _values(word: str, given: object) -> tuple[Value | None, ...]:

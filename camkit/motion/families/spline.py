@@ -16,11 +16,11 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from ...quantities import Quantity, floats, known, numbered, row
+from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
-from .free import given_at, sized
+from .free import exact, given_at, of_values, piecewise, sized
 
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
@@ -88,9 +88,7 @@ class SplineLaw(Law):
 
     def at(self, u: Array) -> Kinematics:
         values = (0.0, *self.s, 1.0, *self.start, *self.end)
-        given, pieces = np.stack(np.broadcast_arrays(*map(floats, values))), _pieces(self.u, len(self.start))
-        powers = (pieces.reshape(pieces.shape + (1,) * (given.ndim - 1)) * given).sum(2)
-        return _piecewise(powers, (0.0, *self.u), u)
+        return piecewise(of_values(_basis(self.u, len(self.start)), values), *_places((0.0, *self.u, 1.0)), u)
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
@@ -111,35 +109,24 @@ def _row(values: object, what: str) -> tuple[float, ...]:
 
 
 @lru_cache(maxsize=64)
-def _pieces(knots: tuple[float, ...], given: int) -> Array:
+def _basis(knots: tuple[float, ...], given: int) -> Array:
     """The powers of the splines that have one of the points or end values 1 and all others 0, in their order."""
-    points = len(knots) + 2
+    points, orders = len(knots) + 2, range(1, given + 1)
     unit = np.eye(points + 2 * given)
-    start = [(k + 1, unit[points + k]) for k in range(given)]
-    end = [(k + 1, unit[points + given + k]) for k in range(given)]
-    basis = make_interp_spline((0.0, *knots, 1.0), unit[:points], k=2 * given + 1, bc_type=(start, end))
-    return _powers(basis, (0.0, *knots))
+    ends = [[(k, unit[points + i * given + k - 1]) for k in orders] for i in (0, 1)]
+    basis = make_interp_spline((0.0, *knots, 1.0), unit[:points], k=2 * given + 1, bc_type=tuple(ends))
+    given_at_ends = {points + i * given + k - 1: (float(i), k) for i in (0, 1) for k in orders}
+    return exact(_powers(basis, (0.0, *knots, 1.0)), {0: (0.0, 0), points - 1: (1.0, 0)} | given_at_ends)
 
 
-def _powers(spline: BSpline, starts: tuple[float, ...]) -> Array:
-    """What stands before each power of the distance from the start of each piece: ``(degree + 1, pieces, ...)``."""
-    return np.stack([spline(starts, k) / factorial(k) for k in range(spline.k + 1)])
+def _places(rows: tuple[float, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The origins of the pieces between ``rows``, and the borders; the last piece is halved, its end an origin."""
+    return rows, (*rows[1:-1], (rows[-2] + rows[-1]) / 2)
 
 
-def _piecewise(powers: Array, starts: tuple[float, ...], u: Array) -> Kinematics:
-    """The motion of polynomials, each from its start to the next one's; ``(.., pieces, p, 1)`` of a population."""
-    x, factors = u - starts[0], list(powers[:, 0])
-    if known(u):
-        place = np.searchsorted(starts[1:], u, side="right")
-        rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
-        x, factors = u - np.asarray(starts)[place], list(powers[:, place, *rows])
-    for k in () if known(u) else range(1, len(starts)):
-        pairs, here = zip(powers[:, k], factors, strict=True), u >= starts[k]
-        x, factors = np.where(here, u - starts[k], x), [np.where(here, *pair) for pair in pairs]
-    s, v, a, j = (0.0 * x,) * 4
-    for c in factors[::-1]:
-        s, v, a, j = s * x + c, v * x + s, a * x + v, j * x + a
-    return Kinematics(s, v, 2 * a, 6 * j)
+def _powers(spline: BSpline, origins: tuple[float, ...]) -> Array:
+    """What stands before each power of the distance from each origin: ``(degree + 1, origins, ...)``."""
+    return np.stack([spline(origins, k) / factorial(k) for k in range(spline.k + 1)])
 
 
 @dataclass(frozen=True)
@@ -185,8 +172,10 @@ class TableLaw(Law):
         return _smoothed(np.array(self.u), np.array(self.s), self.tolerance)
 
     @cached_property
-    def _pieces(self) -> Array:
-        return _powers(self._spline, self.u[:-1])
+    def _powers(self) -> Array:
+        powers = _powers(self._spline, self.u)
+        powers[:3, [0, -1]] = [[0, 1], [0, 0], [0, 0]]
+        return powers
 
     @property
     def error(self) -> float:
@@ -194,7 +183,7 @@ class TableLaw(Law):
         return float(np.max(np.abs(self._spline(self.u) - self.s)))
 
     def at(self, u: Array) -> Kinematics:
-        return _piecewise(self._pieces, self.u[:-1], u)
+        return piecewise(self._powers, *_places(self.u), u)
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
