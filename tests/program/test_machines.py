@@ -7,10 +7,9 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
-from camkit.motion import LAW_MENU, FreePolynomial, ModifiedSine, ShapedLaw, SplineLaw, TableLaw
-from camkit.motion.families.shaped import SPLINE
 from camkit.program import record
 from camkit.quantities import with_quantities
+from machine_cases import LAWS
 from program_cases import designs_beside
 
 CAMS = [
@@ -20,14 +19,6 @@ CAMS = [
     TranslatingFlatCam(),
     OscillatingFlatCam(),
 ]
-U = np.linspace(0, 1, 25)
-LAWS = {
-    **{law.name: law for law in LAW_MENU},
-    "free polynomial of degree 7": FreePolynomial((0, 0.3, 1, -2), (1, 1.5, -3, 4)),
-    "B-spline of degree 7": SplineLaw((0.3, 0.6), (0.2, 0.7), (0.0, 0.0, 1.0), (0.5, 0.0, 0.0)),
-    "shaped by a B-spline": ShapedLaw(ModifiedSine(), (0.05, -0.1, 0.0, 0.02), SPLINE),
-    "table": TableLaw(U, np.round(U**3 * (10 - 15 * U + 6 * U**2), 3), 1e-3),
-}
 ROWS = 5
 
 

@@ -1,7 +1,5 @@
 """Every study, every table of measures and every default view of the machines replays as numpy works it out."""
 
-from dataclasses import fields, replace
-
 import numpy as np
 import pytest
 from every_machine import MACHINES
@@ -9,8 +7,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit.linkage import DoubleUniversalJoint
 from camkit.machines import (
-    CamLever,
-    HighSpeedCam,
     cam_lever_study,
     corrected_valve_study,
     door_handle_paper_study,
@@ -27,11 +23,10 @@ from camkit.program import CannotRecord, record
 from camkit.quantities import measures_of, with_quantities
 from camkit.render.picture import positions_of
 from camkit.views import default_views
+from machine_cases import NOT_YET, POSITIONS, analysed, shown
 from program_cases import designs_beside
 
 ROWS, BLOCKS = 20, 10
-ROUGH = (HighSpeedCam, CamLever)
-"""Of these the rough peaks record: exact ones are searched for where the curves of each design say (`with_tops`)."""
 
 STUDIES = {
     "door handle": door_handle_study(),
@@ -50,18 +45,7 @@ STUDIES = {
 }
 DESIGNS = MACHINES | {"double joint": DoubleUniversalJoint()}
 ANGLES = 61
-POSITIONS = {"turn": 1.3, "azimuth": 0.5, "elevation": 0.4}
-NOT_YET = {
-    ("shaft", "plane_of_sizes"): "a search and a map of the plane stand behind it, and its contours follow from them",
-    ("shaft", "section"): "a catalogue is searched for what holds, and its legend names what is found",
-}
-"""Views that cannot be recorded, and why."""
 VIEWS = {(name, view.__name__): view for name, d in DESIGNS.items() for view in default_views(d.analyse(ANGLES))}
-
-
-def analysed(design, n):
-    analysis = design.analyse(n)
-    return replace(analysis, rough=True) if isinstance(design, ROUGH) else analysis
 
 
 def check(function, start):
@@ -102,27 +86,6 @@ def test_a_table_of_measures_replays_to_the_last_bit(name):
         return {measure.name: measure.of(analysis, ROWS) for measure in measures_of(design)}
 
     check(measured, design)
-
-
-def said(name, value):
-    """The numbers and texts of a part of a picture, by name."""
-    if isinstance(value, dict):
-        value = [*value, *value.values()]
-    if isinstance(value, (list, tuple)):
-        return {k: v for i, part in enumerate(value) for k, v in said(f"{name} {i}", part).items()}
-    return {} if value is None or isinstance(value, bool) else {name: value}
-
-
-def shown(view, n):
-    """The numbers and texts of a view's marks and axes, as a function of a design and a position."""
-
-    def of(design, **position):
-        picture = view(analysed(design, n), **position)
-        parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
-        values = (said(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
-        return {key: value for each in values for key, value in each.items()}
-
-    return of
 
 
 @pytest.mark.slow

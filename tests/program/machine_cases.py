@@ -1,0 +1,97 @@
+"""Machines of every menu, and all that is shown of them: what programs of whole machines are tried on."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+from every_machine import MACHINES
+
+from camkit.machines import CamLever, HighSpeedCam
+from camkit.machines.high_speed_cam import LOADS
+from camkit.motion import LAW_MENU, FreePolynomial, ModifiedSine, ShapedLaw, SplineLaw, TableLaw
+from camkit.motion.families.shaped import SPLINE
+from camkit.quantities import choices_of, measures_of, with_quantities
+from camkit.render.picture import positions_of
+from camkit.views import default_views
+
+U = np.linspace(0, 1, 25)
+LAWS = {
+    **{law.name: law for law in LAW_MENU},
+    "free polynomial of degree 7": FreePolynomial((0, 0.3, 1, -2), (1, 1.5, -3, 4)),
+    "B-spline of degree 7": SplineLaw((0.3, 0.6), (0.2, 0.7), (0.0, 0.0, 1.0), (0.5, 0.0, 0.0)),
+    "shaped by a B-spline": ShapedLaw(ModifiedSine(), (0.05, -0.1, 0.0, 0.02), SPLINE),
+    "table": TableLaw(U, np.round(U**3 * (10 - 15 * U + 6 * U**2), 3), 1e-3),
+}
+ROUGH = (HighSpeedCam, CamLever)
+"""Of these the rough peaks record: exact ones are searched for where the curves of each design say (`with_tops`)."""
+
+POSITIONS = {"turn": 1.3, "azimuth": 0.5, "elevation": 0.4}
+NOT_YET = {
+    ("shaft", "plane_of_sizes"): "a search and a map of the plane stand behind it, and its contours follow from them",
+    ("shaft", "section"): "a catalogue is searched for what holds, and its legend names what is found",
+}
+"""Views that cannot be recorded, and why."""
+
+
+def designs_of_every_menu(each):
+    """So many designs of each machine, with options by lot: no option comes again before all of its menu are drawn."""
+    rng, drawn = np.random.default_rng(0), {}
+    for name, machine in MACHINES.items():
+        for k in range(max(each, len(LOADS) if name == "high speed" else 0)):
+            yield f"{name} {k}", _with_menus(machine, rng, drawn)
+
+
+def _with_menus(design, rng, drawn):
+    chosen = set()
+    while path := next((path for path in choices_of(design) if path not in chosen), None):
+        options = choices_of(design)[path].options
+        menu = drawn.setdefault(id(options), _by_lot([*LAWS.values()] if options is LAW_MENU else options, rng))
+        design = with_quantities(design, {path: next(menu)})
+        chosen.add(path)
+    return design
+
+
+def _by_lot(options, rng):
+    while True:
+        yield from (options[k] for k in rng.permutation(len(options)))
+
+
+def analysed(design, n):
+    analysis = design.analyse(n)
+    return replace(analysis, rough=True) if isinstance(design, ROUGH) else analysis
+
+
+def said(name, value):
+    """The numbers and texts of a part of a picture, by name."""
+    if isinstance(value, dict):
+        value = [*value, *value.values()]
+    if isinstance(value, (list, tuple)):
+        return {k: v for i, part in enumerate(value) for k, v in said(f"{name} {i}", part).items()}
+    return {} if value is None or isinstance(value, bool) else {name: value}
+
+
+def shown(view, n):
+    """The numbers and texts of a view's marks and axes, as a function of a design and a position."""
+
+    def of(design, **position):
+        picture = view(analysed(design, n), **position)
+        parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
+        values = (said(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
+        return {key: value for each in values for key, value in each.items()}
+
+    return of
+
+
+def everything(design, n):
+    """A function that gives the measures of a design, and the numbers and texts of its default views; its positions."""
+    views = [view for view in default_views(design.analyse(n)) if view.__name__ not in {view for _, view in NOT_YET}]
+    pictures = {view.__name__: (shown(view, n), positions_of(view)) for view in views}
+
+    def of(design, **position):
+        found = {measure.name: measure.of(analysed(design, n), 1) for measure in measures_of(design)}
+        for name, (picture, asked) in pictures.items():
+            values = picture(design, **{key: position[key] for key in asked if key in position})
+            found |= {f"{name}: {key}": value for key, value in values.items()}
+        return found
+
+    asked = {key for _, keys in pictures.values() for key in keys}
+    return of, {key: value for key, value in POSITIONS.items() if key in asked}
