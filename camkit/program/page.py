@@ -22,20 +22,17 @@ copysign=(a,b)=>b<0||Object.is(b,-0)?-M.abs(a):M.abs(a),
 argmax=(n,o,p,a)=>{let k=0;for(let j=1;j<n&&H[a+k]===H[a+k];j++){const x=H[a+j];if(x>H[a+k]||x!==x)k=j}H[o]=k},
 sorted=(n,o,p,a)=>{H.copyWithin(o,a,a+n);H.subarray(o,o+n).sort()}"""
 """What the operations of the table need; ``H`` is the heap."""
-RUN = """L=[];
-H.set(Float64Array.from(constants,Number));
-for(let o=constants.length,k=0;k<loops.length;){
-const[f,p,...steps]=kinds[loops[k++]],n=loops[k++],at=[0,0,0,0,0,0];
-o+=loops[k++];
-steps.forEach((step,j)=>{const a=loops[k++];at[2*j]=a>0?a-1:o+a;at[2*j+1]=step});
-L.push(f,n,o,p,...at);
-o+=n}
-const R=Int32Array.from(L);
+RUN = """H.set(Float64Array.from(constants,Number));
 return X=>{
 H.set(X,constants.length);
-for(let k=0;k<R.length;k+=10)F[R[k]](R[k+1],R[k+2],R[k+3],R[k+4],R[k+5],R[k+6],R[k+7],R[k+8],R[k+9]);
+for(let o=constants.length,k=0;k<loops.length;){
+const kind=kinds[loops[k]],n=loops[k+1],at=j=>{const a=loops[k+j];return a>0?a-1:o+a};
+o+=loops[k+2];
+F[kind[0]](n,o,kind[1],at(3),kind[2],at(4),kind[3],at(5),kind[4]);
+o+=n;
+k+=1+kind.length}
 return outputs.map(([at,n])=>H.slice(at,at+n))}"""
-"""The loops are read, once, as the number of a function and what it takes; then they are run with any inputs."""
+"""One loop after the other is done; what its operation does not take it is given in vain."""
 NAMES = "opaqbrcs"
 """What the operations' functions call addresses and steps, of the result first."""
 
@@ -52,7 +49,7 @@ def _function(operation: str) -> str:
 
 OPERATIONS = dict.fromkeys([*EACH.values(), *(name for name, _ in ALONG.values())])
 NUMBERED = {operation: number for number, operation in enumerate(OPERATIONS)}
-MACHINE = "(size,constants,outputs,kinds,loops)=>{{const {},\nF=[{}],\n{}}}".format(
+MACHINE = "(size,constants,outputs,kinds,loops)=>{{const {},\nF=[{}];\n{}}}".format(
     LIBRARY, ",\n".join(map(_function, OPERATIONS)), RUN
 )
 """A function that makes of the numbers of any program its function."""

@@ -11,7 +11,7 @@ from camkit.program.page import MACHINE, javascript
 from program_cases import CASES, INPUTS, expression, judged
 
 HOSTILE = ["</script><img src=x onerror=alert(1)>", "<!--", "');alert(1);('", "\u2028", "`${alert(1)}`", "\\"]
-NUMBERS = r"[-0-9.e,\[\]]|NaN|Infinity"
+NUMBERS = r'[-+0-9.e,"\[\]]|NaN|Infinity'
 
 
 def numbers_of(text):
