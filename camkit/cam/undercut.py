@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities import text_if
 from ..quantities.types import Array
 from ..units import deg, mm
 from .flank import Cut
 
 INNER, OUTER, ONLY = "inner flank", "outer flank", "profile"
 """What the flanks of a groove are called, and that of a plate."""
+CUTS = "Undercut: the follower cuts away {}."
 
 
 def undercut_in_words(analysis: object, cuts: Sequence[Cut] = ()) -> str:
@@ -33,34 +35,27 @@ def undercut_in_words(analysis: object, cuts: Sequence[Cut] = ()) -> str:
     'Undercut: the follower cuts away the profile at 32.3 deg, where its radius of curvature is 3.95 mm too small.'
     """
     curves = getattr(analysis, "curves", None) or {"": analysis}
-    told = [words for name, curve in curves.items() for words in _flanks(curve, name if len(curves) > 1 else "")]
-    merged = list(_merged(analysis))
-    if not told and not merged:
-        told = [str(cut) for cut in cuts]
-    return " ".join([*([f"Undercut: the follower cuts away {', and '.join(told)}."] if told else []), *merged])
+    told, cut = "", np.array(False)
+    for name, curve in curves.items():
+        for lost, words in _flanks(curve, name if len(curves) > 1 else ""):
+            told, cut = told + text_if(lost, text_if(cut, ", and ") + words), cut | lost
+    gap = getattr(analysis, "groove_gap", np.inf)
+    merged = text_if(gap < 0, f"Walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm.")
+    said = text_if(cut, CUTS.format(told) + text_if(gap < 0, " ")) + merged
+    return said if said or not cuts else CUTS.format(", and ".join(map(str, cuts)))
 
 
-def _merged(analysis: object) -> Iterator[str]:
-    """Parts of a groove between which no wall is left, in words."""
-    gap = float(getattr(analysis, "groove_gap", np.inf))
-    if gap < 0:
-        yield f"Walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm."
-
-
-def _flanks(curve: object, name: str) -> Iterator[str]:
-    """Each flank of a curve that is undercut, in words."""
+def _flanks(curve: object, name: str) -> Iterator[tuple[Array, str]]:
+    """Whether each flank of a curve is undercut, and which in words."""
     of = f" of the {name} curve" if name else ""
     for flank, (radius, cam_angle) in _margins(curve).items():
-        if radius < 0:  # at 0 a cusp, or a corner into which a knife edge fits: nothing is lost
-            lacks = f"{-float(radius) / mm:.3g} mm too small"
-            deep = f", where its radius of curvature is {lacks}" if np.isfinite(radius) else ""
-            yield f"{flank}{of} at {float(cam_angle) / deg:.4g} deg{deep}"
+        lacks = f", where its radius of curvature is {-radius / mm:.3g} mm too small"
+        where = f"{flank}{of} at {cam_angle / deg:.4g} deg" + text_if(np.isfinite(radius), lacks)
+        yield radius < 0, where  # at 0 a cusp, or a corner into which a knife edge fits: nothing is lost
 
 
 def _margins(curve: Any) -> dict[str, tuple[Array, Array]]:
     """Least convex radius (m) of each flank, and the cam angle at which it stands."""
-    if hasattr(curve, "min_radius_angle"):
-        return {f"the {ONLY}": (curve.min_radius, curve.min_radius_angle)}
     if not hasattr(curve, "profile_margin"):
         return {}
     if not getattr(curve, "groove", False):

@@ -41,8 +41,8 @@ def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
 
 def sized(value: object, what: str, declared: Quantity) -> Value:
     """``value`` as a number or a column of the size that its declaration allows (see `a_number`)."""
-    known = number(value)
-    must = declared.possible_for(known) if isinstance(known, float) else declared.possible
+    read = number(value)
+    must = declared.possible if read is None or np.ndim(read) else declared.possible_for(read)
     return a_number(value, what, f"be {must}", declared.allows)
 
 
