@@ -54,9 +54,11 @@ if TYPE_CHECKING:
     from .panels import pareto_panel as pareto_panel
     from .panels import tolerance_panel as tolerance_panel
     from .panels.explore import explore as explore
+    from .panels.instrument import instrument as instrument
     from .panels.presets import presets as presets
     from .panels.shortlist import shortlist as shortlist
     from .panels.try_everything import try_everything as try_everything
+    from .render.living import to_html as to_html
     from .render.picture import picture as picture
     from .search.nsga2 import nsga2 as nsga2
 
@@ -72,6 +74,7 @@ _LATER = {
     "cycle_time_panel": "panels",
     "edit_program": "panels",
     "explore": "panels",
+    "instrument": "panels",
     "live_pareto_panel": "panels",
     "nsga2": "search.nsga2",
     "optimise_panel": "panels",
@@ -79,6 +82,7 @@ _LATER = {
     "picture": "render.picture",
     "presets": "panels",
     "shortlist": "panels",
+    "to_html": "render.living",
     "tolerance_panel": "panels",
     "try_everything": "panels",
 }

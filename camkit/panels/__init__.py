@@ -9,6 +9,7 @@ with extra("camkit.panels"):
     from .cycle_time import CycleTimePanel, cycle_time_panel
     from .explore import Explorer, explore
     from .fronts import FrontsPanel, compare_fronts
+    from .instrument import Instrument, instrument
     from .live_pareto import LiveParetoPanel, live_pareto_panel
     from .optimise import OptimisePanel, optimise_panel
     from .pareto import ParetoPanel, pareto_panel
@@ -23,6 +24,7 @@ __all__ = [
     "CycleTimePanel",
     "Explorer",
     "FrontsPanel",
+    "Instrument",
     "LiveParetoPanel",
     "OptimisePanel",
     "ParetoPanel",
@@ -36,6 +38,7 @@ __all__ = [
     "edit_program",
     "explore",
     "general_tolerances",
+    "instrument",
     "live_pareto_panel",
     "optimise_panel",
     "pareto_panel",

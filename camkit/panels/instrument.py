@@ -1,0 +1,323 @@
+"""`instrument`: a design under sliders, computed and drawn by the page itself."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import ipywidgets as w
+import numpy as np
+import traitlets
+
+from ..files import designs, profiles
+from ..quantities import (
+    Analysable,
+    Measure,
+    Paths,
+    Quantity,
+    choices_of,
+    declared_in,
+    measures_of,
+    quantities_of,
+    refuse_design,
+    value_of,
+    words,
+)
+from ..quantities.applied import raised
+from ..quantities.kinds import refuse_arguments
+from ..render.living import PAGE, Living, living, script
+from ..render.picture import Still, below, picture, positions_of, saved, small_png, strip, turn_range
+from ..study.study import refuse_limits
+from ..units import in_unit
+from ..views.defaults import default_views
+from ..views.picture import View
+from .explore import changed, remarked
+from .kit.panel import IMPOSSIBLE, reason
+
+AGREED = 1e-9
+"""Page and kernel differ by less than such a share of a measure's size."""
+
+
+class Instrument(anywidget.AnyWidget):
+    """A design under sliders; the page computes and draws it, the kernel is told what a person settles on.
+
+    ``design`` is what is shown, the last one that could be built; setting it moves the page.  ``on_change(f)`` calls
+    ``f(design)`` after every change.  What cannot be built the page says in a sentence.
+    """
+
+    _esm = script("widget.js")
+    _css = (PAGE / "panel.css").read_text(encoding="utf-8")
+    structure = traitlets.Dict().tag(sync=True)
+    program = traitlets.Bytes().tag(sync=True)
+    values = traitlets.List(traitlets.Float()).tag(sync=True)
+    computed = traitlets.List(traitlets.Float(allow_none=True)).tag(sync=True)
+    """The measures of ``values`` as the page computes them."""
+    message = traitlets.Unicode().tag(sync=True)
+    design: Any = traitlets.Any()
+
+    def __init__(
+        self,
+        design: Analysable,
+        views: Sequence[View],
+        free: Sequence[str] | None = None,
+        measures: Sequence[Measure] | None = None,
+        at_most: Mapping[Measure, float] | None = None,
+        at_least: Mapping[Measure, float] | None = None,
+        turn: float | None = None,
+        azimuth: float | None = None,
+        elevation: float | None = None,
+    ) -> None:
+        refuse_arguments(Instrument.__init__, locals())
+        refuse_design(design, "the design of the panel")
+        refuse_limits(at_most or {}, at_least or {})
+        self.start: Any = design
+        self.analysis: Any = design.analyse()
+        self.measures = measures_of(design) if measures is None else tuple(measures)
+        self._limits = {"at_most": at_most, "at_least": at_least}
+        self._chosen, self._free = tuple(views), tuple(free) if free else None
+        position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
+        self._position = {name: value for name, value in position.items() if value is not None}
+        self._followers: list[Callable[..., object]] = []
+        self._first = [m.one(self.analysis) for m in self.measures]
+        self._now = list(self._first)
+        super().__init__(design=design)
+        self._record()
+        self.observe(self._settled, "values")
+        self.observe(self._shown, "design")
+        self.on_msg(lambda _, message, __: self._asked(message))
+
+    @property
+    def views(self) -> tuple[View, ...]:
+        """What is drawn: what was chosen, or what the analysis offers."""
+        return self._chosen or default_views(self.analysis)
+
+    def on_change(self, act: Callable[..., object]) -> None:
+        """Call ``act(design)`` after every change of what is shown."""
+        self._followers.append(act)
+
+    def load(self, design: Analysable) -> None:
+        """Show ``design``; the last one stays where it cannot be computed, and the page says why.
+
+        ``ValueError`` for what is no design of this kind.
+        """
+        refuse_design(design, "the design")
+        Paths(self.start, ()).values(design)  # refuses another kind
+        try:
+            self.design = design
+        except IMPOSSIBLE as error:
+            self._go_back(error)
+        else:
+            self._push()
+
+    def control(self, path: str) -> w.FloatSlider:
+        """An ordinary slider for the quantity at ``path``, in its unit, linked both ways."""
+        declared: Quantity = Paths(self.design, [path], Quantity).declared[path]
+        step = (declared.high - declared.low) / 500
+        slider = w.FloatSlider(min=declared.low, max=declared.high, step=step, description=words(path))
+
+        def follow(design: object) -> None:
+            slider.value = in_unit(value_of(design, path), declared.unit)
+
+        def move(change: Any) -> None:
+            if (
+                abs(change.new * declared.factor - value_of(self.design, path))
+                > 1e-12 * declared.most * declared.factor
+            ):
+                self._try(lambda: changed(self.design, {path: change.new * declared.factor}))
+
+        follow(self.design)
+        slider.observe(move, "value")
+        self.on_change(follow)
+        return slider
+
+    @traitlets.validate("design")
+    def _possible(self, proposal: Mapping[str, Any]) -> Any:
+        """A design whose analysis and measures can be computed."""
+        analysis = proposal["value"].analyse()
+        self._now = [measure.one(analysis) for measure in self.measures]
+        self.analysis = analysis
+        return proposal["value"]
+
+    def _shown(self, change: Any) -> None:
+        """The page shows the new design; those that follow hear of it."""
+        with self.hold_sync():
+            self.message = ""
+            if _make(change.old) != _make(change.new):
+                self._record()
+            self._push()
+        if still := [p["name"] for p in self.structure["pictures"] if p["still"]]:
+            self._answer(self._living.show_still(self.design), {"still": still})
+        self._tell_followers()
+
+    def _record(self) -> None:
+        """Structure and program for the design; another law has other coefficients."""
+        self._living: Living = living(
+            self.design, self._chosen, self.measures, **self._limits, free=self._free, position=self._stand()
+        )
+        with self.hold_sync():
+            files = [kind for kind in FILES if kind not in OF_PROFILES or hasattr(self.analysis, "profile")]
+            self.structure, self.program = {**self._living.structure, "files": files}, self._living.packed
+            self._push()
+
+    def _push(self) -> None:
+        """The page's sliders at the values of the design."""
+        self.values = [float(value_of(self.design, path)) for path in quantities_of(self.design)]
+
+    def _stand(self) -> dict[str, float]:
+        """Where the mechanism stands when the page begins."""
+        asked = {name for view in self.views for name in positions_of(view)}
+        return {name: value for name, value in self._position.items() if name in asked}
+
+    def _settled(self, change: Any) -> None:
+        """What the page shows becomes the design, if it can be built."""
+        paths = list(quantities_of(self.design))
+        if len(change.new) == len(paths) and change.new != [value_of(self.design, path) for path in paths]:
+            self._try(lambda: changed(self.design, dict(zip(paths, change.new, strict=True))))
+
+    def _try(self, make: Callable[[], Analysable]) -> None:
+        try:
+            self.design = make()
+        except ValueError:
+            return  # the page says it in the same words
+        except IMPOSSIBLE as error:
+            self._go_back(error)
+
+    def _go_back(self, error: Exception) -> None:
+        self._push()
+        self.message = f"This design cannot be computed and drawn, so the last one stays: {reason(error)}."
+
+    def _tell_followers(self) -> None:
+        """Each of them, whatever the others make of it."""
+        for act in self._followers:
+            try:
+                act(self.design)
+            except IMPOSSIBLE as error:
+                self.message = f"What follows this panel cannot be shown everywhere: {reason(error)}."
+            except Exception as error:  # somebody's own function: what this panel shows stays whole
+                self.message = f"What follows this panel cannot be computed: {raised(error)}."
+
+    @traitlets.observe("computed")
+    def _compare(self, change: Any) -> None:
+        """A visible error where page and kernel differ."""
+        for measure, first, now, page in zip(self.measures, self._first, self._now, change.new, strict=False):
+            size = np.nanmax(np.abs([first, now, 0.0])) if np.isfinite([first, now]).all() else abs(now)
+            if page is not None and np.isfinite(now) and abs(page - now) > AGREED * size:
+                self.message = (
+                    f"The page computes {measure.text(page)} for the {measure.name}, the kernel {measure.text(now)}."
+                )
+
+    def _asked(self, message: Mapping[str, Any]) -> None:
+        """What the page asks for: a choice from a menu, a file, or what it may not compute itself."""
+        try:
+            if "choose" in message:
+                path, option = message["choose"]
+                self.design = changed(self.design, {path: choices_of(self.design)[path].named[option]})
+            elif "file" in message:
+                self._send_file(message["file"])
+            elif "open" in message:
+                self.load_json(message["open"])
+            elif "compute" in message:
+                self._compute(message)
+        except IMPOSSIBLE as error:
+            self.message = f"{reason(error)[:1].upper()}{reason(error)[1:]}."
+
+    def _compute(self, message: Mapping[str, Any]) -> None:
+        count = len(self.structure["quantities"])
+        values, names = message["compute"], (p["name"] for p in self.structure["positions"])
+        try:
+            design = changed(self.design, dict(zip(quantities_of(self.design), values[:count], strict=True)))
+            shown = self._living.show(design, **dict(zip(names, values[count:], strict=True)))
+        except IMPOSSIBLE as error:
+            shown = {"sentence": reason(error), "arrays": []}
+        self._answer(shown, {"answer": message["number"]})
+
+    def _answer(self, shown: Mapping[str, Any], more: Mapping[str, object]) -> None:
+        arrays = [np.asarray(array, dtype=float).tobytes() for array in shown["arrays"]]
+        self.send({**more, **{name: part for name, part in shown.items() if name != "arrays"}}, arrays)
+
+    def _send_file(self, kind: str) -> None:
+        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [FILES[kind](self)])
+
+    def load_json(self, file: str | bytes) -> None:
+        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
+        try:
+            found = designs.read_json(file, type(self.design))
+        except IMPOSSIBLE as refusal:
+            self.message = f"This file cannot be used: {reason(refusal)}."
+        else:
+            self.load(found.thing)
+            if self.design == found.thing:  # else it cannot be computed, which the page says
+                self.message = remarked(found)
+
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""
+        Path(path).write_text(self._living.html(), encoding="utf-8")
+
+    def rows(self) -> list[tuple[Measure, float, float]]:
+        """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
+        every = zip(self.measures, self._now, self._first, strict=True)
+        return [(m, now, first) for m, now, first in every if not (np.isinf(now) and np.isinf(first))]
+
+    def summary(self) -> str:
+        """Every measure as it is now."""
+        return "\n".join(f"{m.name}: {m.text(now)}" for m, now, _ in self.rows())
+
+    def figure(self) -> Still:
+        """The views of the design, as a figure of matplotlib."""
+        limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
+        return picture(self.analysis, *self.views, limits=limits, **self._stand())
+
+    def still(self) -> bytes:
+        """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
+        png = self.figure()._repr_png_()
+        turning = [view for view in self.views if "turn" in positions_of(view)]
+        if not turning or "azimuth" in positions_of(turning[0]):
+            return png
+        _, low, high = turn_range(self.analysis)
+        turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
+        return below(png, small_png(strip(self.analysis, turning[0], turns)))
+
+    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The live panel for a kernel, the picture and the numbers where there is none."""
+        data, about = super()._repr_mimebundle_(**wanted) or ({}, {})
+        still = {"image/png": base64.b64encode(self.still()).decode("ascii"), "text/plain": self.summary()}
+        return data | still, about
+
+
+FILES: dict[str, Callable[[Instrument], bytes]] = {
+    "json": lambda app: designs.to_json(app.design).encode(),
+    "html": lambda app: app._living.html().encode(),
+    "svg": lambda app: saved(app.figure(), "svg"),
+    "pdf": lambda app: saved(app.figure(), "pdf"),
+    "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
+    "dxf": lambda app: profiles.profile_dxf(app.analysis).encode(),
+}
+"""What the page can save of a design, by the ending of the file's name."""
+OF_PROFILES = ("csv", "dxf")
+"""Of these, what only a design with a profile has."""
+
+
+def _make(design: object) -> tuple[object, ...]:
+    """What a recording is made for: the paths of a design, and what is chosen at them."""
+    return tuple(declared_in(design)), tuple(
+        (path, d.text(value_of(design, path))) for path, d in choices_of(design).items()
+    )
+
+
+def instrument(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:
+    """Sliders and menus for the ``free`` paths of ``design`` (default: all) over live ``views`` of it.
+
+    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
+
+    Paths are those of `quantities_of` and `choices_of`, such as ``"load.mass"`` or ``"motion.rise.law"``; where another
+    law is chosen, the sliders of its coefficients appear.
+    ``measures`` (default: all of the design) are listed with their value now, at the start and the change; ``at_most``
+    and ``at_least`` map measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first,
+    ``azimuth`` and ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the
+    next cell.
+    """
+    return Instrument(design, views, free, **options)

@@ -1,0 +1,147 @@
+"""The instrument in JupyterLab: the page computes, with the kernel ended too, and the kernel knows what it shows."""
+
+import nbformat
+import pytest
+from playwright.sync_api import expect
+
+from camkit import ArmLoad, DoorHandleCam, door_handle_study
+from camkit.quantities import choices_of, measures_of
+from camkit.views import default_views
+from lab import eventually, kernel_value, open_notebook, run_all
+from test_living_page import DRAG, SHOWN, compare
+
+START = """
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, instrument
+study = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
+app = instrument(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
+app
+"""
+STUBBORN = """
+from dataclasses import dataclass
+import numpy as np
+from camkit import instrument, mm
+from camkit.quantities import Design, quantity
+from camkit.study import AnalysisCurve
+@dataclass(frozen=True)
+class Stubborn(Design):
+    x: float = quantity("x", 1, 0.1, 4, "mm", "a length")
+    def analyse(self, n=5):
+        return Stubbornly(self)
+@dataclass(frozen=True)
+class Stubbornly:
+    cam: Stubborn
+    cam_angle = np.linspace(0, 1, 5)
+    offers = (AnalysisCurve("height", "mm", "height"),)
+    @property
+    def height(self):
+        return self.cam.x * (self.cam_angle if self.cam.x > 2 * mm else 2 * self.cam_angle)
+app = instrument(Stubborn())
+app
+"""
+BUSY = """() => { const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
+    kernel.requestExecute({ code: "import time; time.sleep(8)" }); }"""
+STUDY = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
+PAGE = "document.querySelector('.camkit-page').parentElement.camkit"
+
+
+@pytest.fixture
+def shown(page, server):
+    """Runs one cell, and gives the page when its panel has drawn."""
+
+    def show(source):
+        notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source)])
+        notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+        nbformat.write(notebook, server.root / "instrument.ipynb")
+        open_notebook(page, "instrument.ipynb")
+        run_all(page)
+        page.wait_for_selector(".camkit-page canvas")
+        settled(page)
+        return page
+
+    return show
+
+
+def settled(page):
+    page.wait_for_function(f"() => {PAGE}.outputs && !{PAGE}.frame")
+
+
+def of_page(page):
+    return page.evaluate(SHOWN.replace("camkit.shown", f"{PAGE}.shown"))
+
+
+def test_the_page_computes_with_the_kernel_ended(shown, server):
+    page = shown(START)
+    views = default_views(STUDY.start.analyse())
+    compare(of_page(page), STUDY.start, views, measures_of(STUDY.start))
+    slider = page.get_by_label("lift arm, mm", exact=True)
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.0501)  # a step to the right
+    assert kernel_value(page, "app.message") == ""  # page and kernel agree in every measure
+    server.end_kernels()
+    for k in range(5):
+        page.keyboard.press("ArrowRight")
+        page.evaluate(DRAG, [0.4, 2 + k])
+    settled(page)
+    found = of_page(page)
+    assert found["values"][0] == pytest.approx(0.0506)
+    compare(found, STUDY.start, views, measures_of(STUDY.start))
+    expect(page.locator(".camkit-note")).to_contain_text("The kernel has ended")
+
+
+def test_everything_is_on_one_screen(shown):
+    page = shown(START)
+    page.set_viewport_size({"width": 1366, "height": 768})
+    settled(page)
+    box = page.locator(".camkit-page").bounding_box()
+    assert box["height"] <= 647
+    assert box["width"] <= 960
+    for part in ("left", "middle", "right-side", "chips", "play"):
+        inner = page.locator(f".camkit-{part}").bounding_box()
+        assert box["x"] <= inner["x"]
+        assert inner["x"] + inner["width"] <= box["x"] + box["width"] + 1
+        assert inner["y"] + inner["height"] <= box["y"] + box["height"] + 1
+
+
+def test_the_kernel_moves_the_page_and_undo_moves_the_kernel(shown):
+    page = shown(START)
+    kernel_value(page, "setattr(app, 'design', app.design.replace(lift_arm=0.052))")
+    page.wait_for_function(f"() => {PAGE}.values[0] === 0.052 && !{PAGE}.frame")
+    page.get_by_role("button", name="Undo").click()
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.05)
+    page.get_by_role("button", name="Redo").click()
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.052)
+
+
+def test_a_choice_is_made_by_the_kernel_and_drawn_by_the_page(shown):
+    page = shown(START)
+    menu = page.locator(".camkit-left details", has_text="Choices")
+    menu.locator("summary").click()
+    select = menu.locator("select").first
+    option = select.locator("option").nth(3).inner_text()
+    select.select_option(option)
+    eventually(lambda: kernel_value(page, "app.design.motion_law.name") == option)
+    page.wait_for_function(f"() => {PAGE}?.structure.choices[0].chosen === {option!r}")
+    settled(page)
+    law = STUDY.start.replace(motion_law=choices_of(STUDY.start)["motion_law"].named[option])
+    compare(of_page(page), law, default_views(law.analyse()), measures_of(law))
+
+
+def test_what_does_not_record_is_computed_by_the_kernel(shown):
+    page = shown(STUBBORN)
+    page.evaluate(DRAG, [0.8, 0])
+    page.wait_for_function(f"() => {PAGE}.numbers && Math.abs({PAGE}.values[0] - 0.00322) < 1e-9 && !{PAGE}.frame")
+    eventually(lambda: of_page(page)["pictures"][0]["marks"][0]["y"][-1] == "3.22")
+
+
+def test_a_kernel_that_is_busy_stops_nothing(shown):
+    page = shown(START)
+    page.evaluate(BUSY)
+    before = page.evaluate(f"{PAGE}.shownAt")
+    page.get_by_label("lift arm, mm", exact=True).focus()
+    for _ in range(10):
+        page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(30)
+    settled(page)
+    assert page.evaluate(f"{PAGE}.shownAt") >= before + 5
+    assert of_page(page)["values"][0] == pytest.approx(0.051)

@@ -1,0 +1,184 @@
+"""The instrument in the kernel: what the page settles on becomes the design, and what it asks for is answered."""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pytest
+
+from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointShaft, instrument, mm
+from camkit.cam import max_pressure_angle, min_profile_radius
+from camkit.motion import ShapedLaw
+from camkit.quantities import Design, quantities_of, quantity, value_of
+from camkit.study import AnalysisCurve
+from camkit.views import mechanism
+
+
+def settle(app, **changes):
+    """What the page does when a person lets go: all values in their order."""
+    names = {path.replace(".", "_"): path for path in quantities_of(app.design)}
+    moved = {names[name]: value for name, value in changes.items()}
+    app.values = [moved.get(path, value_of(app.design, path)) for path in quantities_of(app.design)]
+
+
+@pytest.fixture
+def app():
+    return instrument(TranslatingRollerCam(groove=False), mechanism, measures=[max_pressure_angle, min_profile_radius])
+
+
+@pytest.fixture
+def sent(app, monkeypatch):
+    messages = []
+    monkeypatch.setattr(type(app), "send", lambda self, content, buffers=(): messages.append((content, list(buffers))))
+    return messages
+
+
+def ask(app, **message):
+    """What comes from the page."""
+    app._handle_custom_msg(message, [])
+
+
+def test_what_the_page_settles_on_is_the_design(app):
+    heard = []
+    app.on_change(heard.append)
+    settle(app, base_radius=45 * mm)
+    assert app.design.base_radius == 45 * mm
+    assert heard == [app.design]
+    assert app.analysis.cam is app.design
+    assert app.rows()[0][1] == max_pressure_angle.one(app.design.analyse())
+
+
+def test_what_cannot_be_built_leaves_the_last_design(app):
+    before = app.design
+    settle(app, base_radius=-1.0)
+    assert app.design is before
+    place = list(quantities_of(before)).index("base_radius")
+    assert app.values[place] == -1.0  # the page goes on showing what was asked for, and says why it cannot be
+    app.load(before)
+    assert app.values[place] == before.base_radius
+
+
+def test_a_design_moves_the_page(app):
+    app.design = app.design.replace(base_radius=50 * mm)
+    assert app.values[list(quantities_of(app.design)).index("base_radius")] == 50 * mm
+    with pytest.raises(ValueError, match="it must be a TranslatingRollerCam"):
+        app.load(DoorHandleCam())
+
+
+def test_a_choice_brings_its_quantities(app):
+    path = "motion.rise.law"
+    rises = [choice for choice in app.structure["choices"] if choice["path"] == path]
+    law = next(option for option in rises[0]["options"] if option != rises[0]["chosen"])
+    program = app.program
+    ask(app, choose=[path, law])
+    assert value_of(app.design, path).name == law
+    assert app.program != program
+    rise, *others = app.design.motion.segments
+    shaped = app.design.motion.replace(segments=(rise.replace(law=ShapedLaw(c=(0.1, 0.0, 0.0, 0.0))), *others))
+    app.load(app.design.replace(motion=shaped))
+    names = [q["name"] for q in app.structure["quantities"]]
+    assert "motion rise law c0" in names
+    assert len(app.values) == len(names)
+
+
+def test_a_slider_of_its_own_is_linked_both_ways(app):
+    slider = app.control("base_radius")
+    slider.value = 42.0
+    assert app.design.base_radius == 42 * mm
+    settle(app, base_radius=44 * mm)
+    assert slider.value == 44.0
+
+
+def test_files_are_what_they_say(app, sent):
+    begins = {
+        "json": b"{",
+        "html": b"<!doctype html>",
+        "svg": b"<?xml",
+        "pdf": b"%PDF",
+        "csv": b"stretch,",
+        "dxf": b"  0",
+    }
+    for kind in app.structure["files"]:
+        ask(app, file=kind)
+        content, (data,) = sent.pop()
+        assert content == {"file": f"TranslatingRollerCam.{kind}"}
+        assert data.startswith(begins.pop(kind)), data[:40]
+    assert not begins
+
+
+def test_a_file_is_opened_or_refused_in_a_sentence(app, sent):
+    ask(app, file="json")
+    saved = sent.pop()[1][0].decode()
+    settle(app, base_radius=45 * mm)
+    ask(app, open=saved)
+    assert app.design == app.start
+    ask(app, open="{}")
+    assert app.message.startswith("This file cannot be used: ")
+
+
+def test_where_page_and_kernel_differ_it_is_said(app):
+    app.computed = [max_pressure_angle.one(app.analysis), min_profile_radius.one(app.analysis)]
+    assert app.message == ""
+    app.computed = [max_pressure_angle.one(app.analysis) * (1 + 1e-6), None]
+    assert app.message.startswith("The page computes ")
+
+
+def test_a_follower_that_fails_is_said_and_stops_no_other(app):
+    heard = []
+    app.on_change(lambda design: 1 / 0)
+    app.on_change(heard.append)
+    settle(app, base_radius=45 * mm)
+    assert heard == [app.design]
+    assert app.message.startswith("What follows this panel cannot be shown everywhere: ")
+
+
+@dataclass(frozen=True)
+class Stubborn(Design):
+    """What no program can be made of: it asks for the truth of a number."""
+
+    x: float = quantity("x", 1, 0.1, 4, "mm", "a length")
+
+    def analyse(self, n=5):
+        return Stubbornly(self)
+
+
+@dataclass(frozen=True)
+class Stubbornly:
+    cam: Stubborn
+    cam_angle = np.linspace(0, 1, 5)
+    offers = (AnalysisCurve("height", "mm", "height"),)
+
+    @cached_property
+    def height(self):
+        return self.cam.x * (self.cam_angle if self.cam.x > 2 * mm else 2 * self.cam_angle)
+
+
+def test_what_does_not_record_the_kernel_computes(monkeypatch):
+    highest = Measure("highest", "mm", lambda analysis: analysis.height[-1])
+    app, messages = instrument(Stubborn(), measures=[highest]), []
+    monkeypatch.setattr(type(app), "send", lambda self, content, buffers=(): messages.append((content, list(buffers))))
+    assert app.program == b""
+    ask(app, compute=[3 * mm], number=7)
+    content, buffers = messages.pop()
+    arrays = [np.frombuffer(buffer) for buffer in buffers]
+    assert content["answer"] == 7
+    assert arrays[content["measures"][0]["value"]["at"]] == 3 * mm
+    curve = next(mark for mark in content["pictures"][0]["marks"] if mark["key"] == "curve")
+    np.testing.assert_allclose(arrays[curve["y"]["at"]], 3 * np.linspace(0, 1, 5))
+    ask(app, compute=[-3 * mm], number=8)
+    assert "must be" in messages.pop()[0]["sentence"]
+
+
+def test_pictures_that_do_not_record_follow(monkeypatch):
+    app, messages = instrument(UniversalJointShaft()), []
+    monkeypatch.setattr(type(app), "send", lambda self, content, buffers=(): messages.append((content, list(buffers))))
+    settle(app, length=3.0)
+    content, _ = messages.pop()
+    assert content["still"] == [p["name"] for p in app.structure["pictures"] if p["still"]]
+    assert set(content["pictures"]) == {str(k) for k, p in enumerate(app.structure["pictures"]) if p["still"]}
+
+
+def test_the_state_is_plain(app):
+    assert json.loads(json.dumps(app.structure))["name"] == "Translating roller cam"
+    assert "image/png" in app._repr_mimebundle_()[0]
