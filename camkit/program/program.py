@@ -72,21 +72,19 @@ class Program:
     @cached_property
     def needed(self) -> list[int]:
         """The numbers of the calls that outputs depend on, in order, without the inputs."""
-        found: set[int] = set()
-        waiting = [out.number for out in self.outputs.values() if isinstance(out, Recorded)]
-        while waiting:
-            if (k := waiting.pop()) not in found:
-                found.add(k)
-                waiting += _refs(self.calls[k].arguments)
+        found = {out.number for out in self.outputs.values() if isinstance(out, Recorded)}
+        for call in reversed(self.calls):
+            if call.number in found:
+                found.update(_numbers(call.arguments))
         return sorted(k for k in found if k >= len(self.inputs))
 
 
-def _refs(arguments: Sequence[object]) -> Iterator[int]:
+def _numbers(arguments: Sequence[object]) -> Iterator[int]:
     for x in arguments:
         if isinstance(x, Recorded):
             yield x.number
         elif isinstance(x, (tuple, list)):
-            yield from _refs(x)
+            yield from _numbers(x)
 
 
 def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs: Mapping[str, ArrayLike]) -> Program:

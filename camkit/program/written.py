@@ -23,13 +23,13 @@ def picked(values: Array, places: Array, size: int) -> Array:
     return np.take_along_axis(values, places, axis=-1)
 
 
-def _folded(ufunc: np.ufunc) -> Callable[..., Array]:
-    return lambda a, axis=None, *, keepdims=False: ufunc.reduce(a, axis=axis, keepdims=keepdims)
-
-
 def _broadcast_arrays(*arrays: Any) -> tuple[Array, ...]:
     shape, recording = (np.broadcast_shapes(*map(np.shape, arrays)), next(a for a in arrays if not known(a)).recording)
     return tuple(recording.call(np.broadcast_to, array, shape) for array in arrays)
+
+
+def _folded(ufunc: np.ufunc) -> Callable[..., Array]:
+    return lambda a, axis=None, *, keepdims=False: ufunc.reduce(a, axis=axis, keepdims=keepdims)
 
 
 def _mean(a: Array, axis: Axis = None, *, keepdims: bool = False) -> Array:
@@ -37,20 +37,14 @@ def _mean(a: Array, axis: Axis = None, *, keepdims: bool = False) -> Array:
     return total / (np.size(a) // np.size(total))
 
 
-def _cumsum(a: Array, axis: int | None = None) -> Array:
-    return np.add.accumulate(np.ravel(a) if axis is None else a, axis=-1 if axis is None else axis)
-
-
 def _clip(a: Array, low: Value | None = None, high: Value | None = None) -> Array:
     above = a if low is None else np.maximum(a, low)
     return above if high is None else np.minimum(above, high)
 
 
-def _diff(a: Array, n: int = 1, axis: int = -1) -> Array:
-    for _ in range(n):
-        along = np.moveaxis(a, axis, -1)
-        a = np.moveaxis(along[..., 1:] - along[..., :-1], -1, axis)
-    return a
+def _diff(a: Array, *, axis: int = -1) -> Array:
+    a = _last(a, axis)
+    return a[..., 1:] - a[..., :-1]
 
 
 def _trapezoid(y: Array, x: Array | None = None, dx: float = 1.0, axis: int = -1) -> Array:
@@ -86,10 +80,6 @@ def _cross(a: Array, b: Array, *, axis: int = -1) -> Array:
     return np.stack(np.broadcast_arrays(a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0), axis=axis)
 
 
-def _append(a: Array, values: Array, axis: int | None = None) -> Array:
-    return np.concatenate([np.ravel(a), np.ravel(values)] if axis is None else [a, values], axis=axis or 0)
-
-
 def _take(a: Any, indices: Any, axis: int | None = None) -> Any:
     a, size, shape = (np.ravel(a) if axis is None else _last(a, axis), np.size(indices), np.shape(indices))
     places = np.broadcast_to(np.ravel(indices), (*a.shape[:-1], size))
@@ -109,17 +99,17 @@ def _last(a: Array, axis: int) -> Array:
 
 
 BY: dict[object, Callable[..., object]] = {
-    np.broadcast_arrays: _broadcast_arrays,
     np.max: _folded(np.maximum),
     np.min: _folded(np.minimum),
     np.sum: _folded(np.add),
     np.prod: _folded(np.multiply),
     np.any: _folded(np.logical_or),
     np.all: _folded(np.logical_and),
+    np.broadcast_arrays: _broadcast_arrays,
     np.ptp: lambda a, axis=None, **more: np.max(a, axis, **more) - np.min(a, axis, **more),
     np.mean: _mean,
     np.argmin: lambda a, axis=None, **more: np.argmax(-a, axis=axis, **more),
-    np.cumsum: _cumsum,
+    np.cumsum: lambda a, axis=None: np.add.accumulate(np.ravel(a) if axis is None else a, axis=axis or 0),
     np.clip: _clip,
     np.diff: _diff,
     np.trapezoid: _trapezoid,
@@ -131,7 +121,7 @@ BY: dict[object, Callable[..., object]] = {
     np.zeros_like: lambda a: np.zeros(a.shape, dtype=a.dtype),
     np.ones_like: lambda a: np.ones(a.shape, dtype=a.dtype),
     np.full_like: lambda a, value: np.broadcast_to(value, a.shape),
-    np.append: _append,
+    np.append: lambda a, values: np.concatenate([np.ravel(a), np.ravel(values)]),
     np.take: _take,
     np.take_along_axis: _take_along_axis,
 }

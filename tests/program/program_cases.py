@@ -73,7 +73,7 @@ SPECIAL = {
     np.broadcast_arrays: lambda x: np.broadcast_arrays(x, x[:, None])[1],
     np.argmin: lambda m: np.argmin(m, axis=-1, keepdims=True),
     np.clip: lambda x: np.clip(x, -1.0, 2.0),
-    np.diff: lambda m: np.diff(m, axis=0),
+    np.diff: lambda m: np.diff(m, axis=-1),
     np.trapezoid: lambda m: np.trapezoid(m, m**2),
     np.unwrap: lambda m: np.unwrap(3 * m),
     np.select: lambda x: np.select([x > 1, x > 0], [x, 2 * x], -1.0),
@@ -159,7 +159,7 @@ STEPS = (
     lambda a, b, c: np.cumsum(a, axis=-1) if a.ndim else a,
     lambda a, b, c: np.take_along_axis(a, np.argmax(a, axis=-1, keepdims=True), -1) + b if a.ndim else b,
     lambda a, b, c: np.take(a, np.argmin(np.ravel(b), keepdims=True) % a.shape[-1], axis=-1) * 0.5 if a.ndim else a,
-    lambda a, b, c: np.append(a[..., 1:], 2 * a[..., :1], axis=-1) if a.ndim else b,
+    lambda a, b, c: np.append(a[1:], 2 * a[:1]) if a.ndim == 1 else b,
 )
 INPUTS = {
     "x": np.float64(0.7),
