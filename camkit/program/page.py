@@ -11,6 +11,7 @@ import json
 from .loops import Loops
 from .operations import ALONG, EACH, operands
 from .program import Program
+from .record import uncollected
 
 LIBRARY = """M=Math,H=new Float64Array(size),
 fmin=(a,b)=>a!==a?b:b!==b?a:M.min(a,b),
@@ -65,6 +66,7 @@ def javascript(program: Program) -> str:
     return f"({MACHINE})({numbers(program)[1:-1]})"
 
 
+@uncollected()
 def numbers(program: Program) -> str:
     """What `MACHINE` takes, as JSON; constants are words, which can be infinite or no number."""
     loops = Loops(program)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..quantities import D, quantities_of, unremarked, value_of, with_quantities
 from ..quantities.types import Array
-from .record import CannotRecord, Recorded, Recording
+from .record import CannotRecord, Recorded, Recording, uncollected
 from .texts import Template, filled, numbers
 
 
@@ -96,7 +96,7 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
     recording = Recording()
     given = {name: recording.input(value) for name, value in inputs.items()}
     try:
-        with unremarked(), np.errstate(all="ignore"):
+        with unremarked(), np.errstate(all="ignore"), uncollected():
             outputs = function(given)
     except Exception as error:
         raise unrecorded(error) or error from error

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import operator
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -38,6 +40,18 @@ def _of_the_machinery(file: str) -> bool:
     return (
         Path(file).is_relative_to(HERE) or file.startswith("<") or not {"numpy", "scipy"}.isdisjoint(Path(file).parts)
     )
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """What is made meanwhile stays: to search it for garbage, again and again, takes as long as to make it."""
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
 
 
 def mapped(f: Callable[[object], object], value: Any) -> Any:
