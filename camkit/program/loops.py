@@ -6,10 +6,9 @@ one that reads what it has just written adds up.
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from collections.abc import Iterator
 from functools import cached_property
 from math import prod
-from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,12 +21,8 @@ from .written import picked
 COPY = "{0}"
 
 
-class Span(NamedTuple):
-    """Addresses one after the other: from which number of an array on, the first, and the step to the next."""
-
-    begin: int
-    first: int
-    step: int
+Span = tuple[int, int]
+"""Addresses one after the other: the first, and the step to the next."""
 
 
 class Loop(NamedTuple):
@@ -45,20 +40,15 @@ class Place:
         self.addresses, self.size = addresses, addresses.size
 
     @cached_property
-    def spans(self) -> list[Span]:
-        """The same as spans: each goes on until the next begins."""
+    def span(self) -> Span | None:
+        """The same as a span, if it is one."""
         flat = self.addresses.ravel()
-        steps, begin, found = flat[1:] - flat[:-1], 0, list[Span]()
-        for k in (np.flatnonzero(steps[1:] != steps[:-1]) + 1).tolist():
-            if k > begin:  # the step from k to k + 1 is another than the one before
-                found.append(Span(begin, int(flat[begin]), int(steps[begin])))
-                begin = k + 1
-        return [*found, Span(begin, int(flat[begin]), int(steps[begin]) if begin < len(steps) else 0)]
+        step = int(flat[1] - flat[0]) if len(flat) > 1 else 0
+        return (int(flat[0]), step) if (flat[1:] - flat[:-1] == step).all() else None
 
-    def spread(self, out: Place) -> list[Span]:
-        """Its spans if it is broadcast to the shape of a result."""
-        whole = self.size == 1 or self.size == out.size
-        return self.spans if whole else Place(np.broadcast_to(self.addresses, out.addresses.shape)).spans
+    def spread(self, out: Place) -> Place:
+        """Where they are if they are broadcast to the shape of a result."""
+        return self if self.size in (1, out.size) else Place(np.broadcast_to(self.addresses, out.addresses.shape))
 
 
 class Loops:
@@ -80,7 +70,7 @@ class Loops:
     def _new(self, shape: tuple[int, ...]) -> Place:
         first, self._size = self._size, self._size + prod(shape)
         place = Place(np.arange(first, self._size).reshape(shape))
-        place.spans = [Span(0, first, int(place.size > 1))]
+        place.span = (first, int(place.size > 1))
         return place
 
     def _place(self, argument: Any) -> Place:
@@ -120,18 +110,18 @@ class Loops:
         if not name:
             self._fold(FOLDS[function], rows, into)
         for one, to in zip(rows.tolist(), into.tolist(), strict=True) if name else ():
-            self.loops.append(Loop(name, len(one), (Span(0, to[0], 1), Span(0, one[0], 1))))
+            self.loops.append(Loop(name, len(one), ((to[0], 1), (one[0], 1))))
         return out
 
     def _loop(self, operation: str, out: Place, *operands: Place) -> Place:
         """A loop for each stretch in which all go on by even steps; where its results are."""
-        each = [out.spans, *[operand.spread(out) for operand in operands]]
-        if max(map(len, each)) == 1:
-            self.loops.append(Loop(operation, out.size, tuple([spans[0] for spans in each])))
-            return out
-        begins = sorted({span.begin for spans in each for span in spans})
-        for begin, end in zip(begins, [*begins[1:], out.size], strict=True):
-            self.loops.append(Loop(operation, end - begin, tuple(_from(begin, spans) for spans in each)))
+        places = [out, *[operand.spread(out) for operand in operands]]
+        spans = [span for place in places if (span := place.span)]
+        if len(spans) == len(places):
+            self.loops.append(Loop(operation, out.size, tuple(spans)))
+        else:
+            each = [np.broadcast_to(place.addresses, out.addresses.shape).ravel() for place in places]
+            self.loops += (Loop(operation, times, spans) for times, spans in _stretches(np.stack(each)))
         return out
 
     def _fold(self, operation: str, rows: np.ndarray, into: np.ndarray) -> None:
@@ -150,10 +140,15 @@ class Loops:
         return self._loop(COPY, self._new(addresses.shape), Place(addresses)).addresses
 
 
-def _from(begin: int, spans: list[Span]) -> Span:
-    """What is left, from a number on, of the span that it is in."""
-    span = spans[bisect_right(spans, begin, key=attrgetter("begin")) - 1]
-    return Span(begin, span.first + (begin - span.begin) * span.step, span.step)
+def _stretches(addresses: np.ndarray) -> Iterator[tuple[int, tuple[Span, ...]]]:
+    """How far all rows of addresses go on by even steps, and their spans there, from one stretch to the next."""
+    steps, begin, last = np.diff(addresses, append=addresses[:, -1:]), 0, addresses.shape[1] - 1
+    changes = np.flatnonzero((steps[:, 1:-1] != steps[:, :-2]).any(0)) + 1
+    for k in (*changes.tolist(), last):
+        if k > begin or k == last:  # the steps from k to k + 1 are others than those before
+            spans = zip(addresses[:, begin].tolist(), steps[:, begin].tolist(), strict=True)
+            yield k + 1 - begin, tuple(spans)
+            begin = k + 1
 
 
 def _rows(addresses: np.ndarray, axis: Any) -> np.ndarray:

@@ -27,7 +27,7 @@ RUN = """H.set(Float64Array.from(constants,Number));
 return X=>{
 H.set(X,constants.length);
 for(let o=constants.length,k=0;k<loops.length;){
-const kind=kinds[loops[k]],n=loops[k+1],at=j=>{const a=loops[k+j];return a>0?a-1:o+a};
+const kind=kinds[loops[k]],n=loops[k+1],at=j=>{const a=loops[k+j];return a<0?~a:o-a};
 o+=loops[k+2];
 F[kind[0]](n,o,kind[1],at(3),kind[2],at(4),kind[3],at(5),kind[4]);
 o+=n;
@@ -61,7 +61,7 @@ def javascript(program: Program) -> str:
 
     >>> from camkit.program import recorded
     >>> javascript(recorded(lambda given: {"double": 2 * given["x"]}, {"x": 1.5})).removeprefix(f"({MACHINE})")
-    '(3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,1,2])'
+    '(3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,-1,-2])'
     """
     return f"({MACHINE})({numbers(program)[1:-1]})"
 
@@ -75,15 +75,15 @@ def numbers(program: Program) -> str:
 
 
 def _table(loops: Loops) -> tuple[list[tuple[int, ...]], list[int]]:
-    """The kinds of loops; and of each loop its kind, its count, and its addresses.
+    """The kinds of loops; and of each loop its kind, how often it goes, and its addresses.
 
-    Of its result how far it is from the end of the one before, of operands how far they are from it; of constants and
-    inputs one more than their address, which is no number below 1.
+    Of its result how far it is behind the end of the one before, of operands how far they are before it; of constants
+    and inputs their address with all bits turned, which is below 0.
     """
     kinds, rows, at, begin = dict[tuple[int, ...], int](), list[int](), 0, len(loops.constants)
-    for operation, count, (result, *others) in loops.loops:
-        kind = (NUMBERED[operation], result.step, *(span.step for span in others))
-        rows += [kinds.setdefault(kind, len(kinds)), count, result.first - at]
-        rows += [x.first - result.first if x.first >= loops.inputs else x.first + begin + 1 for x in others]
-        at = result.first + count
+    for operation, times, ((result, step), *others) in loops.loops:
+        kind = (NUMBERED[operation], step, *(step for _, step in others))
+        rows += [kinds.setdefault(kind, len(kinds)), times, result - at]
+        rows += [result - first if first >= loops.inputs else ~(begin + first) for first, _ in others]
+        at = result + times
     return list(kinds), rows
