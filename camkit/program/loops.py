@@ -19,8 +19,6 @@ from .record import Recorded, mapped
 from .written import picked
 
 COPY = "{0}"
-
-
 Span = tuple[int, int]
 """Addresses one after the other: the first, and the step to the next."""
 
@@ -109,7 +107,8 @@ class Loops:
         into = _rows(out.addresses, axis) if out.size == rows.size else out.addresses.reshape(-1, 1)
         if not name:
             self._fold(FOLDS[function], rows, into)
-        for one, to in zip(rows.tolist(), into.tolist(), strict=True) if name else ():
+            return out
+        for one, to in zip(rows.tolist(), into.tolist(), strict=True):
             self.loops.append(Loop(name, len(one), ((to[0], 1), (one[0], 1))))
         return out
 

@@ -107,7 +107,7 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
     }
     needed = (*recording.refusals, *(k for t in (*recording.refusals.values(), *texts.values()) for k in numbers(t)))
     found |= {k: recording.calls[k] for k in needed}
-    recording.values.clear()
+    recording.close()
     return Program(tuple(recording.calls), tuple(inputs), found, texts, recording.refusals)
 
 

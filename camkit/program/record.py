@@ -86,6 +86,11 @@ class Recording:
             self._known[key] = Recorded(self, function, arguments, named)
         return self._known[key]
 
+    def close(self) -> None:
+        """Forget what only more calls would need."""
+        self.values.clear()
+        self._known.clear()
+
 
 def _check(function: Callable[..., Any], arguments: tuple[object, ...], named: dict[str, object]) -> None:
     """Raise `CannotRecord` unless it is known what the function is elsewhere."""
