@@ -61,6 +61,7 @@ def view(analysis):
 
 PANELS = (
     "app = explore(Evil(), view, measures=(first, second, limited), at_most={limited: 1 * mm})\napp",
+    "instrument(Evil(), view, measures=(first, second, limited), at_most={limited: 1 * mm})",
     "kept = shortlist(app, study())\nkept.keep()\nkept",
     "judged = ahp_panel(Judgements([EVIL, 'b'], [3]), EVIL)\njudged.boxes[0, 1].value = EVIL\njudged",
     "found = pareto_panel(app, {EVIL: study()}, space=space, free=['x', 'y'], population=24, generations=3)\n"
@@ -115,7 +116,7 @@ def assert_nothing_ran(page: Page) -> None:
 def test_a_name_makes_no_element(page: Page, i: int) -> None:
     output = cell_output(page, 2 + i)
     expect(output).to_be_visible()
-    expect(output.locator(".camkit-panel, table").first).to_be_visible()
+    expect(output.locator(".camkit-panel, .camkit-page, table").first).to_be_visible()
     assert_nothing_ran(page)
     shown = output.inner_text() + " ".join(output.locator("select").all_inner_texts())
     assert "<img src=x" in shown or "edit_program" in PANELS[i], shown

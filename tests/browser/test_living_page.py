@@ -12,7 +12,7 @@ from camkit.program import CannotRecord
 from camkit.quantities import Design, Measure, measures_of, quantities_of, quantity, with_quantities
 from camkit.render import to_html
 from camkit.render.living import living
-from camkit.render.picture import positions_of
+from camkit.render.picture import given_to, positions_of
 from camkit.views import default_views
 from camkit.views.picture import Axes, Line, Picture, Points, Text
 
@@ -60,7 +60,7 @@ def same(found, expected, name):
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * size, err_msg=name)
 
 
-def compare(shown, design, views, measures):
+def compare(shown, design, views, measures, limits=None):
     """What a page shows against what the package draws and measures for its values."""
     paths = list(quantities_of(design))
     now = with_quantities(design, dict(zip(paths, shown["values"], strict=False)))
@@ -68,7 +68,7 @@ def compare(shown, design, views, measures):
     names = list(dict.fromkeys(name for view in views for name in positions_of(view)))
     position = dict(zip(names, given, strict=True))
     for view, drawn in zip(views, shown["pictures"], strict=True):
-        picture = view(analysis, **{name: position[name] for name in positions_of(view)})
+        picture = view(analysis, **given_to(view, {"limits": limits, **position}))
         marks = {mark["key"]: mark for mark in drawn["marks"]}
         assert drawn["name"] == view.__name__
         for mark in picture.marks:

@@ -13,12 +13,14 @@ from camkit.machines.door_handle import WORSE_CURVE
 from camkit.quantities import declarations
 from camkit.units import factor
 from lab import copy_notebooks, screenshot, voila_server
+from test_hostile_names_page import DESIGN
 
 REPOSITORY = Path(__file__).parents[2]
 DOOR_HANDLE = "01_door_handle_cam.ipynb"
 OTHERS = ("04_motion_program.ipynb", "05_cam_size.ipynb", "15_live_front.ipynb")
 """A program that is edited, cams beside each other, a front that follows the sliders: those that run quickest."""
 
+HOSTILE = "instrument(Evil(), view, measures=(first, second, limited), at_most={limited: 1 * mm})"
 ERRORS = "[data-mime-type='application/vnd.jupyter.error'], [data-mime-type='application/vnd.jupyter.stderr']"
 
 
@@ -27,6 +29,8 @@ def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     """The page of a notebook, which is asked for once."""
     folder = tmp_path_factory.mktemp("voila")
     copy_notebooks(REPOSITORY / "notebooks", folder / "notebooks")
+    cells = [nbformat.v4.new_code_cell(cell) for cell in (DESIGN, HOSTILE)]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / "notebooks" / "hostile.ipynb")
     context = browser.new_context(viewport={"width": 1280, "height": 720})
     with voila_server(folder, REPOSITORY) as address:
 
@@ -71,6 +75,13 @@ def test_a_slider_of_the_page_moves_picture_and_numbers(opened: Callable[[str], 
     measure, row = next(iter(WORSE_CURVE.values())), panel.locator(".camkit-tables tr:has(td)").first
     expect(row).to_contain_text(measure.text(measure(design.analyse())))
     expect(picture).not_to_have_attribute("src", before or "")
+
+
+def test_names_that_are_pieces_of_a_page_stay_names(opened: Callable[[str], Page]) -> None:
+    page = opened("hostile.ipynb")
+    expect(page.locator(".camkit-page label").first).to_contain_text("<img src=x", timeout=120_000)
+    assert page.evaluate("window.ran") is None
+    assert page.locator(".evil, img[src=x]").count() == 0
 
 
 def _shown(panel: Locator, name: str) -> float:
