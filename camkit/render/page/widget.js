@@ -61,7 +61,7 @@ async function render({ model, el }) {
       if (message.file) download(message.file, buffers[0]);
       if (message.still) panel?.redraw(message.pictures, arrays(buffers));
     },
-    "comm_live_update": () => { if (!model.comm_live) panel?.say(GONE); },
+    "comm_live_update": () => panel?.say(GONE), // it happens once more after the beginning: at the end
   };
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
   await begin();
