@@ -61,7 +61,7 @@ def unless(ok: Any) -> Callable[[str], None] | None:
         ...
     ValueError: it is too large
     """
-    if ok is True:
+    if ok is True or ok is np.True_:
         return None
     if fails(ok):
         return _refuse

@@ -14,7 +14,7 @@ from math import factorial
 import numpy as np
 from numpy.polynomial.legendre import legder, legval
 
-from ...quantities import Quantity, floats, known, numbered, row
+from ...quantities import Quantity, certain, floats, known, numbered, row
 from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
@@ -42,6 +42,8 @@ def given_at(end: str, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
 def sized(value: object, what: str, declared: Quantity) -> Value:
     """``value`` as a number or a column of the size that its declaration allows (see `a_number`)."""
     read = number(value)
+    if read is not None and certain(declared.allows(read)):
+        return read
     must = declared.possible if read is None or np.ndim(read) else declared.possible_for(read)
     return a_number(value, what, f"be {must}", declared.allows)
 
