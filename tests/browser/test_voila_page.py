@@ -50,7 +50,7 @@ def test_a_live_notebook_is_a_page_with_its_panels_and_its_prose(opened: Callabl
     notebook = nbformat.read(REPOSITORY / "notebooks" / name, as_version=4)
     shown = sum("widget-view" in str(cell.get("outputs")) for cell in notebook.cells)
     try:
-        expect(page.locator(".camkit-panel img.camkit-image")).to_have_count(shown, timeout=120_000)
+        expect(page.locator(".camkit-panel img.camkit-image, .camkit-page")).to_have_count(shown, timeout=120_000)
         expect(page.locator("h1").first).to_contain_text(notebook.cells[0].source.splitlines()[0].lstrip("# "))
         expect(page.locator(ERRORS)).to_have_count(0)
         expect(page.get_by_text("There was an error")).to_have_count(0)

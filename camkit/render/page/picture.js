@@ -231,7 +231,7 @@ export class Chart {
       pen.fillStyle = tint; pen.fillRect(at, 7 + 15 * row, 12, 4);
       pen.fillStyle = this.colour("ink"); pen.fillText(words, at + 16, 9 + 15 * row);
     }
-    if (this.picture.still) {
+    if (this.picture.still && !this.own) {
       pen.fillStyle = this.colour("guide"); pen.textAlign = "right";
       pen.fillText("of the stored design", width - 8, this.box.bottom - 8);
     }
