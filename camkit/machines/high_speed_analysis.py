@@ -119,17 +119,29 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """What `tops` has found."""
         return {}
 
-    def _near(self, curve: Callable[[HighSpeedAnalysis], Array], at: Value, x: Array) -> Array:
-        """``curve`` at ``x`` steps, ``(k, m)``, beside those of its cam angles that have the flat index ``at``."""
-        row, column = np.divmod(at, self.cam_angle.shape[-1])
-        left = column[:, None] - ((x <= 0) & (x < 0).any(-1, keepdims=True))
-        pairs = [self.cam_angle, *self.motion]
-        (start, *first), (end, *second) = ([_picked(values, row, left + k) for values in pairs] for k in (0, 1))
-        share = x + column[:, None] - left
-        seen = replace(self, cam=members(self.cam, row), cam_angle=start + share * (end - start))
-        known = {name: members(value, row) for name, value in vars(self).items() if name in OF_THE_WHOLE}
-        seen.__dict__.update(known, motion=between(Kinematics(*first), Kinematics(*second), end - start, share))
-        return curve(seen) + 0.0 * share
+    def _near(self, curve: Callable[[HighSpeedAnalysis], Array], rows: Any, at: Array, x: Array) -> Array:
+        """``curve`` at ``x`` steps, ``(..., k, m)``, beside the samples ``at`` of some rows, or of all (``None``)."""
+        cam, whole = self.cam, {name: value for name, value in vars(self).items() if name in OF_THE_WHOLE}
+        if rows is not None:
+            cam, whole = members(cam, rows), {name: members(value, rows) for name, value in whole.items()}
+        lead, before = at.shape[:-1], (x <= 0) & (x < 0).any(-1, keepdims=True)
+        columns = np.reshape((np.expand_dims(at, -1) + np.array([-1, 0, 1])) % self.cam_angle.shape[-1], (*lead, -1))
+
+        def flat(each: Array) -> Array:
+            return np.reshape(each, (*lead, -1))
+
+        first, second = [], []
+        for values in (self.cam_angle, *self.motion):
+            around = np.reshape(_picked(values, rows, columns), (*at.shape, 3))
+            left, here, right = (around[..., k : k + 1] for k in range(3))
+            first.append(flat(np.where(before, left, here)))
+            second.append(flat(np.where(before, here, right)))
+        (start, *first), (end, *second) = first, second
+        share = flat(x + before)
+        seen = replace(self, cam=cam, cam_angle=start + share * (end - start))
+        motion = between(Kinematics(*first), Kinematics(*second), end - start, share)
+        seen.__dict__.update(whole, motion=motion)
+        return np.reshape(curve(seen) + 0.0 * share, x.shape)
 
     # ---------------------------------------------------------------- forces
 
@@ -324,6 +336,8 @@ OF_THE_WHOLE = ("buildable", "spring_rate", "rounding")
 """What is the same wherever a cam is looked at, and follows from all of it."""
 
 
-def _picked(values: Array, row: Array, column: Array) -> Array:
-    """Of each row the values in some columns, ``(k, m)``."""
-    return values[column] if values.ndim == 1 else values[row[:, None] % len(values), column]
+def _picked(values: Array, rows: Array | None, columns: Array) -> Array:
+    """Of some rows, or of all (``None``), the values in some columns of each."""
+    if rows is None:
+        return np.take_along_axis(np.broadcast_to(values, (*columns.shape[:-1], values.shape[-1])), columns, -1)
+    return values[columns] if values.ndim == 1 else values[rows[:, None] % len(values), columns]

@@ -167,9 +167,14 @@ def between(first: Kinematics, second: Kinematics, step: Array, x: Value) -> Kin
     >>> float(abs(between(law(0.25), law(0.26), 0.01, 0.3).a - law(0.253).a)) < 1e-9
     True
     """
-    x, powers = np.expand_dims(x, -1), np.expand_dims(step, -1) ** np.arange(4)
-    low, end = np.stack(first, -1) * powers * _LOW, np.stack(second, -1) * powers
-    lack = end - (low[..., None, :] * _AT_END).sum(-1)
-    terms = np.concatenate([low, (lack[..., None, :] * _HIGHER).sum(-1)], -1)[..., _TERM] * _FACTOR
-    values = sum(terms[..., i, :] * x**i for i in range(8))
-    return Kinematics(*np.moveaxis(values / powers, -1, 0))
+    low_of, at_end, higher, factor = (
+        table.reshape(table.shape + (1,) * np.ndim(step)) for table in (_LOW, _AT_END, _HIGHER, _FACTOR)
+    )
+    powers = np.stack([np.ones(np.shape(step)), step, step**2, step**3])
+    low, end = np.stack(first) * powers * low_of, np.stack(second) * powers
+    lack = end - (low * at_end).sum(1)
+    terms = np.concatenate([low, (lack * higher).sum(1)])[_TERM] * factor
+    values = terms[7]
+    for term in terms[6::-1]:
+        values = values * x + term
+    return Kinematics(*(values / powers))

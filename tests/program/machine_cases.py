@@ -1,11 +1,10 @@
 """Machines of every menu, and all that is shown of them: what programs of whole machines are tried on."""
 
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 from every_machine import MACHINES
 
-from camkit.machines import CamLever, HighSpeedCam
 from camkit.machines.high_speed_cam import LOADS
 from camkit.motion import LAW_MENU, FreePolynomial, ModifiedSine, ShapedLaw, SplineLaw, TableLaw
 from camkit.motion.families.shaped import SPLINE
@@ -21,9 +20,6 @@ LAWS = {
     "shaped by a B-spline": ShapedLaw(ModifiedSine(), (0.05, -0.1, 0.0, 0.02), SPLINE),
     "table": TableLaw(U, np.round(U**3 * (10 - 15 * U + 6 * U**2), 3), 1e-3),
 }
-ROUGH = (HighSpeedCam, CamLever)
-"""Of these the rough peaks record: exact ones are searched for where the curves of each design say (`with_tops`)."""
-
 POSITIONS = {"turn": 1.3, "azimuth": 0.5, "elevation": 0.4}
 NOT_YET = {
     ("shaft", "plane_of_sizes"): "a search and a map of the plane stand behind it, and its contours follow from them",
@@ -55,11 +51,6 @@ def _by_lot(options, rng):
         yield from (options[k] for k in rng.permutation(len(options)))
 
 
-def analysed(design, n):
-    analysis = design.analyse(n)
-    return replace(analysis, rough=True) if isinstance(design, ROUGH) else analysis
-
-
 def said(name, value):
     """The numbers and texts of a part of a picture, by name."""
     if isinstance(value, dict):
@@ -73,7 +64,7 @@ def shown(view, n):
     """The numbers and texts of a view's marks and axes, as a function of a design and a position."""
 
     def of(design, **position):
-        picture = view(analysed(design, n), **position)
+        picture = view(design.analyse(n), **position)
         parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
         values = (said(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
         return {key: value for each in values for key, value in each.items()}
@@ -87,7 +78,7 @@ def everything(design, n):
     pictures = {view.__name__: (shown(view, n), positions_of(view)) for view in views}
 
     def of(design, **position):
-        found = {measure.name: measure.of(analysed(design, n), 1) for measure in measures_of(design)}
+        found = {measure.name: measure.of(design.analyse(n), 1) for measure in measures_of(design)}
         for name, (picture, asked) in pictures.items():
             values = picture(design, **{key: position[key] for key in asked if key in position})
             found |= {f"{name}: {key}": value for key, value in values.items()}

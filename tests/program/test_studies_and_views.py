@@ -23,7 +23,7 @@ from camkit.program import CannotRecord, record
 from camkit.quantities import measures_of, with_quantities
 from camkit.render.picture import positions_of
 from camkit.views import default_views
-from machine_cases import NOT_YET, POSITIONS, analysed, shown
+from machine_cases import NOT_YET, POSITIONS, shown
 from program_cases import designs_beside
 
 ROWS, BLOCKS = 20, 10
@@ -69,7 +69,7 @@ def test_a_study_replays_to_the_last_bit(name):
     study = STUDIES[name]
 
     def judged(design):
-        found = study.judge(np.empty((ROWS, 0)), analysed(design, study.angles))
+        found = study.judge(np.empty((ROWS, 0)), design.analyse(study.angles))
         columns = [*found.f.T, *found.g.T]
         return {str(i): column for i, column in enumerate(columns)}
 
@@ -82,7 +82,7 @@ def test_a_table_of_measures_replays_to_the_last_bit(name):
     design = DESIGNS[name]
 
     def measured(design):
-        analysis = analysed(design, ANGLES)
+        analysis = design.analyse(ANGLES)
         return {measure.name: measure.of(analysis, ROWS) for measure in measures_of(design)}
 
     check(measured, design)
