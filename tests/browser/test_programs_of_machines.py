@@ -61,5 +61,5 @@ def test_a_machine_is_in_the_page_what_it_is_in_numpy(page, name):  # noqa: F811
         size = TOLERANCE * abs(values[known]).max(initial=0.0)
         if (apart > size).any():  # as far as the last digit of an input reaches?
             moved = moved or replayed(program, np.nextafter(inputs, np.inf))
-            size = np.maximum(size, LAST_DIGITS * abs(moved[key] - values))
+            size = np.fmax(size, LAST_DIGITS * abs(moved[key] - values))
         assert (apart <= size).all(), (key, np.argwhere(apart > size)[:5], apart.max())
