@@ -108,8 +108,8 @@ class Loops:
         if not name:
             self._fold(FOLDS[function], rows, into)
             return out
-        for one, to in zip(rows.tolist(), into.tolist(), strict=True):
-            self.loops.append(Loop(name, len(one), ((to[0], 1), (one[0], 1))))
+        for one, (to, *others) in zip(rows.tolist(), into.tolist(), strict=True):
+            self.loops.append(Loop(name, len(one), ((to, others[0] - to if others else 1), (one[0], 1))))
         return out
 
     def _loop(self, operation: str, out: Place, *operands: Place) -> Place:

@@ -21,7 +21,7 @@ div=(a,b)=>{if(b===0)return a/b;const m=a%b,d=(a-m)/b-+(m!==0&&(m<0)!==(b<0)),f=
 pow=(a,b)=>b===2?a*a:b===3?a*a*a:a===1||b===0||a===-1&&M.abs(b)===Infinity?1:M.pow(a,b),
 copysign=(a,b)=>b<0||Object.is(b,-0)?-M.abs(a):M.abs(a),
 argmax=(n,o,p,a)=>{let k=0;for(let j=1;j<n&&H[a+k]===H[a+k];j++){const x=H[a+j];if(x>H[a+k]||x!==x)k=j}H[o]=k},
-sorted=(n,o,p,a)=>{H.copyWithin(o,a,a+n);H.subarray(o,o+n).sort()}"""
+sorted=(n,o,p,a)=>H.slice(a,a+n).sort().forEach((x,j)=>{H[o+j*p]=x})"""
 """What the operations of the table need; ``H`` is the heap."""
 RUN = """H.set(Float64Array.from(constants,Number));
 return X=>{

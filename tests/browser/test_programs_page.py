@@ -52,6 +52,31 @@ def test_every_row_of_the_table_is_in_the_page_what_it_is_in_numpy(page):
             np.testing.assert_allclose(number, of_numpy, rtol=TOLERANCE, atol=0, err_msg=name)
 
 
+TABLES = {
+    "wide": np.random.default_rng(2).normal(size=(3, 4, 9)),
+    "high": np.random.default_rng(3).normal(size=(9, 4, 2)),
+}
+ALONG = {
+    "one axis": lambda m: np.sum(m, axis=0),
+    "the axis between": lambda m: np.max(m, axis=1, keepdims=True),
+    "two axes": lambda m: np.min(m, axis=(0, 2)),
+    "all axes": lambda m: np.any(m > 2),
+    "so far": lambda m: np.add.accumulate(m, axis=1),
+    "where it is highest": lambda m: np.argmax(m, axis=1),
+    "in order": lambda m: np.sort(m, axis=0),
+    "picked": lambda m: np.take_along_axis(m, np.argmin(m, axis=1, keepdims=True), 1),
+    "the other way": lambda m: m[::-1, :, ::-2] * m[:, :1, 0:1],
+    "each with each": lambda m: m[0, :, None] - m[-1, None, :],
+    "truths": lambda m: (m > 0) + (m < -1) * (m < 0),
+}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_what_goes_along_axes_goes_along_them_in_the_page(page, table):
+    for found, expected in run(page, [(use, [TABLES[table]]) for use in ALONG.values()]):
+        same(found, expected)
+
+
 def test_expressions_made_at_random_are_in_the_page_what_they_are_in_numpy(page):
     rng = np.random.default_rng(7)
     uses = [(expression(seed), [rng.normal(size=np.shape(x)) for x in INPUTS.values()]) for seed in range(200)]

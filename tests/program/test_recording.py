@@ -1,5 +1,7 @@
 """Plain numpy code runs once and becomes a program: what it gives, and what cannot be."""
 
+import gc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -93,6 +95,12 @@ def test_what_cannot_be_recorded_is_refused_with_file_and_line(name):
     line = function.__code__.co_firstlineno
     with pytest.raises(CannotRecord, match=rf"^tests/program/test_recording.py, line {line}: {why}"):
         program_of(function, [INPUTS["y"]])
+
+
+def test_garbage_is_collected_again_after_a_recording_that_fails():
+    with pytest.raises(CannotRecord):
+        program_of(bool, [INPUTS["x"]])
+    assert gc.isenabled()
 
 
 def test_the_line_is_that_of_the_physics():
