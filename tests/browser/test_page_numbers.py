@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from math import inf, nan
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 import camkit.render
 from camkit import Measure
+from camkit.program.texts import filled
 from camkit.units import factor, known_units
 from camkit.units.typed import typed_number
 
@@ -53,6 +55,15 @@ def test_measures_are_written_as_in_the_table_and_as_by_the_kernel(call):
     expected = [text for _, text in CASES["measure"]]
     assert call("format", [(value, "measure") for value in values]) == expected
     assert [Measure("height", "", id).text(value) for value in values] == expected
+
+
+@pytest.mark.parametrize("spec", [".4g", ".1f", "~.3g", "~.6g", "~.10g", "~measure"])
+def test_a_sentence_is_filled_as_a_program_fills_it(call, spec):
+    values = [0.1 + 0.2, 2.675000000000001, 12345.67, -1e-7, 0.0, -0.0, 1e300, nan, inf, -inf]
+    template = ("it is ", (0, spec), (1, (" mm, and ", (0, ".3g"))), ".")
+    for holds in (1.0, 0.0):
+        expected = [filled(template, {0: value, 1: holds}) for value in values]
+        assert call("fill", [(template, [[value], [holds]]) for value in values]) == expected
 
 
 def test_a_way_to_write_numbers_that_the_page_does_not_know_is_an_error(call):

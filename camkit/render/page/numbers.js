@@ -76,7 +76,7 @@ export function fill(parts, outputs) {
 
 function filled(value, how, outputs) {
   if (typeof how !== "string") return value ? fill(how, outputs) : "";
-  return how.startsWith("~") ? format(Number(format(value, ".15g")), how.slice(1)) : format(value, how);
+  return how.startsWith("~") ? format(clean(value), how.slice(1)) : format(value, how);
 }
 
 const LONGEST = 40; // so many characters at most are read as a number
