@@ -53,22 +53,17 @@ NUMBERED = {operation: number for number, operation in enumerate(OPERATIONS)}
 MACHINE = "(size,constants,outputs,kinds,loops)=>{{const {},\nF=[{}];\n{}}}".format(
     LIBRARY, ",\n".join(map(_function, OPERATIONS)), RUN
 )
-"""A function that makes of the numbers of any program its function."""
-
-
-def javascript(program: Program) -> str:
-    """An expression whose value is the function: from an array of numbers to an array of arrays of numbers.
-
-    >>> from camkit.program import recorded
-    >>> javascript(recorded(lambda given: {"double": 2 * given["x"]}, {"x": 1.5})).removeprefix(f"({MACHINE})")
-    '(3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,-1,-2])'
-    """
-    return f"({MACHINE})({numbers(program)[1:-1]})"
+"""A function that makes of the numbers of any program its function: from an array of numbers to an array of arrays."""
 
 
 @uncollected()
 def numbers(program: Program) -> str:
-    """What `MACHINE` takes, as JSON; constants are words, which can be infinite or no number."""
+    """What `MACHINE` takes, as JSON; constants are words, which can be infinite or no number.
+
+    >>> from camkit.program import recorded
+    >>> numbers(recorded(lambda given: {"double": 2 * given["x"]}, {"x": 1.5}))
+    '[3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,-1,-2]]'
+    """
     loops = Loops(program)
     constants = [repr(value).replace("inf", "Infinity").replace("nan", "NaN") for value in loops.constants.tolist()]
     return json.dumps((loops.size, constants, loops.outputs, *_table(loops)), separators=(",", ":"))

@@ -5,11 +5,14 @@ import pytest
 
 from camkit import DoorHandleCam, door_handle_study
 from camkit.program import record, recorded
-from camkit.program.page import javascript
+from camkit.program.page import MACHINE, numbers
 from camkit.quantities import with_quantities
 from program_cases import CASES, INPUTS, designs_beside, expression, judged
 
-RUN = "jobs => jobs.map(([text, inputs]) => { const f = eval(text); return inputs.map(x => f(x).map(a => [...a])) })"
+RUN = f"""jobs => jobs.map(([numbers, inputs]) => {{
+    const f = ({MACHINE})(...JSON.parse(numbers));
+    return inputs.map(x => f(x).map(a => [...a]));
+}})"""
 TOLERANCE = 1e-12
 """Of the largest of an output: JavaScript's functions differ from numpy's in the last digit."""
 
@@ -41,7 +44,7 @@ def same(found, expected):
 
 def run(page, uses):
     """What the browser gives of each function and its arrays, and what numpy gives."""
-    found = page.evaluate(RUN, [[javascript(program_of(f, arrays)), [flat(arrays)]] for f, arrays in uses])
+    found = page.evaluate(RUN, [[numbers(program_of(f, arrays)), [flat(arrays)]] for f, arrays in uses])
     with np.errstate(all="ignore"):
         return [(job[0][0], f(*arrays)) for job, (f, arrays) in zip(found, uses, strict=True)]
 
@@ -86,7 +89,7 @@ def test_expressions_made_at_random_are_in_the_page_what_they_are_in_numpy(page)
 
 def test_the_study_of_the_door_handle_is_in_the_page_what_it_is_in_numpy(page):
     study, p = door_handle_study(DoorHandleCam()), 200
-    text = javascript(record(judged(study, 1), study.start))
+    text = numbers(record(judged(study, 1), study.start))
     values = designs_beside(study.start, p, 3)
     with np.errstate(all="ignore"):
         expected = judged(study, p)(with_quantities(study.start, values))
