@@ -20,7 +20,7 @@ from ..cam import bodies
 from ..cam.loads import Table, as_table, tabulated
 from ..cam.measures import number
 from ..geometry import Body, Outline, rotated
-from ..quantities import Measure, quantity, unless, unremarked
+from ..quantities import Measure, known, quantity, unless, unremarked
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.study import Study
@@ -89,7 +89,7 @@ class CamLever(FreeLawCam):
         self.cam  # noqa: B018 - refuses what cannot be built
 
     def _refuse_force_curve(self) -> None:
-        if not callable(self.force_curve):
+        if not (callable(self.force_curve) and known(self.stroke)):
             return
         ways = np.linspace(0, 1, 5) * np.ravel(self.stroke)[0]
         if not np.isfinite(ways).all():  # a population whose first member cannot be built

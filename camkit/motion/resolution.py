@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import perm
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..geometry import end_to_end
+from ..quantities.known import known
 from ..quantities.types import Array, Value
 from .law import Kinematics
 
@@ -25,6 +26,10 @@ HAIR, ROUNDING = 1e-9, 4e-12
 """How far inside the ends of a piece its first and last angles lie: a share of it, and at least so many rad."""
 HALVINGS = 44
 """Of a step, in which the level goes through a given one."""
+TABLED = (
+    "the load has a table, and which of its entries a segment of the motion passes differs from design to design; a "
+    "constant load, a spring and its preload can be recorded"
+)
 
 
 class Resolution(NamedTuple):
@@ -75,6 +80,9 @@ def resolve(
     >>> resolve(MotionProgram((Dwell(3.0),)), at_angles=[1.0]).angle[[0, 16, 17, 33]].round(6)
     array([0., 1., 1., 3.])
     """
+    span: Any = program.span
+    if (len(at_angles) or len(at_levels)) and not known(span):
+        span.refuse(TABLED)
     shares, pieces, moves = [], [], []
     for i, segment in enumerate(program.segments):
         start, end = program.starts[i], program.starts[i + 1]

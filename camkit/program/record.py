@@ -175,6 +175,10 @@ class Recorded(NDArrayOperatorsMixin):
             raise cannot("a text is asked for where several values hold")
         return self.recording.texts.placed((self.number, self.recording.texts.parted(words)))
 
+    def refuse(self, why: str) -> NoReturn:
+        """Physics cannot do without what is not known yet: ``why``, and what is possible."""
+        raise cannot(why)
+
     def refusing(self) -> Callable[[str], None] | None:
         """What notes the sentence for a design for which this does not hold; members of a population have none."""
         return None if self.ndim or self.number in self.recording.refusals else self._note

@@ -7,7 +7,10 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
-from camkit.program import record
+from camkit.cam.loads import ArmLoad
+from camkit.cam.slide import SlideLoad
+from camkit.machines import CamLever
+from camkit.program import CannotRecord, record
 from camkit.quantities import with_quantities
 from machine_cases import LAWS
 from program_cases import designs_beside
@@ -44,3 +47,37 @@ def test_a_cam_replays_to_the_last_bit(law):
         found = record(curves, design, rows=ROWS)(values)
         for name, value in expected.items():
             assert_array_equal(found[name], value, err_msg=f"{type(cam).__name__} {name}")
+
+
+FORCES = {"table": ((0.0, 100.0), (0.005, 300.0), (0.02, 100.0)), "function": lambda way: 100 + 1e4 * way}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", FORCES)
+def test_a_force_of_the_users_own_replays_to_the_last_bit(kind):
+    def measured(press):
+        analysis = press.analyse(31)
+        return {measure.name: measure.of(analysis, ROWS) for measure in press.measures}
+
+    press = CamLever(force_curve=FORCES[kind])
+    program = record(measured, press, rows=ROWS)
+    for seed in range(4):
+        values = designs_beside(press, ROWS, seed)
+        with np.errstate(all="ignore"):
+            expected = measured(with_quantities(press, values))
+        for name, value in program(values).items():
+            assert_array_equal(value, expected[name], err_msg=name)
+
+
+LOADS = [
+    TranslatingRollerCam(load=SlideLoad(force_table=((0.0, 5.0), (0.01, 20.0)))),
+    TranslatingFlatCam(load=SlideLoad(cam_angle_table=((0.0, 5.0), (1.0, 20.0)))),
+    OscillatingRollerCam(load=ArmLoad(torque_table=((0.0, 1.0), (0.1, 2.0)))),
+]
+
+
+@pytest.mark.parametrize("cam", LOADS, ids=lambda cam: cam.name)
+def test_a_table_of_the_load_is_refused_with_what_can_be_recorded(cam):
+    where = r"^camkit/motion/resolution.py, line \d+: the load has a table, .* a constant load, .* can be recorded$"
+    with pytest.raises(CannotRecord, match=where):
+        record(curves, cam)
