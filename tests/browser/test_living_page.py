@@ -13,7 +13,7 @@ from camkit.quantities import Design, Measure, measures_of, quantities_of, quant
 from camkit.render import to_html
 from camkit.render.living import living
 from camkit.render.picture import given_to, positions_of
-from camkit.views import default_views
+from camkit.views import default_views, pressure_angle
 from camkit.views.picture import Axes, Line, Picture, Points, Text
 
 MOST_BYTES = 500_000
@@ -160,6 +160,78 @@ def test_it_turns_and_one_line_runs_through_the_curves(opened):
     )
     cursor = page.evaluate("camkit.charts[2].how.cursor")
     assert cursor == pytest.approx(np.rad2deg(shown["values"][turn]))
+
+
+UNNAMED = """() => [...document.querySelectorAll("button, canvas, input, select, [tabindex]")]
+    .filter((e) => !e.getAttribute("aria-label") && !e.textContent.trim()).map((e) => e.outerHTML)"""
+
+
+def test_keys_and_a_screen_reader_find_everything(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    assert page.evaluate(UNNAMED) == []
+    assert "pitch curve" in page.locator(".camkit-middle canvas").get_attribute("aria-label")
+    page.locator(".camkit-curve canvas").nth(1).focus()
+    for _ in range(2):
+        page.keyboard.press("Shift+ArrowRight")
+    page.wait_for_function("() => camkit.charts[2].how.cursor > 19.9 && !camkit.frame")
+    curve = page.get_by_role("slider", name="Pressure angle")
+    assert curve.get_attribute("aria-valuenow") == "20"
+    lift, relief = (np.interp(20, m.x, m.y) for m in pressure_angle(design.analyse()).marks)
+    assert curve.get_attribute("aria-valuetext").startswith(
+        f"at 20; Pressure angle  [°]; lift {lift:.4g}; relief {relief:.4g};"
+    )
+    page.locator(".camkit-middle canvas").focus()
+    wide = "(camkit.charts[0].ends.x.high - camkit.charts[0].ends.x.low)"
+    before = page.evaluate(wide)
+    page.keyboard.press("+")
+    page.wait_for_function(DRAWN)
+    assert page.evaluate(wide) == pytest.approx(0.8 * before)
+
+
+def test_the_scale_only_makes_room_while_it_turns_and_the_pinned_design_turns_too(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    page.get_by_role("button", name="Pin to compare").click()
+    box = page.get_by_label("lift arm, mm, number")
+    box.fill("48")
+    box.press("Enter")
+    ends = page.evaluate("""async () => {
+        const ends = [], k = camkit.structure.quantities.length;
+        for (let angle = 0; angle <= 3; angle += 0.1) {
+            camkit.rows[k]._take(angle, false);
+            await new Promise((resolve) => camkit.root.addEventListener("camkit-shown", resolve, { once: true }));
+            const { x, y } = camkit.charts[0].window;
+            ends.push([-x.low, x.high, -y.low, y.high]);
+        }
+        return ends; }""")
+    assert (np.diff(ends, axis=0) >= 0).all()
+    pinned = page.evaluate("Array.from(camkit.ghost.values)")
+    assert pinned[0] == design.lift_arm
+    assert pinned[-1] == pytest.approx(2.9)
+
+
+def test_on_a_narrow_screen_everything_stands_below_the_mechanism_that_stays(opened):
+    page = opened(MACHINES["door handle"])
+    page.set_viewport_size({"width": 420, "height": 800})
+    page.wait_for_selector(".camkit-narrow")
+    page.get_by_label("handle angle, deg", exact=True).scroll_into_view_if_needed()
+    page.evaluate("scrollBy(0, 200)")
+    middle = page.locator(".camkit-middle").bounding_box()
+    assert middle["y"] == pytest.approx(0, abs=1)
+    assert page.locator(".camkit-left").bounding_box()["y"] < 0
+    assert page.evaluate("document.documentElement.scrollWidth") == 420
+    assert page.evaluate("getComputedStyle(document.querySelector('.camkit-curve canvas')).touchAction") == "pan-y"
+
+
+def test_a_touch_that_the_page_takes_for_scrolling_lets_go(opened):
+    page = opened(MACHINES["door handle"])
+    page.evaluate("""() => {
+        const { canvas } = camkit.charts[0];
+        canvas.setPointerCapture = () => {};
+        for (const [kind, clientX] of [["down", 400], ["cancel", 400], ["move", 480]])
+            canvas.dispatchEvent(new PointerEvent(`pointer${kind}`, { pointerId: 7, clientX, clientY: 300 })); }""")
+    assert page.evaluate("camkit.charts[0].zoomed") is None
 
 
 EVIL = (

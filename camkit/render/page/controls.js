@@ -9,7 +9,7 @@ export function make(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
   }
-  if (["button", "input", "select", "summary"].includes(tag)) element.setAttribute("data-lm-suppress-shortcuts", "true");
+  if (["button", "canvas", "input", "select", "summary"].includes(tag)) element.setAttribute("data-lm-suppress-shortcuts", "true");
   element.append(...children);
   return element;
 }
@@ -22,20 +22,22 @@ export function stepOf(low, high) {
 
 /** One number: name, symbol, slider, box, unit.  `value` is in SI; `moved(value, settled)` is called for what a person does. */
 export class Row {
-  /** @param {{name: string, symbol: string, unit: string, factor: number, low: number, high: number, meaning: string, value: number}} declared
+  /** @param {{name: string, symbol: string, unit: string, factor: number, low: number, high: number, meaning: string, value: number, group?: string, written?: string}} declared
    * @param {any} units @param {(value: number, settled: boolean) => void} moved */
   constructor(declared, units, moved) {
     Object.assign(this, { declared, units, moved, value: declared.value });
-    const { name, symbol, unit, low, high, meaning } = declared, said = unit ? `${name}, ${unit}` : name;
+    const { name, symbol, unit, low, high, meaning, group } = declared, said = unit ? `${name}, ${unit}` : name;
+    const inGroup = group && name.startsWith(`${group} `) ? name.slice(group.length + 1) : name;
     this.slider = make("input", { type: "range", min: low, max: high, step: stepOf(low, high), "aria-label": said });
     this.box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-label": `${said}, number` });
     this.refusal = make("div", { class: "camkit-refusal", role: "alert" });
-    const label = make("label", { title: meaning }, name, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
+    const label = make("label", { title: meaning && meaning !== name ? `${name}: ${meaning}` : name }, inGroup, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
     this.element = make("div", { class: "camkit-row" }, label,
       make("span", { class: "camkit-box" }, this.box, make("span", { class: "camkit-unit" }, pretty(unit))), this.slider, this.refusal);
     this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * declared.factor, false));
     this.slider.addEventListener("change", () => moved(this.value, true));
     this.box.addEventListener("change", () => this._typed());
+    this.box.addEventListener("keydown", (event) => { if (event.key === "Escape") this.show(this.value); });
     this.show(declared.value);
   }
 
@@ -44,7 +46,8 @@ export class Row {
     this.value = value;
     const read = value / this.declared.factor;
     this.slider.value = String(read);
-    this.box.value = format(read, ".6g");
+    this.box.value = format(read, this.declared.written ?? ".6g");
+    this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.declared.unit)}`.trim());
     this.box.style.width = `${Math.max(this.box.value.length, 2) + 0.6}ch`;
     this.refuse("");
   }

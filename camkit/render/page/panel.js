@@ -4,6 +4,7 @@ import { Row, folded, make } from "./controls.js";
 import { fill, format, pretty } from "./numbers.js";
 
 const DEGREE = Math.PI / 180, REMEMBERED = 50, TURN = 6; // seconds for a whole turn
+const NARROW = 60; // letters: below it everything stands in one column
 /** @type {Record<string, string>} */
 const FILES = { json: "Design (JSON)", html: "Living page (HTML)", svg: "Picture (SVG)", pdf: "Picture (PDF)", csv: "Profile (CSV)", dxf: "Profile (DXF)" };
 
@@ -23,18 +24,20 @@ export class Panel {
     /** @type {Float64Array[]} */ this.past = [];
     /** @type {Float64Array[]} */ this.future = [];
     this.settledValues = this.values.slice();
+    this.leaving = new AbortController();
     this._build();
-    this.themes = [matchMedia("(prefers-color-scheme: dark)"), new MutationObserver(() => this.ask(true))];
-    this.themes[0].addEventListener("change", () => this.ask(true));
-    this.themes[1].observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
-    this.resized = new ResizeObserver(() => this.ask(true));
-    this.resized.observe(this.middle); this.resized.observe(this.right);
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    this.system.addEventListener("change", () => this.ask(true), { signal: this.leaving.signal });
+    this.theme = new MutationObserver(() => this.ask(true));
+    this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    this.resized = new ResizeObserver(() => { root.classList.toggle("camkit-narrow", root.clientWidth < NARROW * this.letter); this.ask(true); });
+    for (const part of [root, this.middle, this.right]) this.resized.observe(part);
     this.ask(true);
   }
 
   /** Leave the page. */
   end() {
-    this.resized.disconnect(); this.themes[1].disconnect(); this.playing = false; this.ended = true;
+    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect(); this.playing = false; this.ended = true;
     this.root.replaceChildren();
   }
 
@@ -68,9 +71,12 @@ export class Panel {
   /** A text with the numbers of what is shown. @param {any} text */
   words = (text) => (typeof text === "string" ? text : fill(text, this.outputs));
 
+  /** The size of letters, pixels. */
+  get letter() { return parseFloat(getComputedStyle(this.root).fontSize); }
+
   get dark() {
     const light = document.body.dataset.jpThemeLight;
-    return light ? light === "false" : this.themes[0].matches;
+    return light ? light === "false" : this.system.matches;
   }
 
   _build() {
@@ -80,24 +86,28 @@ export class Panel {
       new Row({ ...declared }, structure.units, (value, settled) => this._moved(k, value, settled));
     const rows = structure.quantities.map(row);
     const positions = structure.positions.map((/** @type {any} */ p, /** @type {number} */ k) =>
-      row({ name: p.label, symbol: p.label, unit: "deg", factor: DEGREE, low: -180, high: 180, meaning: "", value: p.value }, count + k));
+      row({ name: p.label, symbol: p.label, unit: "deg", factor: DEGREE, low: -180, high: 180, meaning: "", value: p.value, written: ".4g" }, count + k));
     this.rows = [...rows, ...positions];
     this.turn = structure.positions.findIndex((/** @type {any} */ p) => p.name === "turn");
-    const button = (/** @type {string} */ words, /** @type {string} */ title, /** @type {() => void} */ act) => make("button", { type: "button", title, "aria-label": title, onclick: act }, words);
+    const button = (/** @type {string} */ words, /** @type {string} */ title, /** @type {() => void} */ act) => make("button", { type: "button", title, "aria-label": /\w/.test(words) ? undefined : title, onclick: act }, words);
     this.undoing = button("\u21B6", "Undo", () => this._back(this.past, this.future));
     this.redoing = button("\u21B7", "Redo", () => this._back(this.future, this.past));
     this.pinning = button("Pin to compare", "Pin this design to compare others with it", () => this._pin());
     this.tables = button("Numbers", "Show the numbers in place of the curves", () => this._flip());
-    this.bar = make("div", { class: "camkit-bar-top" }, make("b", {}, structure.name), this.undoing, this.redoing,
-      button("Reset", "Back to the design that the page began with", () => { this._remember(); this.put(this.inputs); this._remember(); }), this.pinning, make("span", { class: "camkit-space" }), this.tables, ...this._files());
+    this.bar = make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1" }, structure.name), this.undoing, this.redoing,
+      button("Reset", "Back to the design that the page began with", () => { this._remember(); this.put(this.inputs); this._remember(); }), this.pinning, make("span", { class: "camkit-space" }), this.tables, ...this._files(),
+      ...(document.fullscreenEnabled ? [button("Full screen", "As large as the screen, and back", () => void (document.fullscreenElement ? document.exitFullscreen() : this.root.requestFullscreen()))] : []));
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
-    this.chips = make("div", { class: "camkit-chips", "aria-live": "polite" });
+    this.trouble = make("div", { class: "camkit-trouble camkit-chip camkit-bad", hidden: true });
+    this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures", tabindex: "0" });
+    this.said = make("div", { class: "camkit-said", role: "status" });
     this.find = make("input", { type: "search", placeholder: "find a quantity", "aria-label": "find a quantity", oninput: () => this._filter() });
-    const choices = structure.choices.map((/** @type {any} */ choice) => this._menu(choice));
+    this.choices = structure.choices.map((/** @type {any} */ choice) => this._menu(choice));
     this.groups = folded(rows.map((/** @type {Row} */ r, /** @type {number} */ k) => [structure.quantities[k].group, r]).filter((/** @type {any} */ _, /** @type {number} */ k) => structure.quantities[k].free));
-    if (choices.length) this.groups.push(make("details", {}, make("summary", {}, `Choices (${choices.length})`), ...choices));
-    this.left = make("div", { class: "camkit-left" }, ...(rows.length > 8 ? [this.find] : []), ...this.groups);
-    this.charts = structure.pictures.map((/** @type {any} */ picture) => new Chart(make("canvas", { role: "img", tabindex: "0" }), picture, structure.look));
+    if (this.choices.length) this.groups.push(make("details", {}, make("summary", {}, `Choices (${this.choices.length})`), ...this.choices));
+    this.nothing = make("p", { class: "camkit-nothing", hidden: true }, "no quantity has this name");
+    this.left = make("div", { class: "camkit-left", role: "group", "aria-label": "quantities" }, ...(rows.length > 8 ? [this.find, this.nothing] : []), ...this.groups);
+    this.charts = structure.pictures.map((/** @type {any} */ picture) => new Chart(make("canvas", { role: "img", tabindex: "0", "aria-description": "Arrow keys move it, + and - bring it nearer, 0 shows all of it" }), picture, structure.look));
     this.over = make("div", { class: "camkit-over", role: "alert", hidden: true });
     this.tip = make("div", { class: "camkit-tip", hidden: true });
     this.middle = make("div", { class: "camkit-middle" }, ...(this.charts.length ? [this.charts[0].canvas] : []), this.over);
@@ -105,11 +115,11 @@ export class Panel {
     this.table = make("div", { class: "camkit-numbers", hidden: true });
     this.right = make("div", { class: "camkit-right-side" }, this.curves, this.table);
     this.play = button("\u25B6", "Play", () => this._play());
-    this.bottom = make("div", { class: "camkit-play" }, ...(this.turn < 0 ? [] : [this.play]), ...positions.map((/** @type {Row} */ r) => r.element));
+    this.bottom = make("div", { class: "camkit-play", hidden: !positions.length }, ...(this.turn < 0 ? [] : [this.play]), ...positions.map((/** @type {Row} */ r) => r.element));
     this.root.classList.add("camkit-page");
-    this.root.replaceChildren(this.bar, this.note, this.chips, this.left, this.middle, this.right, this.bottom, this.tip);
-    for (const chart of this.charts) this._pointer(chart);
-    this.root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._key(event));
+    this.root.replaceChildren(this.bar, this.note, this.trouble, this.chips, this.left, this.middle, this.right, this.bottom, this.tip, this.said);
+    for (const chart of this.charts) { this._pointer(chart); chart.canvas.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._arrow(chart, event)); }
+    this.root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._key(event), { signal: this.leaving.signal });
   }
 
   /** A menu; without a host what is chosen stays. @param {{path: string, name: string, options: string[], chosen: string}} choice */
@@ -165,6 +175,15 @@ export class Panel {
     this.ask(true);
   }
 
+  /** The pinned design stands where the other one does, if the page can compute it. */
+  _turnGhost() {
+    const { ghost } = this, count = this.structure.quantities.length;
+    if (ghost.values.every((/** @type {number} */ value, /** @type {number} */ k) => k < count || value === this.values[k])) return;
+    ghost.values.set(this.values.subarray(count), count);
+    const outputs = this.engine.run(ghost.values);
+    if (!(outputs instanceof Promise)) ghost.outputs = outputs;
+  }
+
   _flip() {
     this.table.hidden = !this.table.hidden;
     this.curves.hidden = !this.table.hidden;
@@ -175,10 +194,12 @@ export class Panel {
   _filter() {
     const wanted = this.find.value.trim().toLowerCase();
     this.structure.quantities.forEach((/** @type {any} */ q, /** @type {number} */ k) => { this.rows[k].element.hidden = !`${q.name} ${q.symbol}`.toLowerCase().includes(wanted); });
+    for (const choice of this.choices) choice.hidden = !choice.firstChild.textContent.toLowerCase().includes(wanted);
     for (const group of this.groups) {
       if (wanted) group.open = true;
       group.hidden = Boolean(wanted) && ![...group.children].slice(1).some((row) => !row.hidden);
     }
+    this.nothing.hidden = this.groups.some((/** @type {HTMLElement} */ group) => !group.hidden);
   }
 
   /** @param {KeyboardEvent} event */
@@ -195,6 +216,7 @@ export class Panel {
     if (number < this.shownAt || this.ended) return; // a newer one is there
     this.shownAt = number;
     if (outputs.structure) this._adopt(outputs.structure);
+    if (this.ghost) this._turnGhost();
     this._draw(outputs, settled);
     this._report();
   }
@@ -225,17 +247,29 @@ export class Panel {
     const found = this.structure.refusals.find((/** @type {any} */ r) => outputs.length && outputs[r.at][0] !== 1);
     const refused = found ? fill(found.words, outputs) : outputs.sentence ?? "";
     this._refuse(refused);
+    this.undoing.setAttribute("aria-disabled", String(!this.past.length)); this.redoing.setAttribute("aria-disabled", String(!this.future.length));
     if (!refused) this.outputs = outputs;
     if (!this.outputs) return;
     if (this.turn >= 0 && !refused) this._fitTurn(outputs);
-    const words = this.words, dark = this.dark;
+    const words = this.words, dark = this.dark, em = this.letter / 13;
     this.root.classList.toggle("camkit-dark", dark);
     for (const chart of this.charts) {
-      chart.compact = chart.canvas.clientHeight < 190;
+      Object.assign(chart, { compact: chart.canvas.clientHeight < 190 * em, em });
       chart.draw(chart.own ?? this.outputs, { dark, settled: settled && !this.playing, words, ghost: this.ghost?.outputs, cursor: this._cursorOf(chart) });
+      if (settled && chart.list) this._describe(chart);
     }
-    if (!refused) this._tell(outputs);
+    if (!refused) this._tell(outputs, settled);
     this.root.dispatchEvent(new CustomEvent("camkit-shown"));
+  }
+
+  /** The text in place of a picture; a curve over the turn is a slider, whose value are those of the curves. @param {Chart} chart */
+  _describe(chart) {
+    const { canvas, how: { cursor } } = chart, told = chart.describe();
+    const of = cursor === undefined ? { role: "img", "aria-label": told } : {
+      role: "slider", "aria-label": chart.heading.title, "aria-valuetext": `at ${format(cursor, ".4g")}; ${told}`,
+      "aria-valuenow": format(cursor, ".4g"), "aria-valuemin": format(chart.ends.x.low, ".4g"), "aria-valuemax": format(chart.ends.x.high, ".4g"),
+    };
+    for (const [name, value] of Object.entries(of)) canvas.setAttribute(name, value);
   }
 
   /** Where the mechanism stands, on a curve over the angle that turns it. @param {Chart} chart */
@@ -266,26 +300,31 @@ export class Panel {
     this.rows.forEach((row, k) => row.element.classList.toggle("camkit-guilty", Boolean(sentence) && k === this.last));
   }
 
-  /** Measures as numbers, limits as chips, worst first. @param {ArrayLike<number>[]} outputs */
-  _tell(outputs) {
+  /** Measures as numbers, limits as chips, worst first. @param {ArrayLike<number>[]} outputs @param {boolean} settled */
+  _tell(outputs, settled) {
     const first = this.first ??= outputs;
     const value = (/** @type {any} */ m, /** @type {any} */ of) => { const v = found(m.value, of); return typeof v === "number" ? v : v[0]; };
     const told = (/** @type {any} */ m, /** @type {number} */ v) => `${format(v / m.factor, "measure")} ${pretty(m.unit)}`.trim();
+    const shown = (/** @type {any} */ m, /** @type {number} */ v) => (Number.isNaN(v) ? "cannot be computed" : told(m, v));
     this.numbers = this.structure.measures.map((/** @type {any} */ m) => ({ name: m.name, value: value(m, outputs), text: told(m, value(m, outputs)) }));
     const rows = this.structure.measures.map((/** @type {any} */ m) => {
       const [now, then] = [value(m, outputs), value(m, this.ghost?.outputs ?? first)], change = then && Number.isFinite(now - then) ? (100 * (now - then)) / Math.abs(then) : NaN;
       const kept = m.limit === undefined || m.sense * (now - m.limit) <= 1e-9 * Math.max(1, Math.abs(m.limit));
-      return { m, now, change, kept, miss: m.limit === undefined ? -Infinity : (m.sense * (now - m.limit)) / (Math.abs(m.limit) || 1) };
+      const miss = (m.sense * (now - m.limit)) / (Math.abs(m.limit) || 1);
+      return { m, now, change, kept, miss: Number.isNaN(miss) ? 1e300 : miss };
     });
     const limited = rows.filter((/** @type {any} */ r) => r.m.limit !== undefined).sort((/** @type {any} */ a, /** @type {any} */ b) => b.miss - a.miss);
     const others = rows.filter((/** @type {any} */ r) => r.m.limit === undefined && Number.isFinite(r.now)).slice(0, Math.max(0, 5 - limited.length));
     const trouble = this.words(this.structure.trouble);
+    const missed = limited.filter((/** @type {any} */ r) => !r.kept).map((/** @type {any} */ r) => r.m.name);
+    const verdict = [trouble, missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? "every limit is kept" : ""].filter(Boolean).join("; ");
+    if (settled && this.said.textContent !== verdict) this.said.textContent = verdict;
+    this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
     this.chips.replaceChildren(
-      ...(trouble ? [make("span", { class: "camkit-chip camkit-bad", title: trouble }, trouble)] : []),
-      ...limited.map(({ m, now, kept }) => make("span", { class: `camkit-chip ${kept ? "camkit-ok" : "camkit-bad"}` }, `${m.name} ${told(m, now)} `, make("small", {}, `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit)}`))),
+      ...limited.map(({ m, now, kept }) => make("span", { class: `camkit-chip ${kept ? "camkit-ok" : "camkit-bad"}` }, `${m.name} ${shown(m, now)} `, make("small", {}, `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit)}`))),
       ...others.map(({ m, now }) => make("span", { class: "camkit-chip" }, `${m.name} `, make("b", {}, told(m, now)))));
     if (this.table.hidden) return;
-    const head = make("tr", {}, ...["measure", "now", this.ghost ? "pinned" : "start", "change"].map((words) => make("th", {}, words)));
+    const head = make("tr", {}, ...["measure", "now", this.ghost ? "pinned" : "start", "change"].map((words) => make("th", { scope: "col" }, words)));
     this.table.replaceChildren(make("table", {}, head, ...rows.filter((/** @type {any} */ r) => Number.isFinite(r.now)).map(({ m, now, change, kept }) =>
       make("tr", { class: kept ? "" : "camkit-bad" }, make("td", {}, m.name), make("td", {}, told(m, now)), make("td", {}, told(m, value(m, this.ghost?.outputs ?? first))), make("td", {}, Number.isFinite(change) ? `${format(change, "+.1f")} %` : "")))));
   }
@@ -308,32 +347,64 @@ export class Panel {
     if (this.playing) requestAnimationFrame(step); else this.ask(true);
   }
 
+  /** Whether a picture is seen from a place in space. @param {Chart} chart */
+  _orbits(chart) { return chart.picture.axes.bare && this.structure.positions.some((/** @type {any} */ p) => p.name === "azimuth"); }
+
+  /** Stand at a value of a position, within its range. @param {number} k @param {number} value */
+  _stand(k, value) {
+    const row = this.rows[this.structure.quantities.length + k], { low, high } = row.declared;
+    row.show(Math.min(Math.max(value, low * DEGREE), high * DEGREE));
+    this._moved(this.structure.quantities.length + k, row.value, false);
+  }
+
+  /** See it from elsewhere. @param {number} across @param {number} up radians */
+  _orbit(across, up) {
+    const seen = (/** @type {string} */ name) => this.structure.positions.findIndex((/** @type {any} */ p) => p.name === name);
+    const [azimuth, elevation] = ["azimuth", "elevation"].map((name) => this.values[this.structure.quantities.length + seen(name)]);
+    this._stand(seen("azimuth"), (((azimuth + across) / DEGREE + 540) % 360) * DEGREE - Math.PI);
+    this._stand(seen("elevation"), elevation + up);
+  }
+
+  /** Arrow keys on a picture turn what is seen, or move it; + and - bring it nearer, 0 shows all of it.
+   * @param {Chart} chart @param {KeyboardEvent} event */
+  _arrow(chart, event) {
+    const across = { ArrowLeft: -1, ArrowRight: 1 }[event.key] ?? 0, up = { ArrowDown: -1, ArrowUp: 1 }[event.key] ?? 0;
+    const nearer = { "+": 0.8, "=": 0.8, "-": 1.25 }[event.key], [low, high] = this.range ?? [0, 0];
+    if (event.ctrlKey || event.metaKey || event.altKey || !chart.box || !(across || up || nearer || event.key === "0")) return;
+    event.preventDefault();
+    const { left, right, top, bottom } = chart.box;
+    if (nearer) chart.zoom(nearer, (left + right) / 2, (top + bottom) / 2);
+    else if (event.key === "0") chart.fit();
+    else if (this._orbits(chart)) this._orbit(5 * DEGREE * across, 5 * DEGREE * up);
+    else if (this.turn < 0) chart.pan(-20 * across, 20 * up);
+    else this._stand(this.turn, this.values[this.structure.quantities.length + this.turn] + ((across + up) * (event.shiftKey ? 10 : 1) * (high - low)) / 180);
+    this.ask(true);
+  }
+
   /** Hover for values, drag the cursor, orbit, zoom and pan. @param {Chart} chart */
   _pointer(chart) {
-    const { canvas } = chart, seen = (/** @type {string} */ name) => this.structure.positions.findIndex((/** @type {any} */ p) => p.name === name);
-    const orbits = chart.picture.axes.bare && seen("azimuth") >= 0;
+    const { canvas } = chart, orbits = this._orbits(chart);
     const at = (/** @type {PointerEvent | WheelEvent | MouseEvent} */ event) => { const r = canvas.getBoundingClientRect(); return [event.clientX - r.left, event.clientY - r.top]; };
-    /** @type {number[] | null} */ let held = null;
-    canvas.style.touchAction = "none";
-    const set = (/** @type {number} */ k, /** @type {number} */ value, /** @type {boolean} */ wraps) => {
-      const row = this.rows[this.structure.quantities.length + k], [low, high] = [row.declared.low * DEGREE, row.declared.high * DEGREE];
-      const kept = wraps ? value : Math.min(Math.max(value, low), high);
-      row.show(kept); this._moved(this.structure.quantities.length + k, kept, false);
-    };
-    canvas.addEventListener("pointerdown", (event) => { held = at(event); canvas.setPointerCapture(event.pointerId); if (this._overTurn(chart)) set(this.turn, chart.x.back(held[0]) * DEGREE, false); });
-    canvas.addEventListener("pointerup", () => { held = null; this.ask(true); });
+    /** @type {Map<number, number[]>} */ const held = new Map(); // a pinch has two
+    canvas.style.touchAction = chart.picture.axes.equal || orbits ? "none" : "pan-y"; // past curves the page scrolls
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button) return;
+      held.set(event.pointerId, at(event)); canvas.setPointerCapture(event.pointerId);
+      if (this._overTurn(chart) && held.size === 1) this._stand(this.turn, chart.x.back(at(event)[0]) * DEGREE);
+    });
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => { if (held.delete(event.pointerId)) this.ask(true); });
     canvas.addEventListener("pointerleave", () => { this.tip.hidden = true; });
     canvas.addEventListener("pointermove", (event) => {
-      const [px, py] = at(event);
-      if (!held) { this._hover(chart, px, py, event); return; }
-      const [dx, dy] = [px - held[0], py - held[1]];
-      held = [px, py];
-      if (this._overTurn(chart)) set(this.turn, chart.x.back(px) * DEGREE, false);
-      else if (orbits) {
-        const count = this.structure.quantities.length, turned = (/** @type {number} */ v) => ((v / DEGREE + 540) % 360) * DEGREE - Math.PI;
-        set(seen("azimuth"), turned(this.values[count + seen("azimuth")] - dx * 0.01), true);
-        set(seen("elevation"), this.values[count + seen("elevation")] + dy * 0.01, false);
-      } else { chart.pan(dx, dy); this.ask(); }
+      const [px, py] = at(event), before = held.get(event.pointerId);
+      if (!before) { this._hover(chart, px, py, event); return; }
+      const [dx, dy] = [px - before[0], py - before[1]], other = [...held].find(([id]) => id !== event.pointerId)?.[1];
+      held.set(event.pointerId, [px, py]);
+      if (other) {
+        const far = (/** @type {number[]} */ p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
+        chart.zoom(far(before) / far([px, py]), ...other); this.ask();
+      } else if (this._overTurn(chart)) this._stand(this.turn, chart.x.back(px) * DEGREE);
+      else if (orbits) this._orbit(-dx * 0.01, dy * 0.01);
+      else { chart.pan(dx, dy); this.ask(); }
     });
     canvas.addEventListener("wheel", (event) => {
       if (!event.ctrlKey && document.activeElement !== canvas) return; // the page scrolls
@@ -353,7 +424,7 @@ export class Panel {
     this.tip.hidden = !this.tip.textContent;
     const box = this.root.getBoundingClientRect();
     this.tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - 150)}px`;
-    this.tip.style.top = `${event.clientY - box.top + 14}px`;
+    this.tip.style.top = `${Math.min(event.clientY - box.top + 14, box.height - this.tip.offsetHeight)}px`;
   }
 }
 

@@ -18,6 +18,8 @@ const one = (value, outputs) => { const v = found(value, outputs); return typeof
 /** @param {any} value @param {ArrayLike<number>[]} outputs @returns {ArrayLike<number>} */
 const many = (value, outputs) => { const v = found(value, outputs); return typeof v === "number" ? [v] : v; };
 const real = Number.isFinite;
+/** Letters whose colour as a line would be too pale to read on white. @type {Record<string, string>} */
+const READABLE = { guide: "#5b6875", pitch: "#5b6875", trouble: "#b03a00", limit: "#b03a00" };
 
 /** Round numbers from one end to the other, about `count` of them. @param {number} low @param {number} high @param {number} count */
 export function ticks(low, high, count) {
@@ -60,6 +62,8 @@ export class Chart {
     /** What was drawn last, in user units. @type {any} */
     this.list = null;
     this.compact = false;
+    /** The size of letters, as a share of what it mostly is. */
+    this.em = 1;
   }
 
   /** Draw what the program gave. @param {ArrayLike<number>[]} outputs
@@ -93,7 +97,14 @@ export class Chart {
     return role === "series" ? this.look.series[theme][index % 20] : this.look.roles[role][theme];
   }
 
-  /** The ends of both axes: those of the picture, or what is drawn; they stay while it fits well enough.
+  /** The colour of letters in a role. @param {string} role @param {number} [index] */
+  ink(role, index) { return (!this.how.dark && READABLE[role]) || this.colour(role, index); }
+
+  /** Letters of a size. @param {number} size @param {number} [weight] */
+  letters(size, weight = 400) { this.pen.font = `${weight} ${size * this.em}px ${LETTERS}`; }
+
+  /** The ends of both axes: those of the picture, or what is drawn; they stay while it fits well enough, and while
+   * something moves they only make room.
    * @param {ArrayLike<number>[]} outputs @param {boolean} settled */
   _window(outputs, settled) {
     if (this.zoomed) return this.zoomed;
@@ -121,8 +132,9 @@ export class Chart {
       const margin = log ? 0 : (axes.equal ? 0.04 : name === "x" ? 0 : 0.06) * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
       const fit = { low: low - margin, high: high + margin, log };
       const before = this.window?.[name], span = before ? before.high - before.low : 0;
-      const fits = before && low >= before.low && high <= before.high && (settled ? high - low > 0.6 * span : high - low > 0.25 * span);
-      if (fits && !log) { fit.low = before.low; fit.high = before.high; }
+      const alike = before && !log && high - low > (settled ? 0.6 : 0.25) * span && high - low < 4 * span;
+      if (alike && low >= before.low && high <= before.high) Object.assign(fit, { low: before.low, high: before.high });
+      else if (alike && !settled) Object.assign(fit, { low: Math.min(before.low, fit.low), high: Math.max(before.high, fit.high) });
       else if (!log && !axes.equal && name === "y" && fit.high > fit.low) {
         const marks = ticks(fit.low, fit.high, 8), step = marks.length > 1 ? marks[1] - marks[0] : fit.high - fit.low;
         fit.low = Math.floor(fit.low / step + 1e-9) * step; fit.high = Math.ceil(fit.high / step - 1e-9) * step;
@@ -138,9 +150,9 @@ export class Chart {
   /** Room for title and numbers, and the scales. @param {number} width @param {number} height */
   _place(width, height) {
     const { axes } = this.picture, { x, y } = this.window, small = this.compact;
-    const bare = axes.bare, named = !small && axes.xlabel && !axes.equal;
+    const bare = axes.bare, named = !small && axes.xlabel && !axes.equal, { em } = this;
     this.heading = this._heading(width);
-    const box = { left: bare ? 6 : axes.yticks ? 96 : 44, right: width - 8, top: this.heading.rows * 15 + 7, bottom: height - (bare ? 6 : named ? 34 : 18) };
+    const box = { left: bare ? 6 : (axes.yticks ? 96 : 44) * em, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - (bare ? 6 : (named ? 34 : 18) * em) };
     let ends = { x, y };
     if (axes.equal) {
       const across = box.right - box.left, up = box.bottom - box.top;
@@ -153,15 +165,17 @@ export class Chart {
 
   /** Numbers, grid and names of the axes. */
   _frame() {
-    const { pen, box, ends } = this, { axes } = this.picture;
+    const { pen, box, ends, em } = this, { axes } = this.picture;
     if (axes.bare) return;
-    const grid = this.colour("body"), ink = this.colour("guide");
-    pen.font = `10.5px ${LETTERS}`; pen.lineWidth = 1; pen.setLineDash([]);
+    const grid = this.colour("body"), ink = this.ink("guide");
+    this.letters(10.5); pen.lineWidth = 1; pen.setLineDash([]);
     /** @param {"x"|"y"} name */
     const marks = (name) => {
       const given = axes[`${name}ticks`];
       if (given) return Object.entries(given).map(([at, words]) => [Number(at), String(words)]);
-      const { low, high, log } = ends[name], room = name === "x" ? (box.right - box.left) / 70 : (box.bottom - box.top) / 34;
+      const { low, high, log } = ends[name], long = name === "x" ? box.right - box.left : box.bottom - box.top;
+      const apart = axes.equal ? Math.max(60 * em, (box.right - box.left) / 10, (box.bottom - box.top) / 10) : 60 * em;
+      const room = axes.equal || name === "x" ? long / apart : Math.min(long / (34 * em), 4.5);
       if (log) return ticks(Math.log10(low), Math.log10(high), Math.min(room, 6)).map((p) => [10 ** p, short(10 ** p)]);
       const degrees = name === "x" && /\[deg\]/.test(axes.xlabel) && high - low > 60;
       return (degrees ? degreeTicks(low, high, room) : ticks(low, high, room)).map((v) => [v, short(v)]);
@@ -172,7 +186,8 @@ export class Chart {
       if (p < box.left - 0.5 || p > box.right + 0.5) continue;
       if (axes.grid) stroke(pen, grid, [[p, box.top], [p, box.bottom]]);
       pen.fillStyle = ink;
-      pen.fillText(words, Math.min(Math.max(p, box.left + 6), box.right - pen.measureText(words).width / 2), box.bottom + 4);
+      const half = pen.measureText(words).width / 2;
+      pen.fillText(words, Math.min(Math.max(p, box.left - 4 + half), box.right - half), box.bottom + 4);
     }
     pen.textBaseline = "middle"; pen.textAlign = "right";
     for (const [at, words] of marks("y")) {
@@ -184,36 +199,42 @@ export class Chart {
     }
     if (!this.compact && axes.xlabel && !axes.equal) {
       pen.textAlign = "right"; pen.textBaseline = "bottom";
-      pen.fillText(axisName(axes.xlabel), box.right, box.bottom + 33);
+      pen.fillText(axisName(axes.xlabel), box.right, box.bottom + 33 * em);
     }
   }
 
-  /** Each labelled mark once: its name, its value at the position that is shown, its colour. @returns {[string, string][]} */
+  /** Each labelled mark that is there, once: its name, its value at the position that is shown, its colour, its form.
+   * @returns {{words: string, tint: string, form?: string}[]} */
   _legend() {
     const { cursor } = this.how, values = new Map(cursor === undefined ? [] : this.valuesAt(cursor).map(({ mark, value }) => [mark, value]));
-    /** @type {Map<string, [string, string]>} */
     const labels = new Map();
     for (const mark of this.picture.marks) {
-      const name = this.how.words(mark.label), unnamed = !name && values.has(mark) && values.size === 1;
-      if ((!name && !unnamed) || labels.has(name)) continue;
-      const value = values.has(mark) ? format(values.get(mark), ".4g") : "";
-      labels.set(name, [`${name} ${value}`.trim(), this.colour(mark.role, one(mark.index, this.outputs))]);
+      const name = axisName(this.how.words(mark.label)), valued = values.has(mark);
+      if (name ? !this._there(mark) : !valued || values.size > 1) continue;
+      if (labels.has(name) && (labels.get(name).valued || !valued)) continue;
+      const words = `${name} ${valued ? format(values.get(mark), ".4g") : ""}`.trim();
+      labels.set(name, { words, valued, tint: this.colour(mark.role, one(mark.index, this.outputs)), form: mark.kind === "points" ? mark.mark : undefined });
     }
     return [...labels.values()];
+  }
+
+  /** Whether anything of a mark can be seen. @param {Mark} mark */
+  _there(mark) {
+    return (REACH[mark.kind] ?? []).flat().every((name) => Array.prototype.some.call(many(mark[name], this.outputs), real));
   }
 
   /** Where title and names stand, in rows as wide as the canvas. @param {number} width */
   _heading(width) {
     const { pen } = this, { axes } = this.picture, unit = /\[(.*)\]\s*$/.exec(axes.ylabel);
     const title = axes.equal || axes.bare || !unit ? axes.title : `${axes.title}  [${pretty(unit[1])}]`;
-    pen.font = `600 12px ${LETTERS}`;
+    this.letters(12, 600);
     let at = pen.measureText(title).width + 16, row = 0;
-    pen.font = `11px ${LETTERS}`;
+    this.letters(11);
     const names = [];
-    for (const [words, tint] of this._legend()) {
-      const wide = pen.measureText(words).width + 28;
-      if (at + wide > width - 6) { row += 1; at = 8; }
-      names.push({ words, tint, at, row });
+    for (const name of this._legend()) {
+      const wide = pen.measureText(name.words).width + 28;
+      if (at + wide > width - 6 && at > 8) { row += 1; at = 8; }
+      names.push({ ...name, at, row });
       at += wide;
     }
     const rows = Math.min(row + 1, this.compact ? 2 : 6);
@@ -222,19 +243,30 @@ export class Chart {
 
   /** The title with its unit, and the names of the marks. @param {number} width */
   _title(width) {
-    const { pen } = this, { title, names } = this.heading;
+    const { pen, em } = this, { title, names } = this.heading;
     pen.textAlign = "left"; pen.textBaseline = "middle"; pen.globalAlpha = 1;
-    pen.font = `600 12px ${LETTERS}`; pen.fillStyle = this.colour("ink");
-    pen.fillText(title, 4, 9);
-    pen.font = `11px ${LETTERS}`;
-    for (const { words, tint, at, row } of names) {
-      pen.fillStyle = tint; pen.fillRect(at, 7 + 15 * row, 12, 4);
-      pen.fillStyle = this.colour("ink"); pen.fillText(words, at + 16, 9 + 15 * row);
+    this.letters(12, 600); pen.fillStyle = this.colour("ink");
+    pen.fillText(title, 4, 9 * em);
+    this.letters(11);
+    for (const { words, tint, form, at, row } of names) {
+      const middle = (9 + 15 * row) * em;
+      pen.fillStyle = pen.strokeStyle = tint;
+      if (form) this._sign(form, at + 6, middle); else pen.fillRect(at, middle - 2, 12, 4);
+      pen.fillStyle = this.colour("ink"); pen.fillText(words, at + 16, middle);
     }
     if (this.picture.still && !this.own) {
-      pen.fillStyle = this.colour("guide"); pen.textAlign = "right";
+      pen.fillStyle = this.ink("guide"); pen.textAlign = "right";
       pen.fillText("of the stored design", width - 8, this.box.bottom - 8);
     }
+  }
+
+  /** What points look like, beside their name. @param {string} form @param {number} px @param {number} py */
+  _sign(form, px, py) {
+    const { pen } = this;
+    pen.save(); pen.translate(px, py); pen.beginPath(); FORMS[form](pen, 4);
+    pen.lineWidth = 1.4;
+    if (["plus", "cross"].includes(form)) pen.stroke(); else pen.fill();
+    pen.restore();
   }
 
   /** @param {Mark} mark @param {ArrayLike<number>[]} outputs */
@@ -285,14 +317,22 @@ export class Chart {
 
   /** What the curves are at a place of the first axis. @param {number} at @returns {{mark: Mark, value: number}[]} */
   valuesAt(at) {
-    const values = [];
+    const values = [], { low, high } = this.window.y, noise = 1e-9 * (high - low);
     for (const mark of this.picture.marks) {
       if (mark.kind !== "line" || mark.role === "limit" || mark.role === "guide") continue;
       const x = many(mark.x, this.outputs), y = many(mark.y, this.outputs);
       const value = x.length > 2 ? between(x, y, at) : NaN;
-      if (real(value)) values.push({ mark, value });
+      if (real(value)) values.push({ mark, value: Math.abs(value) < noise ? 0 : value });
     }
     return values;
+  }
+
+  /** What is to be seen, for those who do not see it: title, what is drawn, from where to where, and what it says. */
+  describe() {
+    const { axes } = this.picture, { x } = this.ends, near = (/** @type {number} */ v) => format(v, ".3g");
+    const names = this.heading.names.map(({ words }) => words), said = this.list.marks.map((/** @type {any} */ m) => m.words);
+    const across = axes.bare || axes.xticks ? [] : [`${axisName(axes.xlabel) || "x"} from ${near(x.low)} to ${near(x.high)}`];
+    return [this.heading.title, ...names, ...said.filter(Boolean), ...across].join("; ");
   }
 
   /** Whether a place of the canvas is inside the axes. @param {number} px @param {number} py */
@@ -439,7 +479,7 @@ const DRAW = {
   },
   text(chart, mark, outputs, tint) {
     const { pen } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
-    const [p, q] = [chart.x(x), chart.y(y)], at = mark.anchor.split(" "), size = mark.size * 1.1;
+    const [p, q] = [chart.x(x), chart.y(y)], at = mark.anchor.split(" "), size = mark.size * 1.1 * chart.em;
     if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
     const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
     const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
@@ -453,7 +493,7 @@ const DRAW = {
       if (mark.framed) { pen.lineWidth = 1; pen.strokeRect(left - 3, top - 1, wide + 6, tall + 2); }
       pen.globalAlpha = 1;
     }
-    pen.fillStyle = mark.framed ? chart.colour("ink") : tint;
+    pen.fillStyle = mark.framed ? chart.colour("ink") : READABLE[mark.role] ? chart.ink(mark.role) : tint;
     const first = q - (upright === "top" ? 0 : upright === "bottom" ? tall - size * 1.25 : (tall - size * 1.25) / 2);
     lines.forEach((line, k) => pen.fillText(line, p, first + k * size * 1.25));
     return { x: [x], y: [y], words };
