@@ -23,13 +23,14 @@ copysign=(a,b)=>b<0||Object.is(b,-0)?-M.abs(a):M.abs(a),
 argmax=(n,o,p,a)=>{let k=0;for(let j=1;j<n&&H[a+k]===H[a+k];j++){const x=H[a+j];if(x>H[a+k]||x!==x)k=j}H[o]=k},
 sorted=(n,o,p,a)=>H.slice(a,a+n).sort().forEach((x,j)=>{H[o+j*p]=x})"""
 """What the operations of the table need; ``H`` is the heap."""
-RUN = """H.set(Float64Array.from(constants,Number));
+RUN = """const at=(o,a)=>a<0?~a:o-a;
+H.set(Float64Array.from(constants,Number));
 return X=>{
 H.set(X,constants.length);
 for(let o=constants.length,k=0;k<loops.length;){
-const kind=kinds[loops[k]],n=loops[k+1],at=j=>{const a=loops[k+j];return a<0?~a:o-a};
+const kind=kinds[loops[k]],n=loops[k+1];
 o+=loops[k+2];
-F[kind[0]](n,o,kind[1],at(3),kind[2],at(4),kind[3],at(5),kind[4]);
+F[kind[0]](n,o,kind[1],at(o,loops[k+3]),kind[2],at(o,loops[k+4]),kind[3],at(o,loops[k+5]),kind[4]);
 o+=n;
 k+=1+kind.length}
 return outputs.map(([at,n])=>H.slice(at,at+n))}"""
