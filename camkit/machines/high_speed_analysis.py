@@ -18,7 +18,7 @@ from ..contact import line_contact
 from ..extrema import raised, with_tops
 from ..geometry import Body
 from ..motion import Kinematics
-from ..motion.resolution import STEPS, between
+from ..motion.resolution import STEPS, along, between
 from ..quantities import members
 from ..quantities.known import certain
 from ..quantities.types import Array, Value
@@ -126,22 +126,20 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
             cam, whole = members(cam, rows), {name: members(value, rows) for name, value in whole.items()}
         lead, before = at.shape[:-1], (x <= 0) & (x < 0).any(-1, keepdims=True)
         columns = np.reshape((np.expand_dims(at, -1) + np.array([-1, 0, 1])) % self.cam_angle.shape[-1], (*lead, -1))
+        angle, *motion = (
+            np.reshape(_picked(values, rows, columns), (*at.shape, 3)) for values in (self.cam_angle, *self.motion)
+        )
+        step = angle[..., 1:] - angle[..., :-1]
+        powers = between(Kinematics(*(m[..., :-1] for m in motion)), Kinematics(*(m[..., 1:] for m in motion)), step)
 
-        def flat(each: Array) -> Array:
-            return np.reshape(each, (*lead, -1))
+        def here(values: Array) -> Array:
+            return np.where(before, values[..., :1], values[..., 1:2])
 
-        first, second = [], []
-        for values in (self.cam_angle, *self.motion):
-            around = np.reshape(_picked(values, rows, columns), (*at.shape, 3))
-            left, here, right = (around[..., k : k + 1] for k in range(3))
-            first.append(flat(np.where(before, left, here)))
-            second.append(flat(np.where(before, here, right)))
-        (start, *first), (end, *second) = first, second
-        share = flat(x + before)
-        seen = replace(self, cam=cam, cam_angle=start + share * (end - start))
-        motion = between(Kinematics(*first), Kinematics(*second), end - start, share)
-        seen.__dict__.update(whole, motion=motion)
-        return np.reshape(curve(seen) + 0.0 * share, x.shape)
+        share, steps = x + before, here(step)
+        seen = replace(self, cam=cam, cam_angle=np.reshape(here(angle) + share * steps, (*lead, -1)))
+        found = (np.reshape(m, (*lead, -1)) for m in along([*here(powers)], steps, share))
+        seen.__dict__.update(whole, motion=Kinematics(*found))
+        return np.reshape(curve(seen) + np.zeros(seen.cam_angle.shape), x.shape)
 
     # ---------------------------------------------------------------- forces
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -94,6 +94,18 @@ def _inside(u: ArrayLike) -> Array:
     u = numbers(u, "the shares of the time")
     nearest = np.minimum(np.maximum(u, 0.0), 1.0)
     return np.where(np.abs(u - nearest) <= ROUNDING, nearest, np.nan)
+
+
+def polynomial(factors: Sequence[Value], x: Value) -> Kinematics:
+    """A polynomial by its factors, that of the lowest power first, and its derivatives at ``x`` (Horner's scheme).
+
+    >>> polynomial([1.0, 0.0, 0.0, 2.0], 2.0)
+    Kinematics(s=17.0, v=24.0, a=24.0, j=12.0)
+    """
+    s, v, a, j = (0.0 * x,) * 4
+    for factor in factors[::-1]:
+        s, v, a, j = s * x + factor, v * x + s, a * x + v, j * x + a
+    return Kinematics(s, v, 2 * a, 6 * j)  # type: ignore[arg-type]
 
 
 def mirrored(u: Value, first_half: Callable[[Array], Kinematics]) -> Kinematics:

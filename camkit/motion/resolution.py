@@ -12,7 +12,7 @@ import numpy as np
 from ..geometry import end_to_end
 from ..quantities.known import known
 from ..quantities.types import Array, Value
-from .law import Kinematics
+from .law import Kinematics, polynomial
 
 if TYPE_CHECKING:
     from .program import MotionProgram
@@ -160,29 +160,25 @@ _AT_END = np.array([[perm(i, k) for i in range(4)] for k in range(4)])
 _HIGHER = np.array([[35, -15, 2.5, -1 / 6], [-84, 39, -7, 0.5], [70, -34, 6.5, -0.5], [-20, 10, -2, 1 / 6]])
 """Of a polynomial's coefficients: ``x^0 .. x^3`` from ``s, v, a, j`` at 0, what these give at 1, and ``x^4 .. x^7``
 from what is lacking there."""
-_TERM = np.minimum(np.add.outer(range(8), range(4)), 7)
-_FACTOR = np.array([[perm(i + k, k) * (i + k < 8) for k in range(4)] for i in range(8)])
-"""Which coefficient stands at ``x^i`` in its derivative of order ``k``, and times what."""
 
 
-def between(first: Kinematics, second: Kinematics, step: Array, x: Value) -> Kinematics:
-    """``s, v, a, j`` at a share ``x`` of a ``step`` between two angles where they are known, of one smooth piece.
+def between(first: Kinematics, second: Kinematics, step: Array) -> Any:
+    """The polynomial of degree 7 in a share of a ``step`` that has ``s, v, a, j`` at both ends, of one smooth piece.
 
-    Of the polynomial of degree 7 that has them at both.
+    Its factors, that of the lowest power first (see `along`).
 
     >>> from camkit.motion import Cycloidal
     >>> law = Cycloidal()
-    >>> float(abs(between(law(0.25), law(0.26), 0.01, 0.3).a - law(0.253).a)) < 1e-9
+    >>> found = along(between(law(0.25), law(0.26), 0.01), 0.01, 0.3)
+    >>> float(abs(found.a - law(0.253).a)) < 1e-9
     True
     """
-    low_of, at_end, higher, factor = (
-        table.reshape(table.shape + (1,) * np.ndim(step)) for table in (_LOW, _AT_END, _HIGHER, _FACTOR)
-    )
+    low_of, at_end, higher = (table.reshape(table.shape + (1,) * np.ndim(step)) for table in (_LOW, _AT_END, _HIGHER))
     powers = np.stack([np.ones(np.shape(step)), step, step**2, step**3])
     low, end = np.stack(first) * powers * low_of, np.stack(second) * powers
-    lack = end - (low * at_end).sum(1)
-    terms = np.concatenate([low, (lack * higher).sum(1)])[_TERM] * factor
-    values = terms[7]
-    for term in terms[6::-1]:
-        values = values * x + term
-    return Kinematics(*(values / powers))
+    return np.concatenate([low, ((end - (low * at_end).sum(1)) * higher).sum(1)])
+
+
+def along(powers: Sequence[Value], step: Array, x: Value) -> Kinematics:
+    """``s, v, a, j`` at a share ``x`` of a ``step`` of a polynomial in that share."""
+    return Kinematics(*(value / step**k for k, value in enumerate(polynomial(powers, x))))

@@ -17,7 +17,7 @@ from numpy.polynomial.legendre import legder, legval
 from ...quantities import Quantity, certain, floats, known, numbered, row
 from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
-from ..law import Kinematics, Law, Peaks, law_peaks
+from ..law import Kinematics, Law, Peaks, law_peaks, polynomial
 from .polynomial import Poly345
 
 LETTERS, NAMES = ("s", "v", "a", "j"), ("position", "velocity", "acceleration", "jerk")
@@ -119,10 +119,7 @@ def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float],
     for k in () if known(u) else range(1, len(origins)):
         pairs, here = zip(powers[:, k], factors, strict=True), u >= borders[k - 1]
         x, factors = np.where(here, u - origins[k], x), [np.where(here, *pair) for pair in pairs]
-    s, v, a, j = (0.0 * x,) * 4
-    for c in factors[::-1]:
-        s, v, a, j = s * x + c, v * x + s, a * x + v, j * x + a
-    return Kinematics(s, v, 2 * a, 6 * j)
+    return polynomial(factors, x)
 
 
 def exact(powers: Array, conditions: Mapping[int, Condition]) -> Array:
