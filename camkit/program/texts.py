@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from secrets import token_hex
-from typing import Any
 
 from ..quantities.known import text_of
+from ..quantities.types import Value
 
 Part = tuple[int, "str | Template"]
 """The result of a call by its number: to be written by a format, or a text that is there if it holds."""
@@ -33,7 +33,7 @@ class Texts:
         return tuple(part for part in parts if part)
 
 
-def filled(template: Template, results: Mapping[int, Any]) -> str:
+def filled(template: Template, results: Mapping[int, Value]) -> str:
     """The text, with the results of calls.
 
     >>> filled(("it is ", (3, ".2f"), " mm", (5, (" wide",))), {3: 1.234, 5: False})
@@ -42,7 +42,7 @@ def filled(template: Template, results: Mapping[int, Any]) -> str:
     return "".join(part if isinstance(part, str) else _said(*part, results) for part in template)
 
 
-def _said(number: int, how: str | Template, results: Mapping[int, Any]) -> str:
+def _said(number: int, how: str | Template, results: Mapping[int, Value]) -> str:
     if isinstance(how, str):
         return text_of(results[number], how)
     return filled(how, results) if results[number] else ""

@@ -18,7 +18,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .known import certain, fails, floats, known, text_of, unless
+from .known import certain, fails, floats, known, unless
 from .types import Value
 
 LONGEST = 60
@@ -137,7 +137,7 @@ ARRAYS = {
 """What an array holds, by the letter of its type; numbers need no word."""
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """``value`` as a sentence can hold it.
 
     >>> shown("22"), shown([]), shown(np.ones(3)), shown(dict.fromkeys(range(99)))
@@ -147,8 +147,8 @@ def shown(value: Any) -> str:
     """
     if isinstance(value, str) and len(value) + 2 > LONGEST:
         value = f"{value[:27]}...{value[-27:]}"
-    if not (known(value) or np.ndim(value)):
-        return text_of(value, ".6g")
+    if not known(value) and getattr(value, "shape", None) == ():
+        return format(value, ".6g")
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, np.ndarray) and not plain(value):
