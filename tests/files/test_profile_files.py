@@ -2,6 +2,7 @@
 
 import csv
 import io
+from functools import cache
 
 import ezdxf
 import numpy as np
@@ -104,17 +105,24 @@ UNDERCUT = {
 every_undercut = pytest.mark.parametrize("name", UNDERCUT)
 
 
+@cache
 def whole(cam, n):
     analysis = cam.analyse(n)
     return getattr(analysis, "whole", analysis)
 
 
-def depth_in_tool(cam, points, n=20_001):
+@cache
+def places(cam):
+    """Where the roller's centre is at many cam angles."""
+    return cKDTree(whole(cam, 20_001).pitch.T)
+
+
+def depth_in_tool(cam, points):
     """How deep points lie in the roller or the face at any of many cam angles, m; by distances alone."""
-    fine = whole(cam, n)
+    fine = whole(cam, 20_001)
     normals = getattr(fine, "face_normal", None)
     if normals is None:
-        return cam.roller_radius - cKDTree(fine.pitch.T).query(points.T)[0]
+        return cam.roller_radius - places(cam).query(points.T)[0]
     return np.array([(normals.T @ p - (normals * fine.profile).sum(0)).max() for p in points.T])
 
 
@@ -135,14 +143,15 @@ def crossings(pieces):
     """How often polylines cross themselves or each other, by the sides on which ends of segments lie."""
     lines = [np.column_stack([p.points, p.points[:, :1]]) if p.closed else p.points for p in pieces]
     a, b = (np.hstack([line[:, i : i - 1 or None] for line in lines]) for i in (0, 1))
+    longest = np.hypot(*(b - a)).max()  # what crosses has its middles no farther apart
+    i, j = cKDTree((a + b).T / 2).query_pairs(1.000001 * longest, output_type="ndarray").T
 
-    def side(r):
-        along = b - a
-        return along[0][:, None] * (r[1] - a[1][:, None]) - along[1][:, None] * (r[0] - a[0][:, None])
+    def divides(i, j):
+        start, along = a[:, i], (b - a)[:, i]
+        first, second = (along[0] * (r[1, j] - start[1]) - along[1] * (r[0, j] - start[0]) for r in (a, b))
+        return first * second < 0
 
-    divided = side(a) * side(b) < 0
-    divided &= divided.T
-    return int(divided.sum()) // 2
+    return int((divides(i, j) & divides(j, i)).sum())
 
 
 @pytest.mark.slow
