@@ -1,5 +1,6 @@
 """Every number of every machine: as a column of two and of three designs it gives what each design has by itself."""
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -26,6 +27,11 @@ def results(design):
     return found
 
 
+@cache
+def of_itself(design):
+    return results(design)
+
+
 def steps(design, path):
     """Three values of a quantity, the first that of the design; on the side on which all can be built."""
     declared, value = quantities_of(design)[path], float(value_of(design, path))
@@ -35,7 +41,8 @@ def steps(design, path):
 
 def check(design, columns):
     """Columns of two and of three against each design alone, to 1e-12 of the largest value."""
-    alone = [results(with_quantities(design, {p: float(v[i]) for p, v in columns.items()})) for i in range(3)]
+    others = [with_quantities(design, {path: float(v[i]) for path, v in columns.items()}) for i in (1, 2)]
+    alone = [of_itself(design), *map(results, others)]
     for count in (2, 3):
         many = results(with_quantities(design, {path: values[:count, None] for path, values in columns.items()}))
         for name, values in many.items():

@@ -60,29 +60,24 @@ def said(name, value):
     return {} if value is None or isinstance(value, bool) else {name: value}
 
 
-def shown(view, n):
-    """The numbers and texts of a view's marks and axes, as a function of a design and a position."""
-
-    def of(design, **position):
-        picture = view(design.analyse(n), **position)
-        parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
-        values = (said(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
-        return {key: value for each in values for key, value in each.items()}
-
-    return of
+def of_picture(picture):
+    """The numbers and texts of a picture's marks and axes."""
+    parts = [("axes", picture.axes), *((mark.key, mark) for mark in picture.marks)]
+    values = (said(f"{key} {f.name}", getattr(part, f.name)) for key, part in parts for f in fields(part))
+    return {key: value for each in values for key, value in each.items()}
 
 
 def everything(design, n):
     """A function that gives the measures of a design, and the numbers and texts of its default views; its positions."""
     views = [view for view in default_views(design.analyse(n)) if view.__name__ not in {view for _, view in NOT_YET}]
-    pictures = {view.__name__: (shown(view, n), positions_of(view)) for view in views}
 
     def of(design, **position):
-        found = {measure.name: measure.of(design.analyse(n), 1) for measure in measures_of(design)}
-        for name, (picture, asked) in pictures.items():
-            values = picture(design, **{key: position[key] for key in asked if key in position})
-            found |= {f"{name}: {key}": value for key, value in values.items()}
+        analysis = design.analyse(n)
+        found = {measure.name: measure.of(analysis, 1) for measure in measures_of(design)}
+        for view in views:
+            picture = view(analysis, **{key: position[key] for key in positions_of(view) if key in position})
+            found |= {f"{view.__name__}: {key}": value for key, value in of_picture(picture).items()}
         return found
 
-    asked = {key for _, keys in pictures.values() for key in keys}
+    asked = {key for view in views for key in positions_of(view)}
     return of, {key: value for key, value in POSITIONS.items() if key in asked}

@@ -21,9 +21,8 @@ from camkit.machines import (
 )
 from camkit.program import CannotRecord, record
 from camkit.quantities import measures_of, with_quantities
-from camkit.render.picture import positions_of
 from camkit.views import default_views
-from machine_cases import NOT_YET, POSITIONS, shown
+from machine_cases import NOT_YET, everything, of_picture
 from program_cases import designs_beside
 
 ROWS, BLOCKS = 20, 10
@@ -89,10 +88,10 @@ def test_a_table_of_measures_replays_to_the_last_bit(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "view"), [pair for pair in VIEWS if pair not in NOT_YET])
-def test_a_view_replays(name, view):
-    design, function = DESIGNS[name], shown(VIEWS[name, view], ANGLES)
-    position = {k: v for k, v in POSITIONS.items() if k in positions_of(VIEWS[name, view])}
+@pytest.mark.parametrize("name", DESIGNS)
+def test_all_views_replay(name):
+    design = DESIGNS[name]
+    function, position = everything(design, ANGLES)
     program, seen = record(function, design, position), 0
     for seed in range(60):
         if seen == 6:
@@ -117,5 +116,8 @@ def test_a_view_replays(name, view):
 
 @pytest.mark.parametrize(("name", "view"), NOT_YET)
 def test_a_view_that_cannot_be_recorded_is_refused_where_it_asks(name, view):
+    def shown(design):
+        return of_picture(VIEWS[name, view](design.analyse(ANGLES)))
+
     with pytest.raises(CannotRecord, match=r"^camkit/\w+/\w+.py, line \d+: "):
-        record(shown(VIEWS[name, view], ANGLES), DESIGNS[name])
+        record(shown, DESIGNS[name])
