@@ -23,8 +23,8 @@ def write(server: LabServer, name: str, *cells: str) -> None:
     nbformat.write(notebook, server.root / name)
 
 
-def test_a_slider_moves_the_kernel_and_the_page(page: Page, server: LabServer) -> None:
-    write(server, "slider.ipynb", SLIDER, "w.VBox([slider, label])")
+def test_a_slider_moves_the_kernel_of_this_python_and_the_page(page: Page, server: LabServer) -> None:
+    write(server, "slider.ipynb", SLIDER, "w.VBox([slider, label])", "import sys, camkit")
     open_notebook(page, "slider.ipynb")
     run_all(page)
     output = cell_output(page, 1)
@@ -35,12 +35,6 @@ def test_a_slider_moves_the_kernel_and_the_page(page: Page, server: LabServer) -
     expect(output).to_contain_text("now 5.5")
     assert kernel_value(page, "slider.value") == 5.5
     assert kernel_value(page, "[label.value, __import__('numpy').arange(3)]") == ["now 5.5", [0, 1, 2]]
-
-
-def test_the_kernel_is_this_python_and_has_camkit(page: Page, server: LabServer) -> None:
-    write(server, "python.ipynb", "import sys, camkit")
-    open_notebook(page, "python.ipynb")
-    run_all(page)
     assert kernel_value(page, "sys.prefix") == sys.prefix
     assert Path(kernel_value(page, "list(camkit.__path__)")[0]) == Path(__file__).parents[2] / "camkit"
 
