@@ -6,7 +6,7 @@ from math import inf, nan
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import camkit.render
@@ -22,7 +22,7 @@ OPEN = """([source, units]) => import(URL.createObjectURL(new Blob([source], {ty
     .then(numbers => Object.assign(window, numbers, {read: (text, unit) => numbers.parse(text, unit, units)}))"""
 CALL = "([name, calls]) => calls.map(given => window[name](...given))"
 
-batches = settings(max_examples=5, deadline=None)  # each of some hundred
+batches = settings(max_examples=5, deadline=None, phases=set(Phase) - {Phase.shrink})  # each of some hundred
 
 
 @pytest.fixture(scope="module")

@@ -668,11 +668,16 @@ def json_kind(value):
 
 @pytest.mark.parametrize("name", GOOD)
 def test_a_wrong_kind_in_any_field_is_refused_or_changes_nothing_that_breaks(name):
-    """Every entry by every rubbish: one sentence; what is read all the same can be analysed or says why not."""
+    """Every entry by every rubbish: one sentence; what is read all the same can be analysed or says why not.
+
+    What stands inside a session's design is left as it is: it is read and analysed as that of a file of its own.
+    """
     content = json.loads(GOOD[name])
     del content["digest"]
     tried = refused = 0
     for *way, last in places(content):
+        if way[:2] == ["session", "design"]:
+            continue
         inner = content
         for step in way:
             inner = inner[step]
