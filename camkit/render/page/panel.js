@@ -1,7 +1,7 @@
 // A design under sliders: the page computes and draws it.  `engine.run(values)` gives the outputs of the program.
 import { Chart, found } from "./picture.js";
 import { Row, folded, make } from "./controls.js";
-import { fill, format, pretty } from "./numbers.js";
+import { fill, format, letters, pretty } from "./numbers.js";
 
 const DEGREE = Math.PI / 180, REMEMBERED = 50, TURN = 6; // seconds for a whole turn
 const NARROW = 60; // letters: below it everything stands in one column
@@ -319,14 +319,17 @@ export class Panel {
     const missed = limited.filter((/** @type {any} */ r) => !r.kept).map((/** @type {any} */ r) => r.m.name);
     const verdict = [trouble, missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? "every limit is kept" : ""].filter(Boolean).join("; ");
     if (settled && this.said.textContent !== verdict) this.said.textContent = verdict;
-    this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
-    this.chips.replaceChildren(
-      ...limited.map(({ m, now, kept }) => make("span", { class: `camkit-chip ${kept ? "camkit-ok" : "camkit-bad"}` }, `${m.name} ${shown(m, now)} `, make("small", {}, `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit)}`))),
-      ...others.map(({ m, now }) => make("span", { class: "camkit-chip" }, `${m.name} `, make("b", {}, told(m, now)))));
+    const chips = [
+      ...limited.map((/** @type {any} */ { m, now, kept }) => [kept ? "camkit-ok" : "camkit-bad", `${letters(m.name)} ${shown(m, now)} `, "small", `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit)}`]),
+      ...others.map((/** @type {any} */ { m, now }) => ["", `${letters(m.name)} `, "b", told(m, now)])];
+    if (this.chipped !== (this.chipped = JSON.stringify([trouble, chips]))) { // else the page would be laid out anew in every frame
+      this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
+      this.chips.replaceChildren(...chips.map(([kind, words, tag, more]) => make("span", { class: `camkit-chip ${kind}` }, words, make(tag, {}, more))));
+    }
     if (this.table.hidden) return;
     const head = make("tr", {}, ...["measure", "now", this.ghost ? "pinned" : "start", "change"].map((words) => make("th", { scope: "col" }, words)));
     this.table.replaceChildren(make("table", {}, head, ...rows.filter((/** @type {any} */ r) => Number.isFinite(r.now)).map(({ m, now, change, kept }) =>
-      make("tr", { class: kept ? "" : "camkit-bad" }, make("td", {}, m.name), make("td", {}, told(m, now)), make("td", {}, told(m, value(m, this.ghost?.outputs ?? first))), make("td", {}, Number.isFinite(change) ? `${format(change, "+.1f")} %` : "")))));
+      make("tr", { class: kept ? "" : "camkit-bad" }, make("td", {}, letters(m.name)), make("td", {}, told(m, now)), make("td", {}, told(m, value(m, this.ghost?.outputs ?? first))), make("td", {}, Number.isFinite(change) ? `${format(change, "+.1f")} %` : "")))));
   }
 
   _play() {

@@ -82,6 +82,7 @@ export class Chart {
     const marks = [...this.picture.marks].map((mark) => ({ mark, height: one(mark.height, outputs) }));
     marks.sort((a, b) => a.height - b.height);
     this.window = this._window(outputs, Boolean(how.settled));
+    this.now = how.cursor === undefined ? [] : this.valuesAt(how.cursor);
     this._place(width, height);
     this._frame();
     this.list = { name: this.picture.name, window: { ...this.window }, marks: [] };
@@ -206,7 +207,7 @@ export class Chart {
   /** Each labelled mark that is there, once: its name, its value at the position that is shown, its colour, its form.
    * @returns {{words: string, tint: string, form?: string}[]} */
   _legend() {
-    const { cursor } = this.how, values = new Map(cursor === undefined ? [] : this.valuesAt(cursor).map(({ mark, value }) => [mark, value]));
+    const values = new Map(this.now.map(({ mark, value }) => [mark, value]));
     const labels = new Map();
     for (const mark of this.picture.marks) {
       const name = axisName(this.how.words(mark.label)), valued = values.has(mark);
@@ -309,7 +310,7 @@ export class Chart {
     pen.save(); pen.globalAlpha = 0.8; pen.lineWidth = 1.2; pen.setLineDash([]);
     stroke(pen, this.colour("profile"), [[this.x(cursor), box.top], [this.x(cursor), box.bottom]]);
     pen.restore();
-    for (const { mark, value } of this.valuesAt(cursor)) {
+    for (const { mark, value } of this.now) {
       pen.beginPath(); pen.fillStyle = this.colour(mark.role, one(mark.index, this.outputs));
       pen.arc(this.x(cursor), this.y(value), 3, 0, 7); pen.fill();
     }
