@@ -14,10 +14,14 @@ LAB :=
 AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 
 # Two processes, each with a file of tests at a time: what a file's tests share is made once.
-PYTEST := $(BIN)/python -m pytest -n 2 --dist loadscope
+NOTEBOOKS := $(BIN)/python -m pytest -n 2 --dist loadscope
+# nbval, which takes seconds to load, is for the notebooks.
+PYTEST := $(NOTEBOOKS) -p no:nbval
 
 # Coverage is asked of the maths alone, and not of its long searches and tables of cases: watching makes these tests slower by half.
-UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py
+UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py \
+    tests/files/test_files.py tests/files/test_profile_files.py tests/machines/test_populations.py tests/test_public_names.py \
+    tests/program/test_machines.py tests/program/test_sentences.py tests/program/test_studies_and_views.py
 
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
@@ -48,11 +52,11 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(PYTEST) -m "not browser" $(addprefix --ignore=,$(UNWATCHED)) --cov --cov-report=term-missing:skip-covered
-	@echo "== tests of panels, pictures and long searches (pytest)"
+	$(PYTEST) $(addprefix --ignore=,$(UNWATCHED) tests/browser) --cov --cov-report=term-missing:skip-covered
+	@echo "== tests of panels, pictures, long searches and tables of cases (pytest)"
 	$(PYTEST) $(UNWATCHED)
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
-	$(PYTEST) $(NBVAL) notebooks
+	$(NOTEBOOKS) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
 	$(PYTEST) -m browser tests/browser
 
