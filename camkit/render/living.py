@@ -336,8 +336,8 @@ def _stroke(style: Mapping[str, object]) -> Json:
 def in_html(content: Json) -> str:
     """JSON that stands in an element of a page: nothing in it ends the element or begins a comment.
 
-    >>> in_html({"name": "</script><!--"})
-    '{"name":"\\u003c/script>\\u003c!--"}'
+    >>> print(in_html({"name": "</script><!--"}))
+    {"name":"\\u003c/script>\\u003c!--"}
     """
     return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
