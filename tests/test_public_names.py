@@ -68,6 +68,9 @@ INSIDE = {
     "draw",
     "positions_of",
     "on_grid",
+    "turn_range",
+    "given_to",
+    "saved",
 }
 """How a picture is put together, and a search."""
 RUBBISH = {

@@ -7,13 +7,13 @@ lacks what a later camkit has added, is read with a remark (`read_json`).
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..quantities import Design, Measure
+from ..quantities.applied import a_path
 from ..quantities.kinds import kind_words, refuse_arguments, shown
 from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
@@ -35,20 +35,9 @@ class Read:
 
 def write(thing: object, path: str | Path) -> None:
     """Write a design, a front or a `Session` to a JSON file; one that is there stays until the new one is whole."""
-    text, path = to_json(thing), _path(path)
+    text, path = to_json(thing), a_path(path)
     remove_parts(path)
     write_whole(path, text.encode())
-
-
-def _path(path: str | os.PathLike[str]) -> Path:
-    """The path of a file that the system can name."""
-    try:
-        name = os.fspath(path)
-        if Path(name).name and b"\0" not in os.fsencode(name):
-            return Path(name)
-    except (TypeError, UnicodeError):
-        pass
-    raise ValueError(f"the path of the file is {shown(path)}; it must be a text such as 'design.json', or a Path")
 
 
 def read(
@@ -61,7 +50,7 @@ def read(
 
     ``kind`` and ``measures`` are those of `read_json`.
     """
-    path = _path(path)
+    path = a_path(path)
     if not callable(tell):
         raise ValueError(f"the argument tell is {shown(tell)}; it must be a function")
     with path.open("rb") as file:

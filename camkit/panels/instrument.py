@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import anywidget
@@ -27,9 +26,10 @@ from ..quantities import (
     value_of,
     words,
 )
-from ..quantities.applied import raised
+from ..quantities.applied import a_path, raised
 from ..quantities.kinds import refuse_arguments
-from ..render.living import PAGE, Living, living, script
+from ..render.living import Living, living
+from ..render.page_parts import PAGE, script
 from ..render.picture import Still, below, picture, positions_of, saved, small_png, strip, turn_range
 from ..study.study import refuse_limits
 from ..units import in_unit
@@ -255,7 +255,7 @@ class Instrument(anywidget.AnyWidget):
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""
-        Path(path).write_text(self._living.html(), encoding="utf-8")
+        a_path(path).write_text(self._living.html(), encoding="utf-8")
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

@@ -1,9 +1,11 @@
-"""Errors of Python in what a user gave to be asked or computed, said in a sentence."""
+"""Errors of Python in what a user gave to be asked, computed or opened, said in a sentence."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from .kinds import shown
 
@@ -29,3 +31,14 @@ def raised(error: Exception) -> str:
     ("KeyError: 'k'", 'MemoryError')
     """
     return f"{type(error).__name__}: {error}".removesuffix(": ")
+
+
+def a_path(path: str | os.PathLike[str]) -> Path:
+    """The path of a file that the system can name."""
+    try:
+        name = os.fspath(path)
+        if Path(name).name and b"\0" not in os.fsencode(name):
+            return Path(name)
+    except (TypeError, UnicodeError):
+        pass
+    raise ValueError(f"the path of the file is {shown(path)}; it must be a text such as 'design.json', or a Path")

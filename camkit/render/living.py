@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import base64
 import gzip
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..program import CannotRecord, Program, record, unrecorded
-from ..program.page import MACHINE, numbers
+from ..program.page import numbers
 from ..program.texts import Template
+from ..program.texts import numbers as numbers_in
 from ..quantities import (
     Analysable,
     Measure,
@@ -34,27 +33,23 @@ from ..quantities import (
     value_of,
     words,
 )
+from ..quantities.applied import a_path, applied
+from ..quantities.kinds import refuse_arguments
 from ..quantities.known import known
 from ..study.study import refuse_limits
 from ..units import deg, factor, known_units
 from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
 from .contours import outlined
-from .draw import ROLES, STROKES, colour
+from .page_parts import PAGE, in_html, look, script
 from .picture import VIEWPOINT, given_to, positions_of, turn_range
 
-PAGE = Path(__file__).with_name("page")
-MODULES = ("numbers", "picture", "controls", "panel")
-"""What every page is made of, each on those before it."""
 SIZE = np.array([400.0, 300.0])
 """For which a picture that does not compute chooses its contours' names, pixels."""
-DASHES: Mapping[str, Sequence[float]] = {"-": (), "--": (3.7, 1.6), ":": (1.0, 1.65), "-.": (6.4, 1.6, 1.0, 1.6)}
-"""Of a line, in its widths."""
-
 WORDS = ("key", "role", "stroke", "mark", "fill", "anchor", "along", "log")
 """Of marks and axes: words that say how, and are never shown."""
 
-Json = Any
+Json = object
 """What JSON can hold."""
 
 
@@ -89,7 +84,7 @@ class Outputs:
     def _mark(self, mark: Mark) -> Json:
         return {"kind": type(mark).__name__.lower(), **self._parts(mark)}
 
-    def _parts(self, thing: Any) -> Json:
+    def _parts(self, thing: Any) -> dict[str, Json]:
         parts = ((f.name, getattr(thing, f.name)) for f in fields(thing))
         return {name: value if name in WORDS and isinstance(value, str) else self.at(value) for name, value in parts}
 
@@ -117,7 +112,8 @@ class Living:
     def show_still(self, design: Analysable) -> dict[str, Json]:
         """The pictures that do not compute, by their number, and the arrays that they name."""
         outputs, analysis = Outputs(), design.analyse()
-        still = {k: p["still"] for k, p in enumerate(self.structure["pictures"]) if p["still"]}
+        pictures: Any = self.structure["pictures"]
+        still = {k: picture["still"] for k, picture in enumerate(pictures) if picture["still"]}
         shown = {str(k): self._picture(self.views[k], analysis, self.first, outputs, why) for k, why in still.items()}
         return _plainly({"pictures": shown}, outputs)
 
@@ -144,7 +140,8 @@ class Living:
         self, view: View, analysis: object, position: Mapping[str, float], outputs: Outputs, why: str = ""
     ) -> Json:
         asked = {"limits": {measure: value for measure, (value, _) in self.limits.items()}, **position}
-        return outputs.picture(view(analysis, **given_to(view, asked)), _name(view), why)
+        with applied(f"the view {_name(view).replace('_', ' ')}", analysis):
+            return outputs.picture(view(analysis, **given_to(view, asked)), _name(view), why)
 
     @cached_property
     def _recorded(self) -> tuple[dict[str, Json], Program | None, str]:
@@ -160,7 +157,7 @@ class Living:
             program = record(show, self.design, self.first)
         except CannotRecord as error:
             return self.show(self.design, **self.first) | {"arrays": [], "refusals": []}, None, str(error)
-        return _worded(shown, _templates(program)) | {"refusals": _refusals(program)}, program, ""
+        return _with_texts(shown, _templates(program)) | {"refusals": _refusals(program)}, program, ""
 
     @cached_property
     def structure(self) -> dict[str, Json]:
@@ -210,13 +207,18 @@ def living(
     return Living(design, views, measures, limits, _first_positions(analysis, views) | dict(position or {}), free)
 
 
-def _plainly(shown: Json, outputs: Outputs) -> dict[str, Json]:
+def _plainly(shown: dict[str, Json], outputs: Outputs) -> dict[str, Json]:
     """What is shown, with its texts, and beside it the arrays that it names."""
-    return _worded(shown, outputs.texts) | {"arrays": [np.ravel(value) for value in outputs.found.values()]}
+    arrays = [np.ravel(value) for value in outputs.found.values()]
+    return _with_texts(shown, outputs.texts) | {"arrays": arrays}
+
+
+def _with_texts(shown: dict[str, Json], texts: Mapping[str, Json]) -> dict[str, Json]:
+    """``shown`` with texts in the place of their names."""
+    return {name: _worded(part, texts) for name, part in shown.items()}
 
 
 def _worded(shown: Json, texts: Mapping[str, Json]) -> Json:
-    """``shown`` with texts in the place of their names."""
     if isinstance(shown, dict):
         return texts[shown["text"]] if "text" in shown else {name: _worded(part, texts) for name, part in shown.items()}
     return [_worded(part, texts) for part in shown] if isinstance(shown, list) else shown
@@ -225,8 +227,10 @@ def _worded(shown: Json, texts: Mapping[str, Json]) -> Json:
 def _templates(program: Program) -> dict[str, Json]:
     """Texts as the page fills them: plain ones as they are, others in pieces."""
     places = _places(program)
-    pieces = {name: _pieces(template, places) for name, template in program.texts.items()}
-    return {name: "".join(p) if all(isinstance(piece, str) for piece in p) else p for name, p in pieces.items()}
+    return {
+        name: _pieces(template, places) if [*numbers_in(template)] else "".join(map(str, template))
+        for name, template in program.texts.items()
+    }
 
 
 def _refusals(program: Program) -> Json:
@@ -281,7 +285,12 @@ def _name(view: View) -> str:
 
 
 def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, outputs: Outputs) -> Json:
-    row = {"name": measure.name, "unit": measure.unit, "factor": factor(measure.unit), **outputs.at({"value": value})}
+    row: dict[str, Json] = {
+        "name": measure.name,
+        "unit": measure.unit,
+        "factor": factor(measure.unit),
+        "value": outputs.at(value),
+    }
     return row | ({"limit": limit[0], "sense": limit[1]} if limit else {})
 
 
@@ -304,7 +313,7 @@ def _structure(design: Analysable, free: Sequence[str] | None) -> dict[str, Json
     }
 
 
-def _quantity(path: str, declared: Quantity, value: float) -> Json:
+def _quantity(path: str, declared: Quantity, value: float) -> dict[str, Json]:
     own = ("symbol", "unit", "low", "high", "meaning", "factor")
     group, _, _ = path.rpartition(".")
     size = "size" if declared.unit in ("mm", "m", "um", "deg", "") else "power, speed, material"
@@ -314,55 +323,6 @@ def _quantity(path: str, declared: Quantity, value: float) -> Json:
         "value": value,
         **{name: getattr(declared, name) for name in own},
     }
-
-
-def look() -> Json:
-    """How roles look in each theme, and the strokes and dashes of lines, widths in points."""
-    return {
-        "roles": {
-            name: {"light": role.light, "dark": role.dark, "width": role.width, "dashes": DASHES[str(role.dashes)]}
-            for name, role in ROLES.items()
-        },
-        "series": {theme: [colour("series", i, theme) for i in range(20)] for theme in ("light", "dark")},
-        "strokes": {name: _stroke(style) for name, style in STROKES.items()},
-    }
-
-
-def _stroke(style: Mapping[str, object]) -> Json:
-    width, dashes, cap = (style.get(name) for name in ("linewidth", "linestyle", "solid_capstyle"))
-    return {"width": width, "dashes": dashes and DASHES[str(dashes)], "cap": cap}
-
-
-def in_html(content: Json) -> str:
-    """JSON that stands in an element of a page: nothing in it ends the element or begins a comment.
-
-    >>> print(in_html({"name": "</script><!--"}))
-    {"name":"\\u003c/script>\\u003c!--"}
-    """
-    return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-
-
-def script(entry: str) -> str:
-    """The page's modules in one file, each in a scope of its own, those it needs before it; ``entry`` comes last.
-
-    What runs programs is made of the table of operations, and the same for all.
-    """
-    machine = f"const machine = {MACHINE};"
-    return "\n".join([machine, *(_scoped(name) for name in MODULES), _linked(entry)])
-
-
-def _scoped(name: str) -> str:
-    """A module as a constant that holds what it exports."""
-    text = _linked(f"{name}.js")
-    exported = re.findall(r"^export (?:async )?(?:function|class|const) (\w+)", text, re.MULTILINE)
-    body = re.sub(r"^export ", "", text, flags=re.MULTILINE)
-    return f"const {name} = (() => {{\n{body}return {{ {', '.join(exported)} }};\n}})();"
-
-
-def _linked(file: str) -> str:
-    """The text of a module, what it imports taken from the constants before it."""
-    text = (PAGE / file).read_text(encoding="utf-8")
-    return re.sub(r'^import (\{.*\}) from "\./(\w+)\.js";', r"const \1 = \2;", text, flags=re.MULTILINE)
 
 
 def to_html(
@@ -385,4 +345,5 @@ def to_html(
     ...     (Path(folder) / "cam.html").stat().st_size < 500_000
     True
     """
-    Path(path).write_text(living(design, views, measures, at_most, at_least).html(), encoding="utf-8")
+    refuse_arguments(to_html, locals())
+    a_path(path).write_text(living(design, views, measures, at_most, at_least).html(), encoding="utf-8")
