@@ -339,6 +339,7 @@ def to_html(
     The file asks for nothing from outside.  `CannotRecord` where the analysis cannot be recorded.
 
     >>> import tempfile
+    >>> from pathlib import Path
     >>> from camkit import TranslatingRollerCam
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     to_html(TranslatingRollerCam(), path=Path(folder) / "cam.html")
