@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .operations import ALONG, EACH, FOLDS, MOVES
-from .program import Program
+from .program import Program, numbers_in
 from .record import Recorded, mapped
 from .written import picked
 
@@ -29,6 +29,8 @@ class Loop(NamedTuple):
     operation: str
     times: int
     spans: tuple[Span, ...]
+    moving: bool
+    """Whether it depends on an input that moves."""
 
 
 class Place:
@@ -50,15 +52,22 @@ class Place:
 
 
 class Loops:
-    """The loops of a program in order, and its constants, which stand on the heap first; its inputs come next."""
+    """The loops of a program in order, and its constants, which stand on the heap first; its inputs come next.
 
-    def __init__(self, program: Program) -> None:
+    So many of the inputs are steady; what depends on none that moves need not be done again while they stay.
+    """
+
+    def __init__(self, program: Program, steady: int) -> None:
         self.loops = list[Loop]()
         self._size, self._constants, self._known = 0, list[np.ndarray](), dict[Any, Place]()
         self._at = {k: self._new(program.calls[k].shape) for k in range(len(program.inputs))}
         self.inputs = self._size
+        moving = set(range(steady, len(program.inputs)))
         for k in program.needed:
+            self._moving = not moving.isdisjoint(numbers_in(program.calls[k].arguments))
+            moving |= {k} if self._moving else set()
             self._at[k] = self._lowered(program.calls[k])
+        self._moving = True
         outputs = [self._in_a_row(np.ravel(self._place(out).addresses)) for out in program.outputs.values()]
         self.constants = np.concatenate([*self._constants[::-1], []])
         self.size = len(self.constants) + self._size
@@ -109,7 +118,7 @@ class Loops:
             self._fold(FOLDS[function], rows, into)
             return out
         for one, (to, *others) in zip(rows.tolist(), into.tolist(), strict=True):
-            self.loops.append(Loop(name, len(one), ((to, others[0] - to if others else 1), (one[0], 1))))
+            self.loops.append(Loop(name, len(one), ((to, others[0] - to if others else 1), (one[0], 1)), self._moving))
         return out
 
     def _loop(self, operation: str, out: Place, *operands: Place) -> Place:
@@ -117,10 +126,11 @@ class Loops:
         places = [out, *[operand.spread(out) for operand in operands]]
         spans = [span for place in places if (span := place.span)]
         if len(spans) == len(places):
-            self.loops.append(Loop(operation, out.size, tuple(spans)))
+            self.loops.append(Loop(operation, out.size, tuple(spans), self._moving))
         else:
             each = [np.broadcast_to(place.addresses, out.addresses.shape).ravel() for place in places]
-            self.loops += (Loop(operation, times, spans) for times, spans in _stretches(np.stack(each)))
+            stretches = _stretches(np.stack(each))
+            self.loops += (Loop(operation, times, spans, self._moving) for times, spans in stretches)
         return out
 
     def _fold(self, operation: str, rows: np.ndarray, into: np.ndarray) -> None:

@@ -25,16 +25,20 @@ sorted=(n,o,p,a)=>H.slice(a,a+n).sort().forEach((x,j)=>{H[o+j*p]=x})"""
 """What the operations of the table need; ``H`` is the heap."""
 RUN = """const at=(o,a)=>a<0?~a:o-a;
 H.set(Float64Array.from(constants,Number));
+let before=[];
 return X=>{
+const all=!before.length||before.some((x,k)=>k<steady&&x!==X[k]);
+before=Array.from(X);
 H.set(X,constants.length);
 for(let o=constants.length,k=0;k<loops.length;){
 const kind=kinds[loops[k]],n=loops[k+1];
 o+=loops[k+2];
-F[kind[0]](n,o,kind[1],at(o,loops[k+3]),kind[2],at(o,loops[k+4]),kind[3],at(o,loops[k+5]),kind[4]);
+if(all||kind[1])F[kind[0]](n,o,kind[2],at(o,loops[k+3]),kind[3],at(o,loops[k+4]),kind[4],at(o,loops[k+5]),kind[5]);
 o+=n;
-k+=1+kind.length}
+k+=kind.length}
 return outputs.map(([at,n])=>H.slice(at,at+n))}"""
-"""One loop after the other is done; what its operation does not take it is given in vain."""
+"""One loop after the other is done, or where the steady inputs stay, each that depends on others; what its operation
+does not take it is given in vain."""
 NAMES = "opaqbrcs"
 """What the operations' functions call addresses and steps, of the result first."""
 
@@ -51,23 +55,25 @@ def _function(operation: str) -> str:
 
 OPERATIONS = dict.fromkeys([*EACH.values(), *(name for name, _ in ALONG.values())])
 NUMBERED = {operation: number for number, operation in enumerate(OPERATIONS)}
-MACHINE = "(size,constants,outputs,kinds,loops)=>{{const {},\nF=[{}];\n{}}}".format(
+MACHINE = "(size,constants,outputs,steady,kinds,loops)=>{{const {},\nF=[{}];\n{}}}".format(
     LIBRARY, ",\n".join(map(_function, OPERATIONS)), RUN
 )
 """A function that makes of the numbers of any program its function: from an array of numbers to an array of arrays."""
 
 
 @uncollected()
-def numbers(program: Program) -> str:
+def numbers(program: Program, steady: int = 0) -> str:
     """What `MACHINE` takes, as JSON; constants are words, which can be infinite or no number.
+
+    Where the first ``steady`` inputs, one number each, stay as they are, only what depends on the others is done.
 
     >>> from camkit.program import recorded
     >>> numbers(recorded(lambda given: {"double": 2 * given["x"]}, {"x": 1.5}))
-    '[3,["2.0"],[[2,1]],[[2,0,0,0]],[0,1,1,-1,-2]]'
+    '[3,["2.0"],[[2,1]],0,[[2,1,0,0,0]],[0,1,1,-1,-2]]'
     """
-    loops = Loops(program)
+    loops = Loops(program, steady)
     constants = [repr(value).replace("inf", "Infinity").replace("nan", "NaN") for value in loops.constants.tolist()]
-    return json.dumps((loops.size, constants, loops.outputs, *_table(loops)), separators=(",", ":"))
+    return json.dumps((loops.size, constants, loops.outputs, steady, *_table(loops)), separators=(",", ":"))
 
 
 def _table(loops: Loops) -> tuple[list[tuple[int, ...]], list[int]]:
@@ -77,8 +83,8 @@ def _table(loops: Loops) -> tuple[list[tuple[int, ...]], list[int]]:
     and inputs their address with all bits turned, which is below 0.
     """
     kinds, rows, at, begin = dict[tuple[int, ...], int](), list[int](), 0, len(loops.constants)
-    for operation, times, ((result, step), *others) in loops.loops:
-        kind = (NUMBERED[operation], step, *(step for _, step in others))
+    for operation, times, ((result, step), *others), moving in loops.loops:
+        kind = (NUMBERED[operation], int(moving), step, *(step for _, step in others))
         rows += [kinds.setdefault(kind, len(kinds)), times, result - at]
         rows += [result - first if first >= loops.inputs else ~(begin + first) for first, _ in others]
         at = result + times

@@ -75,16 +75,17 @@ class Program:
         found = {out.number for out in self.outputs.values() if isinstance(out, Recorded)}
         for call in reversed(self.calls):
             if call.number in found:
-                found.update(_numbers(call.arguments))
+                found.update(numbers_in(call.arguments))
         return sorted(k for k in found if k >= len(self.inputs))
 
 
-def _numbers(arguments: Sequence[object]) -> Iterator[int]:
+def numbers_in(arguments: Sequence[object]) -> Iterator[int]:
+    """The calls whose results are among arguments."""
     for x in arguments:
         if isinstance(x, Recorded):
             yield x.number
         elif isinstance(x, (tuple, list)):
-            yield from _numbers(x)
+            yield from numbers_in(x)
 
 
 def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs: Mapping[str, ArrayLike]) -> Program:

@@ -172,7 +172,10 @@ class Living:
     @cached_property
     def packed(self) -> bytes:
         """The program as JSON, packed by gzip: numbers, and no word of the design; or nothing."""
-        return gzip.compress(numbers(self.program).encode(), 6, mtime=0) if self.program else b""
+        if not self.program:
+            return b""
+        text = numbers(self.program, steady=len(self.program.inputs) - len(self.first))
+        return gzip.compress(text.encode(), 6, mtime=0)
 
     def html(self) -> str:
         """One file, without any outside address; `CannotRecord` where there is no program."""

@@ -98,3 +98,20 @@ def test_the_study_of_the_door_handle_is_in_the_page_what_it_is_in_numpy(page):
     for k, name in enumerate(expected):
         for column, of_numpy in zip(np.transpose([one[k] for one in found]), expected[name].T, strict=True):
             same(column, of_numpy)
+
+
+def test_what_rests_while_steady_inputs_stay_is_not_done_again_and_comes_out_the_same(page):
+    x = np.linspace(0, 3, 7)
+
+    def value(a, b, turn):
+        curve = np.cumsum(a * np.sin(x) + b)  # rests
+        place = np.argmin(abs(x - turn))
+        return np.stack([curve[place], np.sum(curve), np.max(curve * np.cos(turn)), np.sort(turn - curve)[0]])
+
+    program = recorded(lambda given: {"out": value(*given.values())}, {"a": 1.0, "b": 2.0, "turn": 0.3})
+    inputs = [[1, 2, 0.3], [1, 2, 1.4], [1, 2, 2.9], [1, -2, 2.9], [1, -2, 0.1], [np.nan, 2, 0.1], [1, 2, 0.1]]
+    given = [[str(x) for x in row] for row in inputs]
+    run_in_turn = RUN.replace("f(x)", "f(x.map(s => s === 'nan' ? NaN : Number(s)))")
+    ((*found,),) = page.evaluate(run_in_turn, [[numbers(program, steady=2), given]])
+    for one, row in zip(found, inputs, strict=True):
+        same(one[0], value(*row))
