@@ -63,6 +63,8 @@ EACH: dict[Any, str] = {
     whole: "M.trunc({0})",
 }
 """What is done to numbers, or to those of arrays one by one."""
+OF_NO_WHOLE = (np.invert, np.reciprocal)
+"""Of these, what numpy does to whole numbers in another way."""
 
 _FOLDED = (np.add, np.multiply, np.minimum, np.maximum, np.fmin, np.fmax)
 _OF_TRUTHS = (np.logical_and, np.logical_or, np.bitwise_and, np.bitwise_or)

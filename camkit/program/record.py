@@ -15,8 +15,8 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike, DTypeLike
 
 from ..quantities.known import known
-from .operations import ALONG, EACH, FOLDS, MOVES, operands
-from .texts import Template, Texts
+from .operations import ALONG, EACH, FOLDS, MOVES, OF_NO_WHOLE, operands
+from .texts import SPEC, Template, Texts
 from .written import BY, whole
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
@@ -92,11 +92,13 @@ class Recording:
         self._known.clear()
 
 
-def _check(function: Callable[..., Any], arguments: tuple[object, ...], named: dict[str, object]) -> None:
+def _check(function: Callable[..., Any], arguments: tuple[Any, ...], named: dict[str, object]) -> None:
     """Raise `CannotRecord` unless it is known what the function is elsewhere."""
     if function in EACH:
         if named or len(arguments) != operands(EACH[function]):
             raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
+        if function in OF_NO_WHOLE and arguments[0].dtype.kind in "iu":
+            raise cannot(f"{_name_of(function)} of whole numbers cannot be recorded")
     elif function in FOLDS or function in ALONG:
         if named.keys() - {"axis", "keepdims"}:
             raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
@@ -162,11 +164,18 @@ class Recorded(NDArrayOperatorsMixin):
     def _refuse(self, *_: object, **__: object) -> NoReturn:
         raise cannot("a truth value, a number, a text or a plain array of a recorded value is asked for")
 
-    __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __str__ = _refuse
+    __bool__ = __float__ = __int__ = __index__ = __complex__ = __array__ = __str__ = __round__ = _refuse
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if name.startswith("_"):  # numpy asks for protocols that it may have
+            raise AttributeError(name)
+        raise cannot(f"the {name} of a recorded value is asked for")
 
     def __format__(self, spec: str) -> str:
         if self.ndim or not spec:
             raise cannot("a text of several numbers, or of one without a format, is asked for")
+        if not SPEC.fullmatch(spec):
+            raise cannot(f"a number written as '{spec}' is asked for; as '.4g', '.1f', '+.1f' or '.0%' it can be recorded")
         return self.recording.texts.placed((self.number, spec))
 
     def text_if(self, words: str) -> str:

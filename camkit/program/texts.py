@@ -12,6 +12,8 @@ from ..quantities.types import Value
 Part = tuple[int, "str | Template"]
 """The result of a call by its number: to be written by a format, or a text that is there if it holds."""
 Template = tuple[str | Part, ...]
+SPEC = re.compile(r"~?(measure|\+?,?(\.\d+)?[efg%])")
+"""The formats that a page can write (see `camkit.quantities.text_of`)."""
 
 
 class Texts:

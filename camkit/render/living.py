@@ -36,7 +36,7 @@ from ..quantities import (
 from ..quantities.applied import a_path, applied
 from ..quantities.kinds import refuse_arguments
 from ..quantities.known import known
-from ..study.study import refuse_limits
+from ..study.study import KEPT, refuse_limits
 from ..units import deg, factor, known_units
 from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
@@ -311,6 +311,7 @@ def _structure(design: Analysable, free: Sequence[str] | None) -> dict[str, Json
             for path, d in choices_of(design).items()
             if shown is None or path in shown
         ],
+        "kept": KEPT,
         "look": look(),
         "units": known_units(),
     }

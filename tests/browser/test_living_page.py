@@ -280,6 +280,13 @@ def test_names_that_are_pieces_of_a_page_stay_names(opened):
     assert EVIL in page.locator(".camkit-numbers").inner_text()
 
 
+def test_a_limit_is_kept_as_everywhere_in_the_package(opened):
+    near, far = (Measure(name, "mm", lambda analysis: analysis.cam.x) for name in ("near", "far"))
+    page = opened(Evil(), evil_view, measures=[near, far], at_most={near: (1 - 1e-10) * mm, far: (1 - 1e-7) * mm})
+    assert page.locator(".camkit-chip.camkit-ok").inner_text().startswith("near")
+    assert page.locator(".camkit-chips .camkit-bad").inner_text().startswith("far")
+
+
 def test_a_program_holds_no_word_of_the_design():
     packed = living(Evil(), [evil_view]).packed
     assert set(gzip.decompress(packed).decode()) <= set('0123456789.,-+e[]"NaInfity')

@@ -309,8 +309,7 @@ export class Panel {
     this.numbers = this.structure.measures.map((/** @type {any} */ m) => ({ name: m.name, value: value(m, outputs), text: told(m, value(m, outputs)) }));
     const rows = this.structure.measures.map((/** @type {any} */ m) => {
       const [now, then] = [value(m, outputs), value(m, this.ghost?.outputs ?? first)], change = then && Number.isFinite(now - then) ? (100 * (now - then)) / Math.abs(then) : NaN;
-      const kept = m.limit === undefined || m.sense * (now - m.limit) <= 1e-9 * Math.max(1, Math.abs(m.limit));
-      const miss = (m.sense * (now - m.limit)) / (Math.abs(m.limit) || 1);
+      const miss = (m.sense * (now - m.limit)) / (Math.abs(m.limit) || 1), kept = m.limit === undefined || miss <= this.structure.kept;
       return { m, now, change, kept, miss: Number.isNaN(miss) ? 1e300 : miss };
     });
     const limited = rows.filter((/** @type {any} */ r) => r.m.limit !== undefined).sort((/** @type {any} */ a, /** @type {any} */ b) => b.miss - a.miss);
