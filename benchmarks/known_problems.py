@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from camkit.quantities import Design, Measure, Quantity, declarations, fails, quantity
+from camkit.quantities import Design, Measure, Quantity, declarations, quantity, unless
 from camkit.study.study import Study
 
 
@@ -143,8 +143,8 @@ class TensionSpring(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fails(self.wire < self.coil):
-            raise ValueError(f"the wire d is {self.wire:g} in thick; it must be below the coil's {self.coil:g} in")
+        if refuse := unless(self.wire < self.coil):
+            refuse(f"the wire d is {self.wire:g} in thick; it must be below the coil's {self.coil:g} in")
 
     def analyse(self, n: int = 1) -> TensionSpring:
         """The design itself."""

@@ -15,7 +15,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from ..quantities import Design, Quantity, counted, declarations, fails, quantity
+from ..quantities import Design, Quantity, counted, declarations, quantity, unless
 from ..quantities.kinds import numbers, one_number, shown
 from ..quantities.known import certain
 from ..quantities.types import Array, Value
@@ -217,8 +217,8 @@ class RSSR(Links):
             angles = np.atleast_1d(_angles(crank_angle))
         except ValueError:
             angles = np.zeros(0)
-        if not angles.size or (angles.ndim == 1 and fails(np.isfinite(angles).all())):
-            raise ValueError("the crank angles must be one or more finite numbers")
+        if refuse := unless(angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
+            refuse("the crank angles must be one or more finite numbers")
         analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)
         analysis.refuse_impossible()
         return analysis

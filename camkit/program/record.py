@@ -175,7 +175,7 @@ class Recorded(NDArrayOperatorsMixin):
         if self.ndim or not spec:
             raise cannot("a text of several numbers, or of one without a format, is asked for")
         if not SPEC.fullmatch(spec):
-            raise cannot(f"a number written as '{spec}' is asked for; as '.4g', '.1f', '+.1f' or '.0%' it can be recorded")
+            raise cannot(f"a number is written as '{spec}'; as '.4g', '.1f', '+.1f' or '.0%' it can be recorded")
         return self.recording.texts.placed((self.number, spec))
 
     def text_if(self, words: str) -> str:

@@ -46,7 +46,7 @@ from .declaration import (
     words,
 )
 from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
-from .known import certain, fails, floats, known, text_if, text_of, unless
+from .known import certain, floats, known, text_if, text_of, unless
 from .measure import Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
 
@@ -67,7 +67,6 @@ __all__ = [
     "counted",
     "declarations",
     "declared_in",
-    "fails",
     "floats",
     "known",
     "measures_of",

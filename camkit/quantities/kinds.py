@@ -18,7 +18,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .known import certain, fails, floats, known, unless
+from .known import certain, floats, known, unless
 from .types import Value
 
 LONGEST = 60
@@ -324,7 +324,7 @@ def _kinds(cls: type) -> tuple[tuple[str, Kind], ...]:
 
 def _one(value: object) -> bool:
     read = number(value)
-    return read is not None and np.ndim(read) == 0 and not fails(np.isfinite(read))
+    return read is not None and np.ndim(read) == 0 and (not known(read) or bool(np.isfinite(read)))
 
 
 SIMPLE: dict[object, Kind] = {

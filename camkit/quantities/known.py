@@ -40,20 +40,11 @@ def certain(ok: ArrayLike) -> bool:
     return known(ok) and bool(np.all(ok))
 
 
-def fails(ok: ArrayLike) -> bool:
-    """True if ``ok`` is one false answer; a population's answers are a mask and never fail as a whole.
-
-    Nor does an answer that is recorded: the design that is refused for it becomes ``nan``.
-    """
-    if type(ok) is bool:
-        return not ok
-    return np.ndim(ok) == 0 and known(ok) and not ok
-
-
 def unless(ok: Any) -> Callable[[str], None] | None:
-    """What refuses a design in a sentence, unless ``ok`` holds: ``ValueError`` if it is one false answer (`fails`).
+    """What refuses a design in a sentence, unless ``ok`` holds: ``ValueError`` if it is one false answer.
 
-    Of what is recorded both are noted.
+    A population's answers are a mask and refuse nothing.  Of what is recorded both are noted: a design that is refused
+    becomes ``nan``.
 
     >>> if refuse := unless(2.5 < 2):
     ...     refuse("it is too large")
@@ -63,9 +54,9 @@ def unless(ok: Any) -> Callable[[str], None] | None:
     """
     if ok is True or ok is np.True_:
         return None
-    if fails(ok):
-        return _refuse
-    return None if known(ok) else ok.refusing()
+    if not known(ok):
+        return ok.refusing()
+    return _refuse if np.ndim(ok) == 0 and not ok else None
 
 
 def _refuse(sentence: str) -> None:

@@ -10,7 +10,7 @@ from numpy.testing import assert_array_equal
 
 from camkit import DoorHandleCam, TranslatingRollerCam, door_handle_study
 from camkit.program import CannotRecord, record, recorded
-from camkit.quantities import Measure, certain, fails, floats, known, with_quantities
+from camkit.quantities import Measure, certain, floats, known, unless, with_quantities
 from program_cases import CASES, INPUTS, expression, judged, start_of
 
 
@@ -70,7 +70,7 @@ REFUSED = {
     "number": (lambda x: float(x[0]), "a truth value, a number, a text or a plain array"),
     "text": (lambda x: f"{x[0]}", "a text of several numbers, or of one without a format, is asked for"),
     "text of several": (lambda x: f"{x:.3f}", "a text of several numbers, or of one without a format, is asked for"),
-    "format": (lambda x: f"{x[0]:8.2f}", "a number written as '8.2f' is asked for"),
+    "format": (lambda x: f"{x[0]:8.2f}", "a number is written as '8.2f'; as '.4g'"),
     "text of one": (lambda x: str(x[0]), "a truth value, a number, a text or a plain array"),
     "rounded": (lambda x: round(x[0]), "a truth value, a number, a text or a plain array"),
     "method": (lambda x: x.std(), "the std of a recorded value is asked for"),
@@ -121,12 +121,12 @@ def test_what_physics_may_ask_of_a_number():
         x = given["x"]
         assert not known(x)
         assert not certain(x > 0)
-        assert not fails(x > 0)
+        assert unless(x > 0)
         assert floats(x) is x
         return {"x": x}
 
     recorded(asks, {"x": -1.0})
-    assert (known(-1.0), certain(-1.0 > 0), fails(-1.0 > 0)) == (True, False, True)
+    assert (known(-1.0), certain(-1.0 > 0), unless(1.0 > 0)) == (True, False, None)
 
 
 ROWS, BLOCKS = 10, 20
