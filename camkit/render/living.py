@@ -62,13 +62,15 @@ class Outputs:
 
     def at(self, value: object) -> Json:
         """A plain number as it is, an array or what is recorded by the number of its output, a text by its name."""
+        if isinstance(value, (np.bool_, np.integer)):
+            return value.item()
         if value is None or isinstance(value, (bool, int)) or (type(value) is float and np.isfinite(value)):
             return value
         if isinstance(value, str):
             self.texts[name := f"text {len(self.texts)}"] = value
             return {"text": name}
         if isinstance(value, Mapping):
-            return {key: self.at(entry) for key, entry in value.items()}
+            return {key if isinstance(key, str) else float(key): self.at(entry) for key, entry in value.items()}
         if isinstance(value, (list, tuple)):
             if any(part is None or isinstance(part, (str, list, tuple)) for part in value):
                 return [self.at(part) for part in value]

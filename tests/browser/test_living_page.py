@@ -280,6 +280,36 @@ def test_names_that_are_pieces_of_a_page_stay_names(opened):
     assert EVIL in page.locator(".camkit-numbers").inner_text()
 
 
+def view_in_words(analysis):
+    x = analysis.cam.x / mm
+    ticks = {k: f"{k * x:.1f}" for k in np.arange(3)}
+    axes = Axes(title=f"size {x:.1f}", xlabel=f"along {x:.1f}  [deg]", ylabel="y", yticks=ticks, grid=np.False_)
+    return Picture.of(axes, Line("a", [0, x], [0, 2]))
+
+
+def test_axes_say_numbers_of_the_design(opened):
+    page = opened(Evil(), view_in_words)
+    for k in (0.0, 1.0):
+        page.evaluate(DRAG, [k, 0])
+        page.wait_for_function(DRAWN)
+        x = page.evaluate("camkit.values[0]") / mm
+        assert (
+            page.locator("canvas").get_attribute("aria-label") == f"size {x:.1f}; along {x:.1f}  [°] from 0 to {x:.3g}"
+        )
+    assert page.evaluate("camkit.charts[0].axes.grid") is False
+    assert not page.heard
+
+
+def place_in_words(analysis):
+    return Picture.of(Axes(xticks={analysis.cam.x: "here"}), Line("a", [0, analysis.cam.x], [0, 2]))
+
+
+def test_ticks_where_the_design_says_are_those_of_the_stored_one():
+    (picture,) = living(Evil(), [place_in_words]).structure["pictures"]
+    assert "a number" in picture["still"]
+    assert picture["axes"]["xticks"] == {0.001: "here"}
+
+
 def test_a_limit_is_kept_as_everywhere_in_the_package(opened):
     near, far = (Measure(name, "mm", lambda analysis: analysis.cam.x) for name in ("near", "far"))
     page = opened(Evil(), evil_view, measures=[near, far], at_most={near: (1 - 1e-10) * mm, far: (1 - 1e-7) * mm})

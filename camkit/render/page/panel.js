@@ -280,7 +280,8 @@ export class Panel {
 
   /** @param {Chart} chart */
   _overTurn(chart) {
-    return this.turn >= 0 && chart.picture.axes.xlabel.startsWith(this.structure.positions[this.turn].label) && chart.picture.axes.xlabel.endsWith("[deg]");
+    const along = this.words(chart.picture.axes.xlabel);
+    return this.turn >= 0 && along.startsWith(this.structure.positions[this.turn].label) && along.endsWith("[deg]");
   }
 
   /** The slider that turns the mechanism goes over its range. @param {ArrayLike<number>[]} outputs */
@@ -421,7 +422,7 @@ export class Panel {
     const curve = !chart.picture.axes.equal && !chart.picture.axes.bare;
     if (!this.outputs || !chart.inside(px, py)) { this.tip.hidden = true; return; }
     const x = chart.x.back(px), y = chart.y.back(py), round = (/** @type {number} */ v) => format(v, ".4g");
-    const rows = curve ? chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.picture.axes.title} ${round(value)}`) : [];
+    const rows = curve ? chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.axes.title} ${round(value)}`) : [];
     this.tip.textContent = curve ? [`at ${round(x)}`, ...rows].join("\n") : chart.picture.axes.bare ? "" : `x ${round(x)}, y ${round(y)}`;
     this.tip.hidden = !this.tip.textContent;
     const box = this.root.getBoundingClientRect();

@@ -79,6 +79,8 @@ export class Chart {
     this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.pen.clearRect(0, 0, width, height);
     this.how = how;
+    const { axes } = this.picture, [title, xlabel, ylabel] = [axes.title, axes.xlabel, axes.ylabel].map(how.words);
+    this.axes = { ...axes, title, xlabel, ylabel };
     const marks = [...this.picture.marks].map((mark) => ({ mark, height: one(mark.height, outputs) }));
     marks.sort((a, b) => a.height - b.height);
     this.window = this._window(outputs, Boolean(how.settled));
@@ -150,7 +152,7 @@ export class Chart {
 
   /** Room for title and numbers, and the scales. @param {number} width @param {number} height */
   _place(width, height) {
-    const { axes } = this.picture, { x, y } = this.window, small = this.compact;
+    const { axes } = this, { x, y } = this.window, small = this.compact;
     const bare = axes.bare, named = !small && axes.xlabel && !axes.equal, { em } = this;
     this.heading = this._heading(width);
     const box = { left: bare ? 6 : (axes.yticks ? 96 : 44) * em, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - (bare ? 6 : (named ? 34 : 18) * em) };
@@ -166,14 +168,14 @@ export class Chart {
 
   /** Numbers, grid and names of the axes. */
   _frame() {
-    const { pen, box, ends, em } = this, { axes } = this.picture;
+    const { pen, box, ends, em, axes } = this;
     if (axes.bare) return;
     const grid = this.colour("body"), ink = this.ink("guide");
     this.letters(10.5); pen.lineWidth = 1; pen.setLineDash([]);
     /** @param {"x"|"y"} name */
     const marks = (name) => {
       const given = axes[`${name}ticks`];
-      if (given) return Object.entries(given).map(([at, words]) => [Number(at), String(words)]);
+      if (given) return Object.entries(given).map(([at, words]) => [Number(at), this.how.words(words)]);
       const { low, high, log } = ends[name], long = name === "x" ? box.right - box.left : box.bottom - box.top;
       const apart = axes.equal ? Math.max(60 * em, (box.right - box.left) / 10, (box.bottom - box.top) / 10) : 60 * em;
       const room = axes.equal || name === "x" ? long / apart : Math.min(long / (34 * em), 4.5);
@@ -226,7 +228,7 @@ export class Chart {
 
   /** Where title and names stand, in rows as wide as the canvas. @param {number} width */
   _heading(width) {
-    const { pen } = this, { axes } = this.picture, unit = /\[(.*)\]\s*$/.exec(axes.ylabel);
+    const { pen, axes } = this, unit = /\[(.*)\]\s*$/.exec(axes.ylabel);
     const title = axes.equal || axes.bare || !unit ? axes.title : `${axes.title}  [${pretty(unit[1])}]`;
     this.letters(12, 600);
     let at = pen.measureText(title).width + 16, row = 0;
@@ -330,7 +332,7 @@ export class Chart {
 
   /** What is to be seen, for those who do not see it: title, what is drawn, from where to where, and what it says. */
   describe() {
-    const { axes } = this.picture, { x } = this.ends, near = (/** @type {number} */ v) => format(v, ".3g");
+    const { axes } = this, { x } = this.ends, near = (/** @type {number} */ v) => format(v, ".3g");
     const names = this.heading.names.map(({ words }) => words), said = this.list.marks.map((/** @type {any} */ m) => m.words);
     const across = axes.bare || axes.xticks ? [] : [`${axisName(axes.xlabel) || "x"} from ${near(x.low)} to ${near(x.high)}`];
     return [this.heading.title, ...names, ...said.filter(Boolean), ...across].join("; ");
