@@ -12,6 +12,7 @@ from camkit.program import CannotRecord
 from camkit.quantities import Design, Measure, measures_of, quantities_of, quantity, with_quantities
 from camkit.render import to_html
 from camkit.render.living import living
+from camkit.render.page_parts import script
 from camkit.render.picture import given_to, positions_of
 from camkit.views import default_views, pressure_angle
 from camkit.views.picture import Axes, Line, Picture, Points, Text
@@ -322,12 +323,48 @@ def test_a_program_holds_no_word_of_the_design():
     assert set(gzip.decompress(packed).decode()) <= set('0123456789.,-+e[]"NaInfity')
 
 
-def test_what_cannot_be_recorded_is_no_page(tmp_path):
-    @dataclass(frozen=True)
-    class Truth(Evil):
-        def analyse(self, n=5):
-            assert self.x > 0
-            return Made(self)
+@dataclass(frozen=True)
+class Truth(Evil):
+    """A design that cannot be recorded."""
 
+    def analyse(self, n=5):
+        assert self.x > 0
+        return Made(self)
+
+
+WIDGET = """([source, structure, answer, arrays]) => {
+    const state = { structure, program: new DataView(new ArrayBuffer(0)), message: "", values: [] }, heard = [];
+    const model = { get: (name) => state[name], set() {}, save_changes() {}, off() {},
+                    send: (asked) => questions.push(asked),
+                    on: (name, act) => { if (name === "msg:custom") heard.push(act); } };
+    window.questions = [];
+    window.answer = () => heard.forEach((act) => act({ ...answer, answer: questions.at(-1).number },
+        arrays.map((values) => new DataView(Float64Array.from(values).buffer))));
+    const el = document.body.appendChild(document.createElement("div"));
+    return import(URL.createObjectURL(new Blob([source], { type: "text/javascript" })))
+        .then((widget) => widget.default.render({ model, el })).then(() => { window.camkit = el.camkit; }); }"""
+ASKED = "() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(() => next(questions.length))))"
+
+
+def test_a_kernel_that_computes_is_asked_one_question_at_a_time(browser):
+    shown = living(Truth(), [evil_view])
+    answer = shown.show(Truth())
+    arrays = [np.asarray(array).tolist() for array in answer.pop("arrays")]
+    page = browser.new_page()
+    page.evaluate(WIDGET, [script("widget.js"), shown.structure | {"files": []}, answer, arrays])
+    asked = [page.evaluate(ASKED)]
+    for share in (0.2, 0.4, 0.6):  # the first is not answered yet
+        page.evaluate(DRAG, [share, 0])
+        asked.append(page.evaluate(ASKED))
+    page.evaluate("answer()")
+    asked.append(page.evaluate(ASKED))
+    page.evaluate("answer()")
+    asked.append(page.evaluate(ASKED))
+    assert asked == [1, 1, 1, 1, 2, 2]
+    assert page.evaluate("questions[1].compute[0]") == page.evaluate("camkit.values[0]")
+    page.close()
+
+
+def test_what_cannot_be_recorded_is_no_page(tmp_path):
     with pytest.raises(CannotRecord, match="a truth value"):
         to_html(Truth(), evil_view, path=tmp_path / "truth.html")

@@ -175,13 +175,12 @@ export class Panel {
     this.ask(true);
   }
 
-  /** The pinned design stands where the other one does, if the page can compute it. */
+  /** The pinned design stands where the other one does, if the page computes it. */
   _turnGhost() {
     const { ghost } = this, count = this.structure.quantities.length;
     if (ghost.values.every((/** @type {number} */ value, /** @type {number} */ k) => k < count || value === this.values[k])) return;
     ghost.values.set(this.values.subarray(count), count);
-    const outputs = this.engine.run(ghost.values);
-    if (!(outputs instanceof Promise)) ghost.outputs = outputs;
+    ghost.outputs = this.engine.run(ghost.values);
   }
 
   _flip() {
@@ -216,7 +215,7 @@ export class Panel {
     if (number < this.shownAt || this.ended) return; // a newer one is there
     this.shownAt = number;
     if (outputs.structure) this._adopt(outputs.structure);
-    if (this.ghost) this._turnGhost();
+    if (this.ghost && outputs === ran) this._turnGhost();
     this._draw(outputs, settled);
     this._report();
   }

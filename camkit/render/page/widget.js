@@ -10,16 +10,24 @@ async function engineOf(model) {
 /** Arrays that came in buffers. @param {DataView[]} buffers */
 const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
 
+/** How long a question waits for its answer before another one is asked, ms. */
+const PATIENCE = 10_000;
+
 /** The kernel computes: one question at a time, and of those that wait the newest. @param {any} model */
 function asking(model) {
   let number = 0;
-  /** @type {((outputs: any) => void) | null} */ let answered = null;
+  /** @type {any} */ let asked = null;
+  /** @type {any} */ let waiting = null;
+  const send = (/** @type {any} */ question) => { asked = question; asked.at = performance.now(); model.send({ compute: question.values, number: ++number }); };
   model.on("msg:custom", (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
     if (message.answer !== number) return;
-    const { pictures, positions, measures, trouble, sentence } = message;
-    answered?.(Object.assign(arrays(buffers), sentence ? { sentence } : { structure: { pictures, positions, measures, trouble } }));
+    const { pictures, positions, measures, trouble, sentence } = message, { answered } = asked, next = waiting;
+    asked = waiting = null;
+    if (next) send(next);
+    answered(Object.assign(arrays(buffers), sentence ? { sentence } : { structure: { pictures, positions, measures, trouble } }));
   });
-  return { run: (/** @type {Float64Array} */ values) => new Promise((resolve) => { answered = resolve; model.send({ compute: [...values], number: ++number }); }) };
+  const ask = (/** @type {any} */ question) => { if (asked && performance.now() - asked.at < PATIENCE) waiting = question; else send(question); };
+  return { run: (/** @type {Float64Array} */ values) => new Promise((answered) => { ask({ values: [...values], answered }); }) };
 }
 
 /** Give the person a file. @param {string} name @param {DataView} content */
