@@ -103,7 +103,8 @@ class FreePolynomial(Law):
 def of_values(powers: Array, given: Sequence[Value]) -> Array:
     """What stands before each power, ``(powers, pieces)`` or ``(.., p, 1)``, from what it is for each given value."""
     values = np.stack(np.broadcast_arrays(*map(floats, given)))
-    return (powers.reshape(powers.shape + (1,) * (values.ndim - 1)) * values).sum(2)
+    each = powers.reshape(powers.shape + (1,) * (values.ndim - 1))
+    return np.stack([(factors * values).sum(1) for factors in each])
 
 
 def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float], u: Array) -> Kinematics:
@@ -111,12 +112,12 @@ def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float],
 
     The first and the last are about the ends of the law: where it comes to rest its speed is no rounding.
     """
-    x, factors = u - origins[0], list(powers[:, 0])
     if known(u):
         place = np.searchsorted(borders, u, side="right")
         rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
-        x, factors = u - np.asarray(origins)[place], list(powers[:, place, *rows])
-    for k in () if known(u) else range(1, len(origins)):
+        return polynomial([*powers[:, place, *rows]], u - np.asarray(origins)[place])
+    x, factors = u - origins[0], [*powers[:, 0]]
+    for k in range(1, len(origins)):
         pairs, here = zip(powers[:, k], factors, strict=True), u >= borders[k - 1]
         x, factors = np.where(here, u - origins[k], x), [np.where(here, *pair) for pair in pairs]
     return polynomial(factors, x)
