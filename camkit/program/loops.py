@@ -113,7 +113,7 @@ class Loops:
         axis = call.named.get("axis", call.arguments[1] if len(call.arguments) > 1 else default)
         rows = self._in_a_row(_rows(values, axis)) if name else _rows(values, axis)
         out = self._new(call.shape)
-        into = _rows(out.addresses, axis) if out.size == rows.size else out.addresses.reshape(-1, 1)
+        into = _rows(out.addresses, axis) if call.shape == values.shape else out.addresses.reshape(-1, 1)
         if not name:
             self._fold(FOLDS[function], rows, into)
             return out

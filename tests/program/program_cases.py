@@ -115,6 +115,7 @@ def case(function):
 
 FUNCTIONS = [*EACH, *FOLDS, *ALONG, *sorted(MOVES, key=lambda f: f.__name__), *BY]
 CASES = {f"{i:03d} {getattr(f, '__qualname__', f)}": case(f) for i, f in enumerate(FUNCTIONS)}
+CASES["a sum along an axis of one number"] = (lambda x: np.sum(x[:, None], axis=-1), [ONE])
 
 
 def expression(seed):

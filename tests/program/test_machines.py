@@ -10,7 +10,8 @@ from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam,
 from camkit.cam.loads import ArmLoad
 from camkit.cam.slide import SlideLoad
 from camkit.machines import CamLever
-from camkit.program import CannotRecord, record
+from camkit.motion import FreePolynomial, SplineLaw, TableLaw
+from camkit.program import CannotRecord, record, recorded
 from camkit.quantities import with_quantities
 from machine_cases import LAWS
 from program_cases import designs_beside
@@ -47,6 +48,34 @@ def test_a_cam_replays_to_the_last_bit(law):
         found = record(curves, design, rows=ROWS)(values)
         for name, value in expected.items():
             assert_array_equal(found[name], value, err_msg=f"{type(cam).__name__} {name}")
+
+
+def smooth(rows):
+    u = np.linspace(0, 1, rows)
+    return TableLaw(tuple(u), tuple(u**2 * (3 - 2 * u)), 0.0)
+
+
+COLUMN = np.array([[0.2], [0.4], [0.6]])
+PIECES = [smooth(4), SplineLaw((0.4, 0.5), (0.2, 0.5)), SplineLaw((0.4,), (COLUMN,)), FreePolynomial((0, COLUMN))]
+
+
+def motion_of(law, u):
+    return recorded(lambda given: law.at(given["u"])._asdict(), {"u": 0 * u})
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (5,), (3, 1), (3, 4)])
+def test_a_law_in_pieces_replays_at_any_place(shape):
+    u = np.random.default_rng(1).random(shape)
+    for law in PIECES:
+        found = motion_of(law, u)({"u": u})
+        for name, value in law.at(u)._asdict().items():
+            assert np.shape(found[name]) == np.shape(value)
+            assert_array_equal(found[name], value)
+
+
+def test_a_table_of_many_rows_is_as_short_a_program_as_one_of_few():
+    few, many = (len(motion_of(smooth(rows), np.zeros(5)).calls) for rows in (4, 200))
+    assert few == many
 
 
 FORCES = {"table": ((0.0, 100.0), (0.005, 300.0), (0.02, 100.0)), "function": lambda way: 100 + 1e4 * way}

@@ -116,11 +116,16 @@ def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float],
         place = np.searchsorted(borders, u, side="right")
         rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
         return polynomial([*powers[:, place, *rows]], u - np.asarray(origins)[place])
-    x, factors = u - origins[0], [*powers[:, 0]]
-    for k in range(1, len(origins)):
-        pairs, here = zip(powers[:, k], factors, strict=True), u >= borders[k - 1]
-        x, factors = np.where(here, u - origins[k], x), [np.where(here, *pair) for pair in pairs]
-    return polynomial(factors, x)
+    at = np.atleast_1d(u)  # a program is as short for many pieces as for few
+    place = (np.expand_dims(at, -1) >= np.asarray(borders)).sum(-1)
+    if powers.ndim > 2:
+        powers, place = np.moveaxis(powers[..., 0], 1, -1), np.atleast_2d(place)
+
+    def there(row: Array) -> Array:
+        return np.take_along_axis(np.reshape(row, (1,) * (place.ndim - row.ndim) + row.shape), place, -1)
+
+    found = polynomial([there(row) for row in powers], at - there(np.asarray(origins)))
+    return found if np.ndim(u) or place.ndim > 1 else Kinematics(*(values[..., 0] for values in found))
 
 
 def exact(powers: Array, conditions: Mapping[int, Condition]) -> Array:
