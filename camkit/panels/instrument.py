@@ -15,10 +15,10 @@ import traitlets
 from ..files import designs, profiles
 from ..quantities import (
     Analysable,
+    Choice,
     Measure,
     Paths,
     Quantity,
-    choices_of,
     declared_in,
     measures_of,
     quantities_of,
@@ -27,8 +27,8 @@ from ..quantities import (
     words,
 )
 from ..quantities.applied import a_path, raised
-from ..quantities.kinds import refuse_arguments
-from ..render.living import Living, living
+from ..quantities.kinds import refuse_arguments, shown
+from ..render.living import Living, limited, living
 from ..render.page_parts import PAGE, script
 from ..render.picture import Still, below, picture, positions_of, saved, small_png, strip, turn_range
 from ..study.study import refuse_limits
@@ -75,17 +75,18 @@ class Instrument(anywidget.AnyWidget):
         refuse_design(design, "the design of the panel")
         refuse_limits(at_most or {}, at_least or {})
         self.start: Any = design
-        self.analysis: Any = design.analyse()
-        self.measures = measures_of(design) if measures is None else tuple(measures)
+        self.analysis: Any = None
+        self.measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
         self._limits = {"at_most": at_most, "at_least": at_least}
-        self._chosen, self._free = tuple(views), tuple(free) if free else None
+        self._chosen, self._free = tuple(views), tuple(Paths(design, free).declared) if free else None
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
         self._followers: list[Callable[..., object]] = []
-        self._first = [m.one(self.analysis) for m in self.measures]
-        self._now = list(self._first)
+        self._living: Living | None = None
+        self._now: list[float] = []
         super().__init__(design=design)
-        self._record()
+        self._first = self._now
+        self._send_structure()
         self.observe(self._settled, "values")
         self.observe(self._shown, "design")
         self.on_msg(lambda _, message, __: self._asked(message))
@@ -104,8 +105,7 @@ class Instrument(anywidget.AnyWidget):
 
         ``ValueError`` for what is no design of this kind.
         """
-        refuse_design(design, "the design")
-        Paths(self.start, ()).values(design)  # refuses another kind
+        self._refuse_other(design)
         try:
             self.design = design
         except IMPOSSIBLE as error:
@@ -120,7 +120,9 @@ class Instrument(anywidget.AnyWidget):
         slider = w.FloatSlider(min=declared.low, max=declared.high, step=step, description=words(path))
 
         def follow(design: object) -> None:
-            slider.value = in_unit(value_of(design, path), declared.unit)
+            value = in_unit(value_of(design, path), declared.unit)
+            slider.min, slider.max = min(slider.min, value), max(slider.max, value)  # else it would move the design
+            slider.value = value
 
         def move(change: Any) -> None:
             if (
@@ -134,56 +136,82 @@ class Instrument(anywidget.AnyWidget):
         self.on_change(follow)
         return slider
 
+    def _refuse_other(self, design: object) -> None:
+        refuse_design(design, "the design")
+        Paths(self.start, ()).values(design)  # refuses another kind
+
     @traitlets.validate("design")
     def _possible(self, proposal: Mapping[str, Any]) -> Any:
-        """A design whose analysis and measures can be computed."""
-        analysis = proposal["value"].analyse()
-        self._now = [measure.one(analysis) for measure in self.measures]
-        self.analysis = analysis
-        return proposal["value"]
+        """A design that can be computed and shown, with all that follows from it; else the last one stays whole."""
+        design = proposal["value"]
+        self._refuse_other(design)
+        analysis = design.analyse()
+        now = [measure.one(analysis) for measure in self.measures]
+        if not self._living or not _alike(self._living.design, design):
+            self._living = self._recorded(design, analysis)
+        self.analysis, self._now = analysis, now
+        return design
+
+    def _recorded(self, design: Any, analysis: object) -> Living:
+        """Structure and program for a design; another law has other coefficients."""
+        free = None if self._free is None else [path for path in self._free if path in declared_in(design)]
+        position = self._stand(self._chosen or default_views(analysis))
+        made = living(design, self._chosen, self.measures, **self._limits, free=free, position=position)
+        made.structure  # noqa: B018  recorded here
+        return made
 
     def _shown(self, change: Any) -> None:
         """The page shows the new design; those that follow hear of it."""
         with self.hold_sync():
             self.message = ""
-            if _make(change.old) != _make(change.new):
-                self._record()
-            self._push()
+            self._send_structure()
         if still := [p["name"] for p in self.structure["pictures"] if p["still"]]:
-            self._answer(self._living.show_still(self.design), {"still": still})
+            try:
+                self._answer(self._page.show_still(self.design), {"still": still})
+            except IMPOSSIBLE as error:
+                self.message = f"Not everything can be drawn: {reason(error)}."
         self._tell_followers()
 
-    def _record(self) -> None:
-        """Structure and program for the design; another law has other coefficients."""
-        self._living: Living = living(
-            self.design, self._chosen, self.measures, **self._limits, free=self._free, position=self._stand()
-        )
+    @property
+    def _page(self) -> Living:
+        """What the page shows, and the program that it runs."""
+        assert self._living
+        return self._living
+
+    def _send_structure(self) -> None:
+        files = [kind for kind in FILES if kind not in OF_PROFILES or hasattr(self.analysis, "profile")]
         with self.hold_sync():
-            files = [kind for kind in FILES if kind not in OF_PROFILES or hasattr(self.analysis, "profile")]
-            self.structure, self.program = {**self._living.structure, "files": files}, self._living.packed
+            self.structure, self.program = {**self._page.structure, "files": files}, self._page.packed
             self._push()
 
     def _push(self) -> None:
         """The page's sliders at the values of the design."""
         self.values = [float(value_of(self.design, path)) for path in quantities_of(self.design)]
 
-    def _stand(self) -> dict[str, float]:
+    def _stand(self, views: Sequence[View]) -> dict[str, float]:
         """Where the mechanism stands when the page begins."""
-        asked = {name for view in self.views for name in positions_of(view)}
+        asked = {name for view in views for name in positions_of(view)}
         return {name: value for name, value in self._position.items() if name in asked}
 
     def _settled(self, change: Any) -> None:
         """What the page shows becomes the design, if it can be built."""
         paths = list(quantities_of(self.design))
         if len(change.new) == len(paths) and change.new != [value_of(self.design, path) for path in paths]:
-            self._try(lambda: changed(self.design, dict(zip(paths, change.new, strict=True))))
+            self._try(lambda: self._of(change.new))
+
+    def _of(self, values: Sequence[float]) -> Any:
+        """The design whose quantities have these values, in their order."""
+        paths = list(quantities_of(self.design))
+        if len(values) != len(paths):
+            raise ValueError(f"the page sends {len(values)} numbers; the design has {len(paths)}")
+        return changed(self.design, dict(zip(paths, values, strict=True)))
 
     def _try(self, make: Callable[[], Analysable]) -> None:
         try:
             self.design = make()
         except ValueError:
             return  # the page says it in the same words
-        except IMPOSSIBLE as error:
+        except Exception as error:  # whatever somebody's own mechanism raises
             self._go_back(error)
 
     def _go_back(self, error: Exception) -> None:
@@ -215,23 +243,23 @@ class Instrument(anywidget.AnyWidget):
         try:
             if "choose" in message:
                 path, option = message["choose"]
-                self.design = changed(self.design, {path: choices_of(self.design)[path].named[option]})
+                Paths(self.design, [path], Choice)
+                self.design = changed(self.design, {path: option})
             elif "file" in message:
                 self._send_file(message["file"])
             elif "open" in message:
                 self.load_json(message["open"])
             elif "compute" in message:
                 self._compute(message)
-        except IMPOSSIBLE as error:
+        except Exception as error:  # a page must always be answered
             self.message = f"{reason(error)[:1].upper()}{reason(error)[1:]}."
 
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])
         values, names = message["compute"], (p["name"] for p in self.structure["positions"])
         try:
-            design = changed(self.design, dict(zip(quantities_of(self.design), values[:count], strict=True)))
-            shown = self._living.show(design, **dict(zip(names, values[count:], strict=True)))
-        except IMPOSSIBLE as error:
+            shown = self._page.show(self._of(values[:count]), **dict(zip(names, values[count:], strict=True)))
+        except Exception as error:  # whatever somebody's own mechanism raises
             shown = {"sentence": reason(error), "arrays": []}
         self._answer(shown, {"answer": message["number"]})
 
@@ -240,6 +268,11 @@ class Instrument(anywidget.AnyWidget):
         self.send({**more, **{name: part for name, part in shown.items() if name != "arrays"}}, arrays)
 
     def _send_file(self, kind: str) -> None:
+        """A file of the design that the page shows; ``ValueError`` where that cannot be built."""
+        if kind not in self.structure["files"]:
+            raise ValueError(f"{shown(kind)} is no kind of file here; there are {', '.join(self.structure['files'])}")
+        if (seen := self._of(self.values)) != self.design:
+            seen.analyse()
         self.send({"file": f"{type(self.design).__name__}.{kind}"}, [FILES[kind](self)])
 
     def load_json(self, file: str | bytes) -> None:
@@ -255,7 +288,7 @@ class Instrument(anywidget.AnyWidget):
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""
-        a_path(path).write_text(self._living.html(), encoding="utf-8")
+        a_path(path).write_text(self._page.html(), encoding="utf-8")
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
@@ -269,7 +302,7 @@ class Instrument(anywidget.AnyWidget):
     def figure(self) -> Still:
         """The views of the design, as a figure of matplotlib."""
         limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
-        return picture(self.analysis, *self.views, limits=limits, **self._stand())
+        return picture(self.analysis, *self.views, limits=limits, **self._stand(self.views))
 
     def still(self) -> bytes:
         """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
@@ -290,7 +323,7 @@ class Instrument(anywidget.AnyWidget):
 
 FILES: dict[str, Callable[[Instrument], bytes]] = {
     "json": lambda app: designs.to_json(app.design).encode(),
-    "html": lambda app: app._living.html().encode(),
+    "html": lambda app: app._page.html().encode(),
     "svg": lambda app: saved(app.figure(), "svg"),
     "pdf": lambda app: saved(app.figure(), "pdf"),
     "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
@@ -301,11 +334,12 @@ OF_PROFILES = ("csv", "dxf")
 """Of these, what only a design with a profile has."""
 
 
-def _make(design: object) -> tuple[object, ...]:
-    """What a recording is made for: the paths of a design, and what is chosen at them."""
-    return tuple(declared_in(design)), tuple(
-        (path, d.text(value_of(design, path))) for path, d in choices_of(design).items()
-    )
+def _alike(one: Analysable, other: Analysable) -> bool:
+    """Whether designs differ in their quantities alone, so that one recording is for both."""
+    try:
+        return bool(changed(one, {path: value_of(other, path) for path in quantities_of(other)}) == other)
+    except ValueError:  # another make, or an array in it
+        return False
 
 
 def instrument(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:

@@ -100,7 +100,9 @@ def recorded(function: Callable[[dict[str, Any]], Mapping[str, object]], inputs:
         with unremarked(), np.errstate(all="ignore"), uncollected():
             outputs = function(given)
     except Exception as error:
-        raise unrecorded(error) or error from error
+        if why := unrecorded(error):
+            raise why from error
+        raise
     texts = {name: recording.texts.parted(value) for name, value in outputs.items() if isinstance(value, str)}
     arrays = {name: value for name, value in outputs.items() if name not in texts}
     found: dict[str | int, Recorded | np.ndarray] = {

@@ -80,8 +80,8 @@ class Outputs:
 
     def picture(self, picture: Picture, name: str, why: str = "") -> Json:
         """A picture by the name of its view, and ``why`` it does not compute if it does not."""
-        marks = outlined(picture, SIZE) if why else picture.marks
-        return {"name": name, "still": why, "axes": self._parts(picture.axes), "marks": [*map(self._mark, marks)]}
+        marks = [*map(self._mark, outlined(picture, SIZE))]
+        return {"name": name, "still": why, "axes": self._parts(picture.axes), "marks": marks}
 
     def _mark(self, mark: Mark) -> Json:
         return {"kind": type(mark).__name__.lower(), **self._parts(mark)}
@@ -125,7 +125,7 @@ class Living:
         return {
             "pictures": [self._seen(view, now, position, outputs) for view in self.views],
             "positions": [outputs.at(row) for row in _position_rows(now, self.first)],
-            "measures": [_measure(m, m(now), self.limits.get(m), outputs) for m in self.measures],
+            "measures": [_measure(m, m.of(now, 1), self.limits.get(m), outputs) for m in self.measures],
             "trouble": outputs.at(_trouble(now)),
         }
 
@@ -134,9 +134,8 @@ class Living:
         try:
             return self._picture(view, now, position, outputs)
         except Exception as error:
-            if (why := unrecorded(error)) is None:
-                raise
-        return self._picture(view, self.design.analyse(), self.first, outputs, str(why))
+            why = str(unrecorded(error) or error)
+        return self._picture(view, self.design.analyse(), self.first, outputs, why)
 
     def _picture(
         self, view: View, analysis: object, position: Mapping[str, float], outputs: Outputs, why: str = ""
@@ -157,7 +156,7 @@ class Living:
 
         try:
             program = record(show, self.design, self.first)
-        except CannotRecord as error:
+        except Exception as error:  # what is wrong without recording too is raised again
             return self.show(self.design, **self.first) | {"arrays": [], "refusals": []}, None, str(error)
         return _with_texts(shown, _templates(program)) | {"refusals": _refusals(program)}, program, ""
 
@@ -207,9 +206,17 @@ def living(
     refuse_limits(at_most or {}, at_least or {})
     analysis = design.analyse()
     views = tuple(views) or default_views(analysis)
-    measures = measures_of(design) if measures is None else tuple(measures)
-    limits = {m: (v, 1) for m, v in (at_most or {}).items()} | {m: (v, -1) for m, v in (at_least or {}).items()}
+    measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
+    limits = {m: (float(v), 1) for m, v in (at_most or {}).items()}
+    limits |= {m: (float(v), -1) for m, v in (at_least or {}).items()}
     return Living(design, views, measures, limits, _first_positions(analysis, views) | dict(position or {}), free)
+
+
+def limited(
+    measures: Sequence[Measure], at_most: Mapping[Measure, float] | None, at_least: Mapping[Measure, float] | None
+) -> tuple[Measure, ...]:
+    """``measures``, and those that have a limit: a limit that nobody sees would seem to be kept."""
+    return tuple(dict.fromkeys((*measures, *(at_most or {}), *(at_least or {}))))
 
 
 def _plainly(shown: dict[str, Json], outputs: Outputs) -> dict[str, Json]:

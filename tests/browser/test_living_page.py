@@ -15,7 +15,7 @@ from camkit.render.living import living
 from camkit.render.page_parts import script
 from camkit.render.picture import given_to, positions_of
 from camkit.views import default_views, pressure_angle
-from camkit.views.picture import Axes, Line, Picture, Points, Text
+from camkit.views.picture import Axes, Contour, Line, Picture, Points, Text
 
 MOST_BYTES = 500_000
 SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
@@ -368,3 +368,33 @@ def test_a_kernel_that_computes_is_asked_one_question_at_a_time(browser):
 def test_what_cannot_be_recorded_is_no_page(tmp_path):
     with pytest.raises(CannotRecord, match="a truth value"):
         to_html(Truth(), evil_view, path=tmp_path / "truth.html")
+
+
+def odd_view(analysis):
+    x, places = analysis.cam.x, np.linspace(0, 1, 4)
+    return Picture.of(
+        Axes(title=f"of {x / mm:.3g}", xlabel=f"at {x / mm:.3g} [constructor]"),
+        Contour("level", places, places, np.add.outer(places, places), [1.0]),
+        Line("line", [0.0, x], [1.0, 1.0], steps=False),
+    )
+
+
+def wide_view(analysis):
+    return Picture.of(Axes(title="wide"), Text("t", 0.0, 0.0, f"{analysis.cam.x / mm:8.3f}"))
+
+
+def test_texts_of_axes_have_their_numbers_and_what_a_page_cannot_write_stands_still(opened):
+    page = opened(Evil(), odd_view, wide_view, measures=[])
+    page.evaluate(DRAG, [1.0, 0])
+    page.wait_for_function(DRAWN)
+    assert page.evaluate("camkit.charts[0].describe()").startswith("of 4; at 4 [constructor] from ")
+    level, line = page.evaluate(SHOWN)["pictures"][0]["marks"]
+    assert (level["kind"], line["x"]) == ("line", ["0", "0.004"])
+    assert "written as" in page.evaluate("camkit.structure.pictures[1].still")
+    box = page.locator(".camkit-left .camkit-box input")
+    for text in ("1e400", "NaN", "Infinity", "\u0661\u0662", "\uff11\uff12", "9" * 10_000):
+        box.fill(text)
+        box.press("Enter")
+        assert page.locator(".camkit-refusal:not(:empty)").count() == 1
+    assert page.evaluate("camkit.values[0]") == 4 * mm
+    assert not page.heard

@@ -182,3 +182,111 @@ def test_pictures_that_do_not_record_follow(monkeypatch):
 def test_the_state_is_plain(app):
     assert json.loads(json.dumps(app.structure))["name"] == "Translating roller cam"
     assert "image/png" in app._repr_mimebundle_()[0]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        5,
+        {"choose": ["nowhere", "x"]},
+        {"choose": ["base_radius", "x"]},
+        {"choose": ["motion.rise.law", "no law"]},
+        {"choose": 5},
+        {"file": "exe"},
+        {"file": ["json"]},
+        {"open": None},
+        {"open": "[" * 100_000},
+        {"open": '{"__proto__": {"kind": 1e400}}'},
+        {"compute": [1.0]},
+    ],
+    ids=lambda message: str(message)[:30],
+)
+def test_whatever_the_page_asks_is_answered_in_a_sentence(app, message):
+    before = app.design
+    app._handle_custom_msg(message, [])
+    assert app.message.endswith(".")
+    assert app.design is before
+
+
+def test_numbers_of_another_design_are_answered(app, sent):
+    for values in ([1.0], ["x"] * len(app.values), [None] * len(app.values)):
+        ask(app, compute=values, number=3)
+        assert sent.pop()[0]["sentence"]
+
+
+def test_a_design_that_cannot_be_shown_leaves_everything_as_it_was(app):
+    before, structure = app.design, app.structure
+    for other in (DoorHandleCam(), "design", type(before)):
+        with pytest.raises(ValueError, match="the design is"):
+            app.design = other
+    assert app.design is before
+    assert app.structure is structure
+
+
+def test_a_free_quantity_that_a_law_takes_away_comes_back():
+    cam = TranslatingRollerCam()
+    rise, *others = cam.motion.segments
+    shaped = cam.replace(
+        motion=cam.motion.replace(segments=(rise.replace(law=ShapedLaw(c=(0.1, 0.0, 0.0, 0.0))), *others))
+    )
+    app = instrument(shaped, mechanism, free=["motion.rise.law", "motion.rise.law.c0"], measures=[])
+    app.design = cam
+    assert not any(q["free"] for q in app.structure["quantities"])
+    assert len(app.values) == len(app.structure["quantities"])
+    app.design = shaped
+    assert [q["name"] for q in app.structure["quantities"] if q["free"]] == ["motion rise law c0"]
+
+
+def test_a_slider_of_its_own_makes_room_for_a_design_beyond_its_ends(app):
+    slider = app.control("base_radius")
+    wide = app.design.replace(base_radius=3 * slider.max * mm)
+    app.design = wide
+    assert app.design is wide
+    assert slider.value == pytest.approx(wide.base_radius / mm)
+
+
+def test_what_cannot_be_built_is_not_saved_as_the_last_design(app, sent):
+    settle(app, base_radius=-1.0)
+    ask(app, file="json")
+    assert not sent
+    assert "must be" in app.message
+
+
+def test_two_that_follow_each_other_come_to_rest(app):
+    other = instrument(app.design, mechanism, measures=[max_pressure_angle])
+    app.on_change(other.load)
+    other.on_change(app.load)
+    settle(app, base_radius=45 * mm)
+    assert other.design == app.design
+    settle(other, base_radius=48 * mm)
+    assert app.design.base_radius == 48 * mm
+    assert app.values == other.values
+
+
+def test_a_limit_is_shown_though_its_measure_is_not_listed():
+    app = instrument(TranslatingRollerCam(), mechanism, measures=[], at_most={max_pressure_angle: np.float64(1)})
+    assert [m["limit"] for m in app.structure["measures"]] == [1.0]
+
+
+def test_a_mechanism_of_plain_numbers_is_computed_by_the_kernel():
+    rounded = Measure(
+        "rounded", "mm", lambda analysis: round(analysis.cam.x, 6) * {True: 1}[analysis.cam.x.is_integer() < 2]
+    )
+    app = instrument(Stubborn(), measures=[rounded])
+    assert app.program == b""
+    assert app.rows()[0][1] == 1 * mm
+
+
+def test_a_measure_that_fails_is_said_in_a_sentence_at_once():
+    broken = Measure("broken", "mm", lambda analysis: None + analysis.height[-1])
+    with pytest.raises(ValueError, match="the broken cannot be computed: TypeError"):
+        instrument(Stubborn(), measures=[broken])
+
+
+def no_view(analysis):
+    return None + analysis.cam.start_height
+
+
+def test_a_view_that_fails_is_said_in_a_sentence_at_once():
+    with pytest.raises(ValueError, match="the view no view cannot be computed: TypeError"):
+        instrument(TranslatingRollerCam(), no_view)

@@ -70,7 +70,10 @@ export class Row {
 
   _typed() {
     const read = parse(this.box.value, this.declared.unit, this.units);
-    if (read.error) this.refuse(read.error); else this._take(read.value * this.declared.factor, true);
+    const value = read.value * this.declared.factor;
+    if (read.error) this.refuse(read.error);
+    else if (!Number.isFinite(value)) this.refuse(`'${this.box.value}' is too large for a computer`);
+    else this._take(value, true);
   }
 }
 

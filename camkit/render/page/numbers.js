@@ -196,7 +196,7 @@ function powers(product, units) {
 export function pretty(unit) {
   return unit
     .replace(/\^([+-]?[\d.]+)/g, (_, power) => raised(power))
-    .replace(/[A-Za-z]+/g, (name) => ({ deg: "°", um: "µm", inch: "in" })[name] ?? name)
+    .replace(/\b(deg|um|inch)\b/g, (name) => ({ deg: "°", um: "µm", inch: "in" })[name])
     .replace(/\s*\*\s*/g, "·");
 }
 

@@ -126,7 +126,7 @@ export class Panel {
   _menu({ path, name, options, chosen }) {
     if (!this.host) return make("div", { class: "camkit-choice" }, make("span", {}, name), make("b", {}, chosen));
     const offered = options.includes(chosen) ? options : [chosen, ...options];
-    const menu = make("select", { "aria-label": name, onchange: () => this.host.choose(path, menu.value) }, ...offered.map((option) => make("option", { value: option, selected: option === chosen }, option)));
+    const menu = make("select", { "aria-label": name, onchange: () => { this.host.choose(path, menu.value); menu.value = chosen; } }, ...offered.map((option) => make("option", { value: option, selected: option === chosen }, option)));
     return make("label", { class: "camkit-choice" }, make("span", {}, name), menu);
   }
 

@@ -15,7 +15,7 @@ const PATIENCE = 10_000;
 
 /** The kernel computes: one question at a time, and of those that wait the newest. @param {any} model */
 function asking(model) {
-  let number = 0;
+  let number = Math.floor(Math.random() * 2 ** 40); // each view of the model has its own
   /** @type {any} */ let asked = null;
   /** @type {any} */ let waiting = null;
   const send = (/** @type {any} */ question) => { asked = question; asked.at = performance.now(); model.send({ compute: question.values, number: ++number }); };
@@ -44,29 +44,33 @@ const GONE = "The kernel has ended: this page computes on by itself; run the cel
 /** @param {{model: any, el: HTMLElement}} host */
 async function render({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
-  /** @type {any} */ let panel = null;
+  /** @type {any} */ let panel = null, saving = false;
   const host = {
     changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) { model.set({ values, computed }); model.save_changes(); },
     choose: (/** @type {string} */ path, /** @type {string} */ option) => model.send({ choose: [path, option] }),
-    file: (/** @type {string} */ kind) => model.send({ file: kind }),
+    file: (/** @type {string} */ kind) => { saving = true; model.send({ file: kind }); },
     open: (/** @type {string} */ text) => model.send({ open: text }),
   };
+  let begun = 0;
   const begin = async () => {
-    const engine = await engineOf(model), structure = structuredClone(model.get("structure"));
+    const number = ++begun, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
+    if (number < begun) return; // structure and program come together
     panel?.end();
     panel = el.camkit = new Panel(root, structure, engine, host);
     panel.say(model.get("message"));
+    moved(); // the design may have moved since the structure was made
   };
   const moved = () => {
     const values = model.get("values"), shown = panel?.values ?? [];
     if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
   };
   const heard = {
+    "change:structure": begin, // and with it the program, which may be the same
     "change:program": begin,
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      if (message.file) download(message.file, buffers[0]);
+      if (message.file && saving) { saving = false; download(message.file, buffers[0]); } // not in every view
       if (message.still) panel?.redraw(message.pictures, arrays(buffers));
     },
     "comm_live_update": () => panel?.say(GONE), // it happens once more after the beginning: at the end
