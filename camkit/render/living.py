@@ -101,8 +101,8 @@ class Living:
     design: Analysable
     views: tuple[View, ...]
     measures: tuple[Measure, ...]
-    limits: Mapping[Measure, tuple[float, int]]
-    """By measure its value in SI and its sense: 1 for at most, -1 for at least."""
+    limits: Mapping[Measure, tuple[tuple[float, int], ...]]
+    """Of a measure: value in SI and sense (1 for at most, -1 for at least), of one limit or two."""
     first: Mapping[str, float]
     free: Sequence[str] | None = None
 
@@ -125,9 +125,14 @@ class Living:
         return {
             "pictures": [self._seen(view, now, position, outputs) for view in self.views],
             "positions": [outputs.at(row) for row in _position_rows(now, self.first)],
-            "measures": [_measure(m, m.of(now, 1), self.limits.get(m), outputs) for m in self.measures],
+            "measures": [_measure(m, m.of(now, 1), limit, outputs) for m, limit in self._limited()],
             "trouble": outputs.at(_trouble(now)),
         }
+
+    def _limited(self) -> Iterator[tuple[Measure, tuple[float, int] | None]]:
+        """Each measure with its limit, if it has one; those that have two once more, after all."""
+        yield from ((m, self.limits[m][0] if m in self.limits else None) for m in self.measures)
+        yield from ((m, second) for m, limits in self.limits.items() for second in limits[1:])
 
     def _seen(self, view: View, now: object, position: Mapping[str, float], outputs: Outputs) -> Json:
         """What a view shows now; of the first design, and why, where that cannot be recorded."""
@@ -140,7 +145,7 @@ class Living:
     def _picture(
         self, view: View, analysis: object, position: Mapping[str, float], outputs: Outputs, why: str = ""
     ) -> Json:
-        asked = {"limits": {measure: value for measure, (value, _) in self.limits.items()}, **position}
+        asked = {"limits": {measure: limits[-1][0] for measure, limits in self.limits.items()}, **position}
         with applied(f"the view {_name(view).replace('_', ' ')}", analysis):
             return outputs.picture(view(analysis, **given_to(view, asked)), _name(view), why)
 
@@ -207,8 +212,8 @@ def living(
     analysis = design.analyse()
     views = tuple(views) or default_views(analysis)
     measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
-    limits = {m: (float(v), 1) for m, v in (at_most or {}).items()}
-    limits |= {m: (float(v), -1) for m, v in (at_least or {}).items()}
+    limits = {m: ((float(v), 1),) for m, v in (at_most or {}).items()}
+    limits |= {m: (*limits.get(m, ()), (float(v), -1)) for m, v in (at_least or {}).items()}
     return Living(design, views, measures, limits, _first_positions(analysis, views) | dict(position or {}), free)
 
 

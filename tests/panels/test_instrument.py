@@ -290,3 +290,12 @@ def no_view(analysis):
 def test_a_view_that_fails_is_said_in_a_sentence_at_once():
     with pytest.raises(ValueError, match="the view no view cannot be computed: TypeError"):
         instrument(TranslatingRollerCam(), no_view)
+
+
+def test_a_measure_may_have_a_limit_on_both_sides():
+    limits = {"at_most": {max_pressure_angle: 0.5}, "at_least": {max_pressure_angle: 0.1}}
+    app = instrument(TranslatingRollerCam(), mechanism, measures=[max_pressure_angle, min_profile_radius], **limits)
+    rows = [(m["name"], m.get("limit"), m.get("sense")) for m in app.structure["measures"]]
+    name = max_pressure_angle.name
+    assert rows == [(name, 0.5, 1), (min_profile_radius.name, None, None), (name, 0.1, -1)]
+    assert len(app.rows()) == 2
