@@ -1,7 +1,7 @@
 """What a page that computes takes: recorded and packed by the processor here, run and drawn in Chromium.
 
-``python benchmarks/living_pages.py`` from the repository's root; a table of times in ms: medians of moves 200 to 300, when the
-engine has compiled what it runs.
+``python benchmarks/living_pages.py`` from the repository's root; a table of times in ms: medians of moves
+200 to 300, when the engine has compiled what it runs.
 """
 
 import sys
