@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import Any
 
@@ -288,7 +289,11 @@ class Instrument(anywidget.AnyWidget):
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""
-        a_path(path).write_text(self._page.html(), encoding="utf-8")
+        a_path(path).write_text(self.html(), encoding="utf-8")
+
+    def html(self) -> str:
+        """The page of the design as it is now, as one file."""
+        return replace(self._page, design=self.design).html()
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""
@@ -323,7 +328,7 @@ class Instrument(anywidget.AnyWidget):
 
 FILES: dict[str, Callable[[Instrument], bytes]] = {
     "json": lambda app: designs.to_json(app.design).encode(),
-    "html": lambda app: app._page.html().encode(),
+    "html": lambda app: app.html().encode(),
     "svg": lambda app: saved(app.figure(), "svg"),
     "pdf": lambda app: saved(app.figure(), "pdf"),
     "csv": lambda app: profiles.profile_csv(app.analysis).encode(),

@@ -299,3 +299,12 @@ def test_a_measure_may_have_a_limit_on_both_sides():
     name = max_pressure_angle.name
     assert rows == [(name, 0.5, 1), (min_profile_radius.name, None, None), (name, 0.1, -1)]
     assert len(app.rows()) == 2
+
+
+def test_a_page_that_is_saved_begins_with_the_design_as_it_is_now(app, tmp_path):
+    settle(app, base_radius=45 * mm)
+    app.to_html(tmp_path / "cam.html")
+    text = (tmp_path / "cam.html").read_text(encoding="utf-8")
+    structure = json.loads(text.partition('id="structure">')[2].partition("</script>")[0])
+    place = list(quantities_of(app.design)).index("base_radius")
+    assert structure["quantities"][place]["value"] == 45 * mm
