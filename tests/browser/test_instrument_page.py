@@ -1,7 +1,10 @@
 """The instrument in JupyterLab: the page computes, with the kernel ended too, and the kernel knows what it shows."""
 
+import inspect
+
 import nbformat
 import pytest
+import stubborn
 from playwright.sync_api import expect
 
 from camkit import ArmLoad, DoorHandleCam, door_handle_study
@@ -16,28 +19,7 @@ study = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
 app = instrument(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app
 """
-STUBBORN = """
-from dataclasses import dataclass
-import numpy as np
-from camkit import instrument, mm
-from camkit.quantities import Design, quantity
-from camkit.study import AnalysisCurve
-@dataclass(frozen=True)
-class Stubborn(Design):
-    x: float = quantity("x", 1, 0.1, 4, "mm", "a length")
-    def analyse(self, n=5):
-        return Stubbornly(self)
-@dataclass(frozen=True)
-class Stubbornly:
-    cam: Stubborn
-    cam_angle = np.linspace(0, 1, 5)
-    offers = (AnalysisCurve("height", "mm", "height"),)
-    @property
-    def height(self):
-        return self.cam.x * (self.cam_angle if self.cam.x > 2 * mm else 2 * self.cam_angle)
-app = instrument(Stubborn())
-app
-"""
+STUBBORN = f"{inspect.getsource(stubborn)}\nfrom camkit import instrument\napp = instrument(Stubborn())\napp"
 BUSY = """() => { const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
     kernel.requestExecute({ code: "import time; time.sleep(8)" }); }"""
 STUDY = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
@@ -147,3 +129,21 @@ def test_a_kernel_that_is_busy_stops_nothing(shown):
     settled(page)
     assert page.evaluate(f"{PAGE}.shownAt") >= before + 5
     assert of_page(page)["values"][0] == pytest.approx(0.051)
+
+
+def test_a_number_is_typed_as_people_type(shown):
+    page = shown(START)
+    box = page.get_by_label("lift arm, mm, number")
+    for text, value in (("48,123456789", 0.048123456789), ("1 7/8 in", 0.047625), ("52.5", 0.0525)):
+        box.fill(text)
+        box.press("Enter")
+        eventually(lambda value=value: kernel_value(page, "app.design.lift_arm") == pytest.approx(value, rel=1e-14))
+        box.blur()  # the box shows fewer digits than count
+        assert page.evaluate(f"{PAGE}.values[0]") == pytest.approx(value, rel=1e-14)
+    box.fill("400")
+    box.press("Enter")
+    expect(page.locator(".camkit-over")).to_contain_text("This cannot be built: ")
+    assert kernel_value(page, "app.design.lift_arm") == pytest.approx(0.0525)
+    box.fill("abc")
+    box.press("Enter")
+    expect(page.locator(".camkit-refusal:not(:empty)")).to_contain_text("is no number")

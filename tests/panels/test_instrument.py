@@ -1,17 +1,15 @@
 """The instrument in the kernel: what the page settles on becomes the design, and what it asks for is answered."""
 
 import json
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import pytest
+from stubborn import Stubborn
 
 from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointShaft, instrument, mm
 from camkit.cam import max_pressure_angle, min_profile_radius
 from camkit.motion import ShapedLaw
-from camkit.quantities import Design, quantities_of, quantity, value_of
-from camkit.study import AnalysisCurve
+from camkit.quantities import quantities_of, value_of
 from camkit.views import mechanism
 
 
@@ -131,27 +129,6 @@ def test_a_follower_that_fails_is_said_and_stops_no_other(app):
     settle(app, base_radius=45 * mm)
     assert heard == [app.design]
     assert app.message.startswith("What follows this panel cannot be shown everywhere: ")
-
-
-@dataclass(frozen=True)
-class Stubborn(Design):
-    """What no program can be made of: it asks for the truth of a number."""
-
-    x: float = quantity("x", 1, 0.1, 4, "mm", "a length")
-
-    def analyse(self, n=5):
-        return Stubbornly(self)
-
-
-@dataclass(frozen=True)
-class Stubbornly:
-    cam: Stubborn
-    cam_angle = np.linspace(0, 1, 5)
-    offers = (AnalysisCurve("height", "mm", "height"),)
-
-    @cached_property
-    def height(self):
-        return self.cam.x * (self.cam_angle if self.cam.x > 2 * mm else 2 * self.cam_angle)
 
 
 def test_what_does_not_record_the_kernel_computes(monkeypatch):

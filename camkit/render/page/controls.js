@@ -37,7 +37,7 @@ export class Row {
     this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * declared.factor, false));
     this.slider.addEventListener("change", () => moved(this.value, true));
     this.box.addEventListener("change", () => this._typed());
-    this.box.addEventListener("keydown", (event) => { if (event.key === "Escape") this.show(this.value); });
+    this.box.addEventListener("keydown", (event) => { if (event.key === "Escape") this.show(this.value); else if (event.key === "Enter") this._typed(); }); // JupyterLab takes what Enter does to a field
     this.show(declared.value);
   }
 
@@ -46,7 +46,7 @@ export class Row {
     this.value = value;
     const read = value / this.declared.factor;
     this.slider.value = String(read);
-    this.box.value = format(read, this.declared.written ?? ".6g");
+    this.written = this.box.value = format(read, this.declared.written ?? ".6g");
     this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.declared.unit)}`.trim());
     this.box.style.width = `${Math.max(this.box.value.length, 2) + 0.6}ch`;
     this.refuse("");
@@ -68,7 +68,9 @@ export class Row {
   /** @param {number} value @param {boolean} settled */
   _take(value, settled) { this.show(value); this.moved(value, settled); }
 
+  /** Take what is in the box, unless it is what was written there: that may have fewer digits than the value. */
   _typed() {
+    if (this.box.value === this.written) { this.refuse(""); return; }
     const read = parse(this.box.value, this.declared.unit, this.units);
     const value = read.value * this.declared.factor;
     if (read.error) this.refuse(read.error);
