@@ -39,9 +39,13 @@ help:
 	@echo "make notebooks  run every notebook again and store its outputs"
 	@echo "make clean      remove caches (not $(VENV))"
 
+# The settings in .jupyter are defaults of this JupyterLab alone: widgets are saved with their notebook, no news.
+# What you set yourself, in this JupyterLab or in another one, comes before them.
+LAB_SETTINGS := JUPYTER_CONFIG_PATH="$(CURDIR)/.jupyter$${JUPYTER_CONFIG_PATH:+:$$JUPYTER_CONFIG_PATH}"
+
 lab: $(VENV)/.lab
 	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
-	$(BIN)/jupyter lab $(AS_ROOT) $(LAB) notebooks/00_start_here.ipynb
+	$(LAB_SETTINGS) $(BIN)/jupyter lab $(AS_ROOT) $(LAB) notebooks/00_start_here.ipynb
 
 # Read "Publishing" in README.md before naming another HOST.  The limits are in notebooks/voila.json.
 HOST := 127.0.0.1
@@ -73,12 +77,14 @@ lint: $(VENV)/.test
 bench: $(VENV)/.test
 	$(BIN)/python -m pytest benchmarks --benchmark-only
 
-# Widget state, timings and the Python version would change at every run, so they are not stored.
+# Widget state and timings would change at every run, so they are not stored.  JupyterLab marks a notebook unsaved
+# unless it says its language as the kernel does.
 notebooks: $(VENV)/.test
 	$(BIN)/jupyter nbconvert --to notebook --execute --inplace \
 	    --ExecutePreprocessor.store_widget_state=False --ExecutePreprocessor.record_timing=False \
 	    --ClearMetadataPreprocessor.enabled=True --ClearMetadataPreprocessor.clear_cell_metadata=False \
 	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=kernelspec \
+	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=language_info \
 	    notebooks/*.ipynb
 
 # After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out.

@@ -41,8 +41,8 @@ CHROMIUM_FLAGS = [
     "--no-sandbox",
 ]
 
-# The settings file in which a question about news, which would cover the notebook, is answered.
-NOTIFICATIONS = "@jupyterlab/apputils-extension/notification.jupyterlab-settings"
+# What `make lab` gives its server.
+SETTINGS = Path(__file__).parents[2] / ".jupyter"
 
 
 def find_chromium() -> str | None:
@@ -84,13 +84,13 @@ class LabServer:
 def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> Iterator[LabServer]:
     """JupyterLab on a free port, serving ``root``; its kernels import from ``source`` first.
 
-    All its settings lie in ``folder``; none of the user's count.
+    Its settings are those of `make lab`; none of the user's count.
     """
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     server = LabServer(f"http://127.0.0.1:{port}", secrets.token_hex(16), root)
-    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(source)}
+    environment = os.environ | isolation(folder) | {"PYTHONPATH": str(source), "JUPYTER_CONFIG_PATH": str(SETTINGS)}
     configuration = {
         "ServerApp": {
             "port": port,
@@ -103,11 +103,8 @@ def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> I
         "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
     }
     config = Path(environment["JUPYTER_CONFIG_DIR"], "jupyter_lab_config.json")
-    notifications = Path(environment["JUPYTERLAB_SETTINGS_DIR"], NOTIFICATIONS)
     config.parent.mkdir()
     config.write_text(json.dumps(configuration))
-    notifications.parent.mkdir(parents=True)
-    notifications.write_text(json.dumps({"fetchNews": "false", "checkForUpdates": False}))
     log = folder / "server.log"
     with log.open("w") as out:
         process = subprocess.Popen(
