@@ -11,7 +11,23 @@ from ..program.page import MACHINE
 from .draw import ROLES, STROKES, colour
 
 PAGE = Path(__file__).with_name("page")
-MODULES = ("numbers", "picture", "controls", "panel")
+MODULES = tuple(
+    [
+        "numbers",
+        "picture",
+        "controls",
+        "engine",
+        "bar",
+        "history",
+        "measures",
+        "verdict",
+        "quantities",
+        "positions",
+        "pointer",
+        "tabs",
+        "panel",
+    ]
+)
 """What every page is made of, each on those before it."""
 DASHES: Mapping[str, Sequence[float]] = {"-": (), "--": (3.7, 1.6), ":": (1.0, 1.65), "-.": (6.4, 1.6, 1.0, 1.6)}
 """Of a line, in its widths."""

@@ -212,6 +212,26 @@ def test_the_scale_only_makes_room_while_it_turns_and_the_pinned_design_turns_to
     assert pinned[-1] == pytest.approx(2.9)
 
 
+def test_a_tab_chooses_what_stands_at_the_right_and_others_can_be_added(opened):
+    page = opened(MACHINES["door handle"])
+    page.evaluate("""() => { const mine = document.createElement("p");
+        mine.textContent = "a page of my own";
+        window.told = 0;
+        camkit.addTab("Mine", mine, () => { window.told += 1; }, true); }""")
+    curves, numbers = page.locator(".camkit-curves"), page.locator(".camkit-numbers")
+    width = page.locator(".camkit-right-side").bounding_box()["width"]
+    assert (curves.is_visible(), numbers.is_visible(), page.evaluate("told")) == (True, False, 0)
+    page.get_by_role("tab", name="Curves").focus()
+    page.keyboard.press("ArrowLeft")  # round to the last one
+    assert page.get_by_role("tabpanel", name="Mine").is_visible()
+    assert (curves.is_visible(), page.evaluate("told")) == (False, 1)
+    assert page.locator(".camkit-right-side").bounding_box()["width"] > width + 50
+    page.evaluate("camkit.showTab('Numbers')")
+    page.wait_for_function("() => !camkit.frame")
+    assert page.locator(".camkit-numbers tr").count() > 3
+    assert page.get_by_role("tab", selected=True).inner_text() == "Numbers"
+
+
 def test_on_a_narrow_screen_everything_stands_below_the_mechanism_that_stays(opened):
     page = opened(MACHINES["door handle"])
     page.set_viewport_size({"width": 420, "height": 800})
@@ -270,7 +290,7 @@ def test_names_that_are_pieces_of_a_page_stay_names(opened):
     evil_view.__name__ = EVIL
     size = Measure(EVIL, "mm", lambda analysis: analysis.cam.x)
     page = opened(Evil(), evil_view, measures=[size], at_most={size: 2 * mm})
-    page.get_by_role("button", name="Numbers").click()
+    page.get_by_role("tab", name="Numbers").click()
     page.evaluate(DRAG, [0.9, 0])
     page.wait_for_function(DRAWN)
     shown = page.evaluate(SHOWN)

@@ -1,5 +1,6 @@
 // A page that stands alone: what it shows and the program that it runs are in the file.
-import { Panel, programOf } from "./panel.js";
+import { programOf } from "./engine.js";
+import { Panel } from "./panel.js";
 
 const text = (/** @type {string} */ id) => document.getElementById(id)?.textContent ?? "";
 const structure = JSON.parse(text("structure"));

@@ -1,5 +1,6 @@
 // The page as a widget of a notebook: it computes and draws by itself and tells the kernel what a person settled on.
-import { Panel, programOf } from "./panel.js";
+import { programOf } from "./engine.js";
+import { Panel } from "./panel.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineOf(model) {

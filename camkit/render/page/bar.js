@@ -1,0 +1,29 @@
+// The row above all: the name of the design, what was done and is undone, and files.
+import { make } from "./controls.js";
+
+/** @type {Record<string, string>} */
+const FILES = {
+  json: "Design (JSON)", html: "Living page (HTML)", svg: "Picture (SVG)", pdf: "Picture (PDF)", csv: "Profile (CSV)", dxf: "Profile (DXF)",
+};
+
+/** @param {string} words @param {string} title @param {() => void} act */
+export const button = (words, title, act) =>
+  make("button", { type: "button", title, "aria-label": /\w/.test(words) ? undefined : title, onclick: act }, words);
+
+/** Buttons that save and open files, if there is a host to ask. @param {string[]} kinds
+ * @param {import("./panel.js").Host | null} host */
+export function filesOf(kinds, host) {
+  if (!host) return [];
+  const opened = async () => { if (file.files[0]) host.open(await file.files[0].text()); file.value = ""; };
+  const file = make("input", { type: "file", accept: ".json", hidden: true, onchange: opened });
+  const save = make("select", { "aria-label": "Export", onchange: () => { if (save.value) host.file(save.value); save.value = ""; } },
+    make("option", { value: "" }, "Export"), ...kinds.map((kind) => make("option", { value: kind }, FILES[kind])));
+  return [button("Open", "Open a saved design", () => file.click()), file, save];
+}
+
+/** A button for the whole screen, where there is one to be had. @param {HTMLElement} root */
+export function screenOf(root) {
+  if (!document.fullscreenEnabled) return [];
+  const act = () => void (document.fullscreenElement ? document.exitFullscreen() : root.requestFullscreen());
+  return [button("Full screen", "As large as the screen, and back", act)];
+}

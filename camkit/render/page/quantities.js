@@ -1,0 +1,48 @@
+// The quantities of a design: rows in groups that fold, menus for choices, and a box to find them by name.
+import { Row, folded, make } from "./controls.js";
+
+const MANY = 8; // from here on there is a box to find one
+
+export class Quantities {
+  /** @param {any} structure @param {(k: number, value: number, settled: boolean) => void} moved
+   * @param {((path: string, option: string) => void) | null} choose what takes a choice, if anything does */
+  constructor(structure, moved, choose) {
+    this.declared = structure.quantities;
+    this.rows = this.declared.map((/** @type {any} */ quantity, /** @type {number} */ k) =>
+      new Row({ ...quantity }, structure.units, (value, settled) => moved(k, value, settled)));
+    this.choices = structure.choices.map((/** @type {any} */ choice) => menuOf(choice, choose));
+    const free = this.rows.map((/** @type {Row} */ row, /** @type {number} */ k) => [this.declared[k].group, row]);
+    this.groups = folded(free.filter((/** @type {any} */ _, /** @type {number} */ k) => this.declared[k].free));
+    if (this.choices.length) {
+      this.groups.push(make("details", {}, make("summary", {}, `Choices (${this.choices.length})`), ...this.choices));
+    }
+    const words = "find a quantity";
+    this.find = make("input", { type: "search", placeholder: words, "aria-label": words, oninput: () => this._filter() });
+    this.nothing = make("p", { class: "camkit-nothing", hidden: true }, "no quantity has this name");
+    const search = this.rows.length > MANY ? [this.find, this.nothing] : [];
+    this.element = make("div", { class: "camkit-left", role: "group", "aria-label": "quantities" }, ...search, ...this.groups);
+  }
+
+  _filter() {
+    const wanted = this.find.value.trim().toLowerCase(), has = (/** @type {string} */ text) => text.toLowerCase().includes(wanted);
+    this.declared.forEach((/** @type {any} */ q, /** @type {number} */ k) => {
+      this.rows[k].element.hidden = !has(`${q.name} ${q.symbol}`);
+    });
+    for (const choice of this.choices) choice.hidden = !has(choice.firstChild.textContent);
+    for (const group of this.groups) {
+      if (wanted) group.open = true;
+      group.hidden = Boolean(wanted) && ![...group.children].slice(1).some((row) => !row.hidden);
+    }
+    this.nothing.hidden = this.groups.some((/** @type {HTMLElement} */ group) => !group.hidden);
+  }
+}
+
+/** A menu; what nobody takes stays as it is. @param {{path: string, name: string, options: string[], chosen: string}} choice
+ * @param {((path: string, option: string) => void) | null} choose */
+function menuOf({ path, name, options, chosen }, choose) {
+  if (!choose) return make("div", { class: "camkit-choice" }, make("span", {}, name), make("b", {}, chosen));
+  const offered = options.includes(chosen) ? options : [chosen, ...options];
+  const menu = make("select", { "aria-label": name, onchange: () => { choose(path, menu.value); menu.value = chosen; } },
+    ...offered.map((option) => make("option", { value: option, selected: option === chosen }, option)));
+  return make("label", { class: "camkit-choice" }, make("span", {}, name), menu);
+}
