@@ -230,6 +230,13 @@ def _plainly(shown: dict[str, Json], outputs: Outputs) -> dict[str, Json]:
     return _with_texts(shown, outputs.texts) | {"arrays": arrays}
 
 
+def plain_picture(picture: Picture, name: str) -> dict[str, Json]:
+    """A picture by the name of its view as a page draws it: plain JSON, its arrays as bytes of float64."""
+    outputs = Outputs()
+    shown = _plainly({"picture": outputs.picture(picture, name)}, outputs)
+    return {**shown, "arrays": [np.asarray(array, dtype=float).tobytes() for array in shown["arrays"]]}  # type: ignore[attr-defined]
+
+
 def _with_texts(shown: dict[str, Json], texts: Mapping[str, Json]) -> dict[str, Json]:
     """``shown`` with texts in the place of their names."""
     return {name: _worded(part, texts) for name, part in shown.items()}

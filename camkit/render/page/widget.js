@@ -1,6 +1,7 @@
 // The page as a widget of a notebook: it computes and draws by itself and tells the kernel what a person settled on.
 import { programOf } from "./engine.js";
 import { Panel } from "./panel.js";
+import { download } from "./files.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineOf(model) {
@@ -29,15 +30,6 @@ function asking(model) {
   });
   const ask = (/** @type {any} */ question) => { if (asked && performance.now() - asked.at < PATIENCE) waiting = question; else send(question); };
   return { run: (/** @type {Float64Array} */ values) => new Promise((answered) => { ask({ values: [...values], answered }); }) };
-}
-
-/** Give the person a file. @param {string} name @param {DataView} content */
-function download(name, content) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([content]));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 const GONE = "The kernel has ended: this page computes on by itself; run the cell again to send designs to a new one.";
@@ -71,7 +63,7 @@ async function render({ model, el }) {
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      if (message.file && saving) { saving = false; download(message.file, buffers[0]); } // not in every view
+      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); } // not in every view
       if (message.still) panel?.redraw(message.pictures, arrays(buffers));
     },
     "comm_live_update": () => panel?.say(GONE), // it happens once more after the beginning: at the end

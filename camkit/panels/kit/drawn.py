@@ -1,0 +1,112 @@
+"""A picture on a sheet: views of what is shown, as marks that the page draws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import traitlets
+
+from ...quantities.applied import applied
+from ...quantities.types import Array
+from ...render.living import plain_picture
+from ...render.picture import below, given_to, picture
+from ...views.picture import Picture, View
+from .parts import Part
+
+FARTHEST = 1e30
+"""No mark is drawn farther than this, in the units of its axes."""
+INCH = 62
+"""Pixels of the page for an inch of the still picture."""
+
+
+class LivePicture(Part):
+    """Views of what is shown, beside each other: in the page as marks, and as a still picture where there is none.
+
+    ``width`` and ``height`` are those of the still picture, inches.
+    """
+
+    kind = "picture"
+    description = traitlets.Unicode("").tag(page=True)
+    pixels = traitlets.Int().tag(page=True)
+    pointing = traitlets.Unicode("").tag(page=True)
+    """What a person may do in it beside looking: "click", or "drag", which includes it."""
+    count = traitlets.Int(0).tag(page=True)
+    """How often it has been drawn: by it the page knows another picture."""
+
+    def __init__(self, views: tuple[View, ...], description: str, width: float = 12.6, height: float = 7.0) -> None:
+        self.views, self.size = views, (width, height)
+        self.data: list[dict[str, object]] = []
+        self.shown: tuple[Picture, ...] = ()
+        """What the views have made."""
+        self._last: tuple[object, dict[str, object]] | None = None
+        self._pointed: Callable[[int, str, Array, Array], None] = lambda *told: None
+        super().__init__(description=description, pixels=round(INCH * height))
+
+    def show(self, thing: object, views: tuple[View, ...] | None = None, **asked: object) -> None:
+        """Show something else, through other ``views`` if they are given.
+
+        What cannot be drawn raises ``ValueError`` or ``ArithmeticError``, and the picture stays as it was.
+        """
+        through = self.views if views is None else views
+        shown = tuple(_made(view, thing, asked) for view in through)
+        for each in shown:
+            _refuse_far_marks(each)
+        self.data = [plain_picture(each, _name(view)) for view, each in zip(through, shown, strict=True)]
+        self.views, self.shown, self._last = through, shown, (thing, asked)
+        self.count += 1
+
+    def png(self) -> bytes:
+        """The picture as a PNG file."""
+        if not self._last:
+            return below()
+        thing, asked = self._last
+        return picture(thing, *self.views, width=self.size[0], height=self.size[1], **asked)._repr_png_()  # type: ignore[arg-type]
+
+    def on_pointer(self, act: Callable[[int, str, Array, Array], None]) -> None:
+        """Call ``act(view, kind, at, pixel)``: "press", "drag", "release", "click" in the picture of a view.
+
+        ``at`` is the place in its user units ``(2,)``, ``pixel`` the size of a pixel in them.
+        """
+        self._pointed, self.pointing = act, "drag"
+
+    def on_click(self, act: Callable[[int, Array, Array], None]) -> None:
+        """Call ``act(view, at, pixel)`` at every click."""
+        self._pointed = lambda view, kind, at, pixel: act(view, at, pixel) if kind == "click" else None
+        self.pointing = "click"
+
+    def take(self, message: Mapping[str, Any]) -> None:
+        """The pointer does something."""
+        at, pixel = (np.array(message[name], dtype=float) for name in ("at", "pixel"))
+        if at.shape == pixel.shape == (2,) and np.isfinite([at, pixel]).all():
+            self._pointed(int(message["view"]), str(message["does"]), at, pixel)
+
+
+def nearest(points: Array, at: Array, pixel: Array, within: float = np.inf) -> int | None:
+    """Which of ``points`` ``(p, 2)`` is nearest to ``at``, less than ``within`` pixels away.
+
+    >>> nearest(np.array([[0.0, 0.0], [1.0, 5.0]]), np.array([0.9, 4.0]), np.array([0.01, 0.1]))
+    1
+    """
+    away = np.hypot(*((points - at) / pixel).T)
+    return int(np.nanargmin(away)) if np.nanmin(away, initial=np.inf) < within else None
+
+
+def _made(view: View, thing: Any, asked: Mapping[str, object]) -> Picture:
+    with applied(f"the view {_name(view)}", thing):
+        return view(thing, **given_to(view, asked))
+
+
+def _name(view: View) -> str:
+    return str(getattr(view, "__name__", "that is given")).replace("_", " ")
+
+
+def _refuse_far_marks(shown: Picture) -> None:
+    """No renderer finds scales for numbers of any size."""
+    for mark in shown.marks:
+        for name in ("x", "y", "low", "high"):
+            values = np.abs(np.asarray(getattr(mark, name, 0.0), dtype=float))
+            far = values[np.isfinite(values)].max(initial=0)
+            if far > FARTHEST:
+                raise OverflowError(f"a curve reaches {far:.3g}, farther than can be drawn")

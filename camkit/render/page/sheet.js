@@ -1,0 +1,208 @@
+// A small instrument: parts below each other and their pictures, as the kernel says; by itself or as a tab of a panel.
+import { make } from "./controls.js";
+import { PARTS } from "./parts.js";
+import { Chart } from "./picture.js";
+import { fill, format } from "./numbers.js";
+
+/**
+ * @typedef {{get(name: string): any, send(message: any, callbacks?: any, buffers?: ArrayBuffer[]): void}} Model
+ */
+
+/** Arrays that came in buffers. @param {DataView[]} buffers */
+const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
+/** How long a question waits for its answer before another one is asked, ms. */
+const PATIENCE = 10_000;
+
+export class Sheet {
+  /** @param {HTMLElement} root @param {Model} model */
+  constructor(root, model) {
+    Object.assign(this, { root, model, asked: 0, sentAt: 0 });
+    const { look, units } = model.get("setting");
+    Object.assign(this, { look, units });
+    /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
+    /** What waits to be sent, the newest of each part. @type {Map<number, any>} */ this.waiting = new Map();
+    root.classList.add("camkit-sheet");
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    this.system.addEventListener("change", () => this.draw());
+    this.theme = new MutationObserver(() => this.draw());
+    this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    this.resized = new ResizeObserver(() => this.draw());
+    this.resized.observe(root);
+    this.show();
+  }
+
+  /** Leave the page. */
+  end() { this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true; }
+
+  dark = () => {
+    const light = document.body.dataset.jpThemeLight;
+    return light ? light === "false" : this.system.matches;
+  };
+
+  /** What is shown: the state of each part, and of each picture its window and marks in user units. */
+  shown() {
+    const charts = [...this.parts.values()].flatMap(({ part }) => part.charts ?? []);
+    return { body: this.model.get("body"), pictures: charts.map((chart) => chart.list) };
+  }
+
+  /** Show what the kernel says. */
+  show() {
+    if (this.ended) return;
+    const body = this.model.get("body"), heading = this.model.get("heading");
+    this.heading ??= make("h3", {}, heading);
+    this.heading.hidden = !heading;
+    this.answered = body.heard;
+    this.seen = new Set();
+    const top = this._part(body).element;
+    if (this.root.children.length !== 2) this.root.replaceChildren(this.heading, top);
+    for (const id of this.parts.keys()) if (!this.seen.has(id)) { this.parts.delete(id); this.waiting.delete(id); }
+    this._sendNext();
+    this.draw();
+  }
+
+  /** The part of a state, made once; what a person has just done with it and the kernel has not heard stays.
+   * @param {any} state */
+  _part(state) {
+    const { children, ...own } = state;
+    this.seen.add(state.id);
+    let known = this.parts.get(state.id);
+    if (!known) {
+      const make_ = KINDS[state.kind] ?? PARTS[state.kind];
+      known = { part: null, text: "", sent: -1 };
+      known.part = make_(own, this._for(state.id));
+      this.parts.set(state.id, known);
+    }
+    const text = JSON.stringify(own), done = known.sent >= 0 && known.sent <= this.answered;
+    if (known.sent < 0 ? text !== known.text : done) { known.text = text; known.sent = -1; known.part.show(own); }
+    known.part.element.hidden = !state.visible || (state.kind === "table" && !state.head.length);
+    if (children) hold(known.part.element, children.map((/** @type {any} */ child) => this._part(child).element));
+    return known.part;
+  }
+
+  /** What a part needs of its sheet. @param {number} id */
+  _for(id) {
+    return {
+      units: this.units, look: this.look, dark: this.dark, sheet: this, id,
+      say: (/** @type {any} */ done, /** @type {ArrayBuffer[]} */ buffers = []) => {
+        this.waiting.delete(id);
+        const known = this.parts.get(id);
+        if (known) known.sent = Infinity;
+        this.waiting.set(id, { done, buffers });
+        this._sendNext();
+      },
+    };
+  }
+
+  /** One message at a time; a kernel that does not answer is asked again later. */
+  _sendNext() {
+    const free = this.answered >= this.asked || performance.now() - this.sentAt > PATIENCE, [next] = this.waiting;
+    if (!free || !next) return;
+    const [part, { done, buffers }] = next;
+    this.waiting.delete(part);
+    this.sentAt = performance.now();
+    this.parts.get(part).sent = ++this.asked;
+    this.model.send({ ...done, part, count: this.asked }, undefined, buffers);
+  }
+
+  /** Draw every picture in the next frame. */
+  draw() {
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0;
+      this.root.classList.toggle("camkit-dark", this.dark());
+      this.root.classList.toggle("camkit-wide", this.root.clientWidth >= 760);
+      for (const { part } of this.parts.values()) part.draw?.();
+    });
+  }
+}
+
+/** The same children without touching those that stay. @param {HTMLElement} parent @param {HTMLElement[]} children */
+function hold(parent, children) {
+  if (children.length !== parent.children.length || children.some((child, k) => parent.children[k] !== child)) parent.replaceChildren(...children);
+}
+
+/** Parts that only a sheet has. @type {Record<string, (state: any, sheet: any) => any>} */
+const KINDS = {
+  group() {
+    const element = make("div", {});
+    return { element, show(/** @type {any} */ { row, look }) { element.className = `camkit-group ${row ? "camkit-line" : ""} ${look && `camkit-${look}`}`; } };
+  },
+
+  picture(_, { sheet, say, look, dark }) {
+    const element = make("div", { class: "camkit-pictures" }), tip = make("div", { class: "camkit-tip", hidden: true });
+    /** @type {any} */ const part = { element, charts: [] };
+    part.draw = () => {
+      for (const chart of part.charts) {
+        if (!chart.canvas.clientWidth) continue;
+        chart.em = parseFloat(getComputedStyle(element).fontSize) / 13;
+        chart.draw(chart.own, { dark: dark(), settled: true, words: (/** @type {any} */ text) => (typeof text === "string" ? text : fill(text, chart.own)) });
+        chart.canvas.setAttribute("aria-label", chart.describe());
+      }
+    };
+    part.show = (/** @type {any} */ { id, pixels, description, pointing }) => {
+      const made = sheet.model.get("pictures")[id] ?? [];
+      if (made.length !== part.charts.length) {
+        part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, () => part.pointing, say, () => sheet.draw()));
+        element.replaceChildren(...part.charts.map((/** @type {Chart} */ chart) => chart.canvas), tip);
+      }
+      part.pointing = pointing;
+      element.style.setProperty("--tall", `${pixels}px`);
+      element.setAttribute("role", "group"); element.setAttribute("aria-label", description);
+      made.forEach((/** @type {any} */ one, /** @type {number} */ k) => Object.assign(part.charts[k], { picture: one.picture, own: arrays(one.arrays) }));
+      sheet.draw();
+    };
+    return part;
+  },
+};
+
+/** What the pointer does in a picture: hover for values; click and drag for the kernel, else pan and zoom.
+ * @param {Chart} chart @param {number} view @param {HTMLElement} tip @param {() => string} pointing @param {any} say @param {() => void} draw */
+function pointed(chart, view, tip, pointing, say, draw) {
+  const { canvas } = chart;
+  /** @type {number[] | null} */ let from = null;
+  let moved = false;
+  const at = (/** @type {any} */ event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+  const tell = (/** @type {string} */ does, /** @type {number[]} */ [px, py]) => {
+    const [x, y] = [chart.x.back(px), chart.y.back(py)];
+    say({ does, view, at: [x, y], pixel: [Math.abs(chart.x.back(px + 1) - x), Math.abs(chart.y.back(py + 1) - y)] });
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button || !chart.box) return;
+    from = at(event); moved = false;
+    canvas.setPointerCapture(event.pointerId);
+    if (pointing() === "drag") tell("press", from);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!chart.box) return;
+    const here = at(event);
+    if (!from) { hover(chart, tip, here); return; }
+    if (!moved && Math.hypot(here[0] - from[0], here[1] - from[1]) < 4) return;
+    moved = true;
+    if (pointing() === "drag") tell("drag", here);
+    else { chart.pan(here[0] - from[0], here[1] - from[1]); from = here; draw(); }
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (!from) return;
+    from = null;
+    if (!moved && pointing()) tell("click", at(event));
+    if (pointing() === "drag") tell("release", at(event));
+  });
+  canvas.addEventListener("pointercancel", () => { from = null; });
+  canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+  canvas.addEventListener("dblclick", () => { chart.fit(); draw(); });
+  canvas.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey && document.activeElement !== canvas) return; // the page scrolls
+    event.preventDefault();
+    chart.zoom(Math.exp(event.deltaY * 0.0015), ...at(event)); draw();
+  }, { passive: false });
+  return chart;
+}
+
+/** The place under the pointer, or the values of the curves there. @param {Chart} chart @param {HTMLElement} tip @param {number[]} place */
+function hover(chart, tip, [px, py]) {
+  if (!chart.inside(px, py) || chart.picture.axes.bare) { tip.hidden = true; return; }
+  const x = chart.x.back(px), y = chart.y.back(py), round = (/** @type {number} */ v) => format(v, ".4g");
+  const rows = chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.axes.title} ${round(value)}`);
+  tip.textContent = rows.length ? [`at ${round(x)}`, ...rows.slice(0, 8)].join("\n") : `${round(x)}, ${round(y)}`;
+  tip.hidden = false;
+  tip.style.left = `${chart.canvas.offsetLeft + px + 14}px`; tip.style.top = `${chart.canvas.offsetTop + py + 14}px`;
+}

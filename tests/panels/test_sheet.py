@@ -1,0 +1,179 @@
+"""Sheets: what the page is told, and what comes of what a person does there."""
+
+import json
+
+import numpy as np
+import pytest
+
+from camkit.panels.kit.drawn import LivePicture, nearest
+from camkit.panels.kit.inputs import Amount, Check, Download, Menu, Number, Scale, Span, Typed, Upload, Whole
+from camkit.panels.kit.parts import Banner, Button, Group, Progress, Table, Words, bold, row
+from camkit.panels.kit.sheet import Panel
+from camkit.quantities import Quantity
+from camkit.views.picture import Axes, Line, Picture
+
+
+class OneOfEach(Panel):
+    """A sheet with every kind of part."""
+
+    def __init__(self):
+        self.said = []
+        self.banner, self.numbers = Banner(), Table()
+        self.arm = Number("arm", Quantity("l", 40, 10, 90, "mm", "an arm", above=0), 0.04, self.moved, self.said.append)
+        self.menu = Menu([("first", 1), ("second", 2)], "problem")
+        self.scale = Scale([("1/3", 1 / 3), ("1", 1.0), ("3", 3.0)], "a against b", value=1.0)
+        self.whole = Whole(3, 1, 9, "starts")
+        self.check, self.amount, self.typed = Check(), Amount(unit="mm"), Typed()
+        self.span = Span(min=0.0, max=4.0, value=(1.0, 2.0))
+        self.button = Button("Divide", lambda: 1 / 0)
+        self.save = Download("Save", "x.txt", "text/plain", lambda: "all", self.banner.show_message)
+        self.load = Upload("Load", self.said.append)
+        self.picture = LivePicture((wave,), "a wave")
+        self.picture.on_click(lambda view, at, pixel: self.said.append((view, *at)))
+        inputs = row(self.arm, self.menu, self.scale, self.whole, self.check, self.amount, self.typed, self.span)
+        words = Words(value=["plain", [bold("bold"), " after"]])
+        files = Group(self.button, self.save, self.load, Progress(value=1, max=4))
+        super().__init__(inputs, words, files, self.banner, self.numbers, self.picture, heading="One of each")
+
+    def moved(self):
+        self.picture.show(self.arm.value)
+
+    def summary(self):
+        return "one of each"
+
+
+def wave(size):
+    x = np.linspace(0, 1, 5)
+    return Picture.of(Axes(title="a wave"), Line("wave", x, size * np.sin(x)))
+
+
+@pytest.fixture
+def sheet():
+    made = OneOfEach()
+    made.picture.show(1.0)
+    return made
+
+
+def do(sheet, part, **done):
+    """As the page says it; the state of the part that it is answered with."""
+    count = sheet.body["heard"] + 1
+    buffers = done.pop("buffers", [])
+    sheet._handle_custom_msg({"part": part.number, "count": count, **done}, buffers)
+    assert sheet.body["heard"] == count
+    return told(sheet, part)
+
+
+def told(sheet, part):
+    def find(state):
+        if state["id"] == part.number:
+            return state
+        return next(filter(None, map(find, state.get("children", ()))), None)
+
+    return find(sheet.body)
+
+
+def test_all_that_a_sheet_tells_is_plain_json_and_its_pictures_are_bytes(sheet):
+    json.dumps([sheet.body, sheet.setting])
+    (shown,) = sheet.pictures[str(sheet.picture.number)]
+    y = np.frombuffer(shown["arrays"][shown["picture"]["marks"][0]["y"]["at"]])
+    np.testing.assert_array_equal(y, np.sin(np.linspace(0, 1, 5)))
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "value"),
+    [
+        ("arm", 0.05, 0.05),
+        ("menu", 1, 2),
+        ("scale", 0, 1 / 3),
+        ("whole", 7, 7),
+        ("whole", 99, 9),
+        ("check", True, True),
+        ("amount", 2.5, 2.5),
+        ("typed", "1/5", "1/5"),
+        ("span", [3.0, 0.5], (0.5, 3.0)),
+    ],
+)
+def test_what_a_person_says_is_the_value_and_is_heard_once(sheet, name, given, value):
+    part, heard = getattr(sheet, name), []
+    part.observe(lambda change: heard.append(change.new), "value")
+    do(sheet, part, value=given)
+    assert part.value == value
+    assert heard == [value]
+
+
+def test_a_number_that_is_far_too_large_is_refused_and_the_last_one_stays(sheet):
+    do(sheet, sheet.arm, value=-5.0)
+    assert sheet.arm.value == 0.04
+    assert sheet.said == ["The arm stays as before: -5000 mm was typed; it must be a finite number above 0 mm."]
+    for nothing in (float("nan"), float("inf")):
+        do(sheet, sheet.arm, value=nothing)
+        assert sheet.arm.value == 0.04
+
+
+@pytest.mark.parametrize(
+    "done", [{}, {"value": None}, {"value": "x"}, {"value": 17}, {"value": [1]}, {"does": "click", "at": "here"}]
+)
+def test_nonsense_from_a_page_is_answered_and_leaves_the_sheet_alive(sheet, done):
+    for part in sheet.top.inside():
+        do(sheet, part, **done)
+    do(sheet, sheet.whole, value=5)
+    assert sheet.whole.value == 5
+    sheet._handle_custom_msg({"part": 10**9, "count": 77}, [])
+    assert sheet.body["heard"] == 77
+
+
+def test_an_error_is_said_in_the_banner(sheet):
+    do(sheet, sheet.button)
+    assert sheet.banner.text == "Division by zero."
+    assert told(sheet, sheet.banner)["visible"]
+
+
+def test_what_changes_together_is_told_once(sheet):
+    bodies = []
+    sheet.observe(lambda change: bodies.append(change.new), "body")
+    with sheet.held():
+        sheet.whole.value, sheet.typed.value = 4, "x"
+        sheet.numbers.put(("a",), [(1,), (bold(2),)])
+    assert len(bodies) == 1
+    assert told(sheet, sheet.numbers)["rows"] == [["1"], [{"words": "2", "look": "bold"}]]
+    assert sheet.numbers.text == "a\n1\n2"
+
+
+def test_files_go_out_and_come_in(sheet, monkeypatch):
+    sent = []
+    monkeypatch.setattr(sheet.save, "send", sent.append)
+    sheet.save.click()
+    assert sent == [{"name": "x.txt", "mime": "text/plain", "text": "all"}]
+    do(sheet, sheet.load, buffers=[memoryview(b"content")])
+    assert sheet.said == [b"content"]
+
+
+def test_a_click_has_its_place_in_user_units(sheet):
+    do(sheet, sheet.picture, does="click", view=0, at=[0.25, -1.0], pixel=[0.01, 0.02])
+    assert sheet.said == [(0, 0.25, -1.0)]
+
+
+def test_a_picture_that_cannot_be_drawn_leaves_the_last_one(sheet):
+    before = sheet.pictures
+    with pytest.raises(OverflowError, match="farther than can be drawn"):
+        sheet.picture.show(1e40)
+    assert sheet.pictures == before
+    assert sheet.picture.shown[0]["wave"].y[-1] == pytest.approx(np.sin(1))
+
+
+def test_nothing_is_nearest_to_a_place_far_from_all():
+    points = np.array([[0.0, 0.0], [1.0, 1.0]])
+    assert nearest(points, np.array([0.9, 0.9]), np.array([0.01, 0.01]), within=30) == 1
+    assert nearest(points, np.array([0.5, 0.5]), np.array([0.01, 0.01]), within=30) is None
+    assert nearest(np.empty((0, 2)), np.zeros(2), np.ones(2)) is None
+
+
+def test_a_sheet_is_one_widget_and_carries_a_picture_and_numbers_without_a_kernel(sheet):
+    data, _ = sheet._repr_mimebundle_()
+    assert data["text/plain"] == "one of each"
+    assert data["image/png"]
+    assert not [
+        name
+        for name in sheet.keys
+        if "model" in name.lower() and name not in ("_model_module", "_model_name", "_model_module_version")
+    ]
