@@ -13,7 +13,7 @@ from ...quantities.types import Array
 from ...render.living import plain_picture
 from ...render.picture import below, given_to, picture
 from ...views.picture import Picture, View
-from .parts import Part
+from .parts import Message, Part
 
 FARTHEST = 1e30
 """No mark is drawn farther than this, in the units of its axes."""
@@ -76,7 +76,7 @@ class LivePicture(Part):
         self._pointed = lambda view, kind, at, pixel: act(view, at, pixel) if kind == "click" else None
         self.pointing = "click"
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """The pointer does something."""
         at, pixel = (np.array(message[name], dtype=float) for name in ("at", "pixel"))
         if at.shape == pixel.shape == (2,) and np.isfinite([at, pixel]).all():

@@ -14,20 +14,30 @@ import traitlets
 from ...files.json_file import MOST_BYTES
 from ...quantities import Quantity, words
 from ...units import in_unit
-from .parts import Button, Part
+from .parts import Button, Message, Part
 
 
-class Number(Part):
+class Input(Part):
+    """Something with a name and a ``value`` that a person changes."""
+
+    description = traitlets.Unicode("").tag(page=True)
+    disabled = traitlets.Bool(False).tag(page=True)
+    value: Any = traitlets.Any().tag(page=True)
+
+    def take(self, message: Message) -> None:
+        """Another value."""
+        self.value = message["value"]
+
+
+class Number(Input):
     """A quantity with symbol, slider, box and unit; ``value`` is in SI, exact.
 
-    A number typed into the box counts to its last digit, even outside the slider's range.  ``changed_by_hand()`` is
-    called for another number, ``refused(sentence)`` for one that is far too large; the last number then stays.
+    A number typed into the box counts to its last digit, even outside the slider's range.  ``moved()`` is called
+    for another number, ``refused(sentence)`` for one that is far too large; the last number then stays.
     """
 
     kind = "number"
-    value: Any = traitlets.Float().tag(page=True)
-    declared: Any = traitlets.Any()
-    disabled = traitlets.Bool(False).tag(page=True)
+    value = traitlets.Float().tag(page=True)
 
     def __init__(
         self,
@@ -38,8 +48,8 @@ class Number(Part):
         refused: Callable[[str], None] = lambda sentence: None,
         **given: object,
     ) -> None:
-        self.name, self._moved, self._refused = name, moved, refused
-        super().__init__(declared=declared, value=float(value), **given)
+        self.name, self.declared, self._moved, self._refused = name, declared, moved, refused
+        super().__init__(value=float(value), **given)
 
     def described(self) -> dict[str, object]:
         """With its declaration."""
@@ -51,7 +61,7 @@ class Number(Part):
         """Show ``value`` (SI) without telling anyone but the page."""
         self.value = float(value)
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """Another number; one that is far too large is refused."""
         value = float(message["value"])
         if not math.isfinite(value):
@@ -71,26 +81,14 @@ def far_too_large(declared: Quantity, value: float) -> bool:
     return math.isfinite(value) and abs(value) > largest and not declared.allows(value)
 
 
-class Input(Part):
-    """Something with a name and a ``value`` that a person changes."""
-
-    description = traitlets.Unicode("").tag(page=True)
-    disabled = traitlets.Bool(False).tag(page=True)
-    value: Any = traitlets.Any().tag(page=True)
-
-    def take(self, message: Mapping[str, Any]) -> None:
-        """Another value."""
-        self.value = message["value"]
-
-
 class Menu(Input):
     """One choice among ``options``, names or pairs of a name and a value; ``None``: nothing is chosen."""
 
     kind = "menu"
-    value: Any = traitlets.Any()
-    options: Any = traitlets.Any(())
+    value = traitlets.Any()
+    options = traitlets.Any(())
 
-    def __init__(self, options: Sequence[Any], description: str = "", **given: Any) -> None:
+    def __init__(self, options: Sequence[object], description: str = "", **given: object) -> None:
         options = tuple(options)
         first = {"value": _value(options[0])} if options and "value" not in given else {}
         super().__init__(options=options, description=description, **first, **given)
@@ -99,13 +97,13 @@ class Menu(Input):
         """With the names of its options, and which is chosen."""
         return {**super().described(), "names": [_name(option) for option in self.options], "chosen": self.index}
 
-    def offer(self, options: Sequence[Any], value: Any) -> None:
+    def offer(self, options: Sequence[object], value: object) -> None:
         """Other options, and which of them is chosen."""
         with self.hold_trait_notifications():
             self.options, self.value = tuple(options), value
 
     @property
-    def values(self) -> list[Any]:
+    def values(self) -> list[object]:
         """What can be chosen."""
         return [_value(option) for option in self.options]
 
@@ -114,12 +112,12 @@ class Menu(Input):
         """Which option is chosen."""
         return next((k for k, value in enumerate(self.values) if value is self.value or value == self.value), None)
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """Another option, by its place."""
         self.value = self.values[message["value"]]
 
     @traitlets.validate("value")
-    def _offered(self, proposal: Mapping[str, Any]) -> Any:
+    def _offered(self, proposal: Mapping[str, object]) -> object:
         value = proposal["value"]
         if value is not None and value not in self.values:
             raise traitlets.TraitError(f"{value!r} is none of the options")
@@ -141,7 +139,7 @@ class Whole(Input):
     min = traitlets.Int(0).tag(page=True)
     max = traitlets.Int(2**31).tag(page=True)
     slider = traitlets.Bool(False).tag(page=True)
-    value: Any = traitlets.Int(0).tag(page=True)
+    value = traitlets.Int(0).tag(page=True)
 
     def __init__(self, value: int, low: int, high: int, description: str, **given: object) -> None:
         super().__init__(min=low, max=high, value=value, description=description, **given)
@@ -155,14 +153,14 @@ class Check(Input):
     """Yes or no."""
 
     kind = "check"
-    value: Any = traitlets.Bool(False).tag(page=True)
+    value = traitlets.Bool(False).tag(page=True)
 
 
 class Amount(Input):
     """A box for a number in a ``unit``, or with one that goes into it."""
 
     kind = "amount"
-    value: Any = traitlets.Float(0.0).tag(page=True)
+    value = traitlets.Float(0.0).tag(page=True)
     unit = traitlets.Unicode("").tag(page=True)
 
 
@@ -170,7 +168,7 @@ class Typed(Input):
     """A box for a text."""
 
     kind = "typed"
-    value: Any = traitlets.Unicode("").tag(page=True)
+    value = traitlets.Unicode("").tag(page=True)
     placeholder = traitlets.Unicode("").tag(page=True)
 
 
@@ -180,9 +178,9 @@ class Span(Input):
     kind = "span"
     min = traitlets.Float(0.0).tag(page=True)
     max = traitlets.Float(1.0).tag(page=True)
-    value: Any = traitlets.Tuple((0.0, 1.0)).tag(page=True)
+    value = traitlets.Tuple((0.0, 1.0)).tag(page=True)
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """Other ends."""
         low, high = map(float, message["value"])
         self.value = (min(low, high), max(low, high))
@@ -229,14 +227,14 @@ class Upload(Part):
         self.use = use
         super().__init__(description=description)
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """A file."""
         self.use(bytes(message["buffers"][0]))
 
 
-def _name(option: Any) -> str:
+def _name(option: object) -> str:
     return str(option[0]) if isinstance(option, tuple) else str(option)
 
 
-def _value(option: Any) -> Any:
+def _value(option: object) -> object:
     return option[1] if isinstance(option, tuple) else option

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypedDict
 
 import traitlets
 
@@ -19,6 +19,19 @@ Piece = str | Mapping[str, object]
 """Words, or some that look otherwise: ``{"words": "kept", "look": "bold"}``, or behind a bar in the colour of a
 series: ``{"words": "design 3", "series": 3}``."""
 Line = Piece | Sequence[Piece]
+
+
+class Message(TypedDict, total=False):
+    """What the page says of a part."""
+
+    part: int
+    count: int
+    value: Any
+    does: str
+    view: int
+    at: Sequence[float]
+    pixel: Sequence[float]
+    buffers: Sequence[memoryview]
 
 
 class Part(traitlets.HasTraits):
@@ -33,7 +46,7 @@ class Part(traitlets.HasTraits):
         self.changed: Callable[[], None] = lambda: None
         super().__init__(**given)
 
-    def notify_change(self, change: Any) -> None:
+    def notify_change(self, change: traitlets.Bunch) -> None:
         """Whoever observes hears of it, and so does the page."""
         super().notify_change(change)
         self.changed()
@@ -47,7 +60,7 @@ class Part(traitlets.HasTraits):
         """This part and all that stand in it."""
         yield self
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """What a person has done with it."""
 
 
@@ -55,7 +68,7 @@ class Words(Part):
     """Lines of text; a ``role`` of "status" is read aloud when there is time, of "alert" at once."""
 
     kind = "words"
-    value: Any = traitlets.List().tag(page=True)
+    value = traitlets.List().tag(page=True)  # type: ignore[var-annotated]
     look = traitlets.Unicode("").tag(page=True)
     role = traitlets.Unicode("").tag(page=True)
 
@@ -86,8 +99,8 @@ class Table(Part):
     """Rows of cells under a head; a cell is a text or looks otherwise (see `Piece`)."""
 
     kind = "table"
-    head: Any = traitlets.List().tag(page=True)
-    rows: Any = traitlets.List().tag(page=True)
+    head = traitlets.List().tag(page=True)  # type: ignore[var-annotated]
+    rows = traitlets.List().tag(page=True)  # type: ignore[var-annotated]
 
     def put(self, head: Sequence[object] = (), rows: Sequence[Sequence[object]] = ()) -> None:
         """Another table; without a head there is none to see."""
@@ -125,7 +138,7 @@ class Button(Part):
         if not self.disabled:
             self.act()
 
-    def take(self, message: Mapping[str, Any]) -> None:
+    def take(self, message: Message) -> None:
         """It is pressed."""
         self.click()
 

@@ -16,7 +16,7 @@ from ...render.page_parts import PAGE, look, script
 from ...units import known_units
 from .drawn import LivePicture
 from .inputs import Download
-from .parts import Banner, Group, Part
+from .parts import Banner, Group, Message, Part
 
 IMPOSSIBLE = (ValueError, ArithmeticError)
 """What a design can raise that cannot be built, computed or drawn: a panel says it in a sentence."""
@@ -56,7 +56,7 @@ class Sheet(anywidget.AnyWidget):
         self._heard = 0
         self.top = Group(*children)
         super().__init__(setting={"look": look(), "units": known_units()}, heading=heading)
-        self.on_msg(lambda _, message, buffers: self._asked(dict(message), buffers))
+        self.on_msg(lambda _, message, buffers: self._asked(message, buffers))
         self._tell()
 
     @contextmanager
@@ -88,7 +88,7 @@ class Sheet(anywidget.AnyWidget):
                     self.pictures = pictures
                 self.body = {**self.top.described(), "heard": self._heard}
 
-    def _asked(self, message: dict[str, Any], buffers: Sequence[Any]) -> None:
+    def _asked(self, message: Message, buffers: Sequence[memoryview]) -> None:
         """A person has done something with a part; it is always answered."""
         with self.held():
             part = next((p for p in self.top.inside() if p.number == message.get("part")), None)
