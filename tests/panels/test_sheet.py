@@ -1,6 +1,7 @@
 """Sheets: what the page is told, and what comes of what a person does there."""
 
 import json
+import threading
 
 import numpy as np
 import pytest
@@ -137,6 +138,30 @@ def test_what_changes_together_is_told_once(sheet):
     assert len(bodies) == 1
     assert told(sheet, sheet.numbers)["rows"] == [["1"], [{"words": "2", "look": "bold"}]]
     assert sheet.numbers.text == "a\n1\n2"
+
+
+def test_threads_do_not_wait_for_each_other_and_are_told_together(sheet):
+    entered, go_on = threading.Event(), threading.Event()
+
+    def work():
+        with sheet.held():
+            sheet.typed.value = "from a thread"
+            entered.set()
+            go_on.wait(10)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    assert entered.wait(10)
+    late = threading.Timer(5, go_on.set)  # for one who waits
+    late.start()
+    before = sheet.body
+    sheet.whole.value = 4
+    assert not go_on.is_set()
+    assert sheet.body == before
+    late.cancel()
+    go_on.set()
+    thread.join(10)
+    assert (told(sheet, sheet.whole)["value"], told(sheet, sheet.typed)["value"]) == (4, "from a thread")
 
 
 def test_files_go_out_and_come_in(sheet, monkeypatch):

@@ -61,12 +61,13 @@ class Sheet(anywidget.AnyWidget):
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """What changes inside reaches the page together."""
+        """What changes inside reaches the page together; other threads go on meanwhile, and are heard at its end."""
         with self._lock:
             self._depth += 1
-            try:
-                yield
-            finally:
+        try:
+            yield
+        finally:
+            with self._lock:
                 self._depth -= 1
                 if self._waits and not self._depth:
                     self._tell()
