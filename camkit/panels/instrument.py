@@ -30,14 +30,14 @@ from ..quantities import (
 from ..quantities.applied import a_path, raised
 from ..quantities.kinds import refuse_arguments, shown
 from ..render.living import Living, limited, living
-from ..render.page_parts import PAGE, script
+from ..render.page_parts import STYLE, script
 from ..render.picture import Still, below, picture, positions_of, saved, small_png, strip, turn_range
 from ..study.study import refuse_limits
 from ..units import in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
 from .explore import changed, remarked
-from .kit.panel import IMPOSSIBLE, reason
+from .kit.sheet import IMPOSSIBLE, Sheet, reason
 
 AGREED = 1e-9
 """Page and kernel differ by less than such a share of a measure's size."""
@@ -51,13 +51,15 @@ class Instrument(anywidget.AnyWidget):
     """
 
     _esm = script("widget.js")
-    _css = (PAGE / "panel.css").read_text(encoding="utf-8")
+    _css = STYLE
     structure = traitlets.Dict().tag(sync=True)
     program = traitlets.Bytes().tag(sync=True)
     values = traitlets.List(traitlets.Float()).tag(sync=True)
     computed = traitlets.List(traitlets.Float(allow_none=True)).tag(sync=True)
     """The measures of ``values`` as the page computes them."""
     message = traitlets.Unicode().tag(sync=True)
+    tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
+    """What stands beside the curves, by its title: sheets."""
     design: Any = traitlets.Any()
 
     def __init__(
@@ -100,6 +102,11 @@ class Instrument(anywidget.AnyWidget):
     def on_change(self, act: Callable[..., object]) -> None:
         """Call ``act(design)`` after every change of what is shown."""
         self._followers.append(act)
+
+    def add_tab(self, title: str, *sheets: Sheet) -> None:
+        """Show sheets in a tab of that title, in place of those that are there."""
+        others = [tab for tab in self.tabs if tab["title"] != title]
+        self.tabs = [*others, {"title": title, "sheets": list(sheets)}]
 
     def load(self, design: Analysable) -> None:
         """Show ``design``; the last one stays where it cannot be computed, and the page says why.
@@ -293,7 +300,8 @@ class Instrument(anywidget.AnyWidget):
 
     def html(self) -> str:
         """The page of the design as it is now, as one file."""
-        return replace(self._page, design=self.design).html()
+        docks = [{"title": tab["title"], "sheets": [sheet.stored() for sheet in tab["sheets"]]} for tab in self.tabs]
+        return replace(self._page, design=self.design).html(docks)
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

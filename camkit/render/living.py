@@ -41,7 +41,7 @@ from ..units import deg, factor, known_units
 from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
 from .contours import outlined
-from .page_parts import PAGE, in_html, look, script
+from .page_parts import PAGE, STYLE, in_html, look, script
 from .picture import VIEWPOINT, given_to, positions_of, turn_range
 
 SIZE = np.array([400.0, 300.0])
@@ -183,13 +183,16 @@ class Living:
         text = numbers(self.program, steady=len(self.program.inputs) - len(self.first))
         return gzip.compress(text.encode(), 6, mtime=0)
 
-    def html(self) -> str:
-        """One file, without any outside address; `CannotRecord` where there is no program."""
+    def html(self, docks: Sequence[Json] = ()) -> str:
+        """One file, without any outside address; ``docks`` are the sheets in its tabs.
+
+        `CannotRecord` where there is no program.
+        """
         if not self.program:
             raise CannotRecord(self._recorded[2])
         parts = {
-            "style": (PAGE / "panel.css").read_text(encoding="utf-8"),
-            "structure": in_html(self.structure),
+            "style": STYLE,
+            "structure": in_html(self.structure | {"docks": docks}),
             "program": base64.b64encode(self.packed).decode("ascii"),
             "script": script("page.js"),
         }

@@ -19,6 +19,7 @@ MODULES = tuple(
         "files",
         "parts",
         "sheet",
+        "docks",
         "engine",
         "bar",
         "history",
@@ -32,6 +33,8 @@ MODULES = tuple(
     ]
 )
 """What every page is made of, each on those before it."""
+STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))
+"""How pages look."""
 DASHES: Mapping[str, Sequence[float]] = {"-": (), "--": (3.7, 1.6), ":": (1.0, 1.65), "-.": (6.4, 1.6, 1.0, 1.6)}
 """Of a line, in its widths."""
 

@@ -41,6 +41,7 @@ class LivePicture(Part):
         self.shown: tuple[Picture, ...] = ()
         """What the views have made."""
         self._last: tuple[object, dict[str, object]] | None = None
+        self._offered: dict[str, object] = {}
         self._pointed: Callable[[int, str, Array, Array], None] = lambda *told: None
         super().__init__(description=description, pixels=round(INCH * height))
 
@@ -54,8 +55,17 @@ class LivePicture(Part):
         for each in shown:
             _refuse_far_marks(each)
         self.data = [plain_picture(each, _name(view)) for view, each in zip(through, shown, strict=True)]
+        self.data[0] |= self._offered
         self.views, self.shown, self._last = through, shown, (thing, asked)
         self.count += 1
+
+    def offer(self, points: Array, designs: Array) -> None:
+        """Designs at ``points`` ``(n, 2)`` of the first view: the page shows the one under the pointer as a ghost.
+
+        ``designs`` ``(n, q)`` are the values of all quantities of the panel's design, SI; the next `show` sends them.
+        """
+        rows = (*np.asarray(points, dtype=float).T, np.ravel(designs))
+        self._offered = {"offered": [np.ascontiguousarray(row, dtype=float).tobytes() for row in rows]}
 
     def png(self) -> bytes:
         """The picture as a PNG file."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,7 +12,7 @@ import anywidget
 import traitlets
 
 from ...quantities.applied import raised
-from ...render.page_parts import PAGE, look, script
+from ...render.page_parts import STYLE, look, script
 from ...units import known_units
 from .drawn import LivePicture
 from .inputs import Download
@@ -45,7 +45,7 @@ class Sheet(anywidget.AnyWidget):
 
     banner: Banner
     _esm = script("sheet_widget.js")
-    _css = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))
+    _css = STYLE
     body = traitlets.Dict().tag(sync=True)
     pictures = traitlets.Dict().tag(sync=True)
     setting = traitlets.Dict().tag(sync=True)
@@ -58,6 +58,10 @@ class Sheet(anywidget.AnyWidget):
         super().__init__(setting={"look": look(), "units": known_units()}, heading=heading)
         self.on_msg(lambda _, message, buffers: self._asked(message, buffers))
         self._tell()
+
+    def stored(self) -> dict[str, object]:
+        """What it shows, as plain JSON that stands in a file."""
+        return {"body": self.body, "pictures": _in_letters(self.pictures), "heading": self.heading}
 
     @contextmanager
     def held(self) -> Iterator[None]:
@@ -101,6 +105,15 @@ class Sheet(anywidget.AnyWidget):
             except Exception as error:  # somebody's own function: the page stays alive
                 self.banner.show_message(f"{raised(error)}.")
             self._heard, self._waits = int(message.get("count", 0)), True
+
+
+def _in_letters(value: object) -> object:
+    """With bytes as letters."""
+    if isinstance(value, bytes):
+        return {"base64": base64.b64encode(value).decode("ascii")}
+    if isinstance(value, Mapping):
+        return {name: _in_letters(part) for name, part in value.items()}
+    return [_in_letters(part) for part in value] if isinstance(value, list | tuple) else value
 
 
 class Panel(Sheet):

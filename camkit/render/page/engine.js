@@ -2,7 +2,7 @@
 
 /**
  * @typedef {ArrayLike<number>[] & {structure?: any, sentence?: string}} Outputs
- * @typedef {{run(values: Float64Array): Outputs | Promise<Outputs>}} Engine
+ * @typedef {{run(values: Float64Array): Outputs | Promise<Outputs>, here?: boolean}} Engine `here`: it is the page that computes
  */
 
 /** The function that a program is, from what gzip packed. @param {Uint8Array} bytes

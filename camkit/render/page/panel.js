@@ -178,6 +178,16 @@ export class Panel {
     this.ask(true);
   }
 
+  /** Show a design beside the one in hand as long as somebody looks at it, or none. @param {ArrayLike<number> | null} design */
+  preview(design) {
+    if (!this.engine.here) return;
+    if (!design) { if (this.looked) { this.looked = null; this.ask(); } return; }
+    const values = Float64Array.from([...Array.from(design), ...this.values.slice(design.length)]);
+    if (this.looked?.values.every((/** @type {number} */ v, /** @type {number} */ k) => v === values[k])) return;
+    this.looked = { values, outputs: this.engine.run(values) };
+    this.ask();
+  }
+
   /** The pinned design stands where the other one does, if the page computes it. */
   _turnGhost() {
     const { ghost } = this, { begin } = this.positions;
@@ -226,7 +236,7 @@ export class Panel {
     const { words, dark, playing } = this, em = this.letter / 13;
     this.root.classList.toggle("camkit-dark", dark);
     for (const chart of this.charts) {
-      const how = { dark, settled: settled && !playing, words, ghost: this.ghost?.outputs, cursor: this._cursorOf(chart) };
+      const how = { dark, settled: settled && !playing, words, ghost: (this.looked ?? this.ghost)?.outputs, cursor: this._cursorOf(chart) };
       Object.assign(chart, { compact: chart.canvas.clientHeight < 190 * em, em });
       chart.draw(chart.own ?? this.outputs, how);
       if (settled && chart.list) this._describe(chart);

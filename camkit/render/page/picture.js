@@ -241,12 +241,14 @@ export class Chart {
       at += wide;
     }
     const rows = Math.min(row + 1, this.compact ? 2 : 6);
-    return { title, names: names.filter((name) => name.row < rows), rows };
+    const up = axes.equal || axes.bare || axes.yticks ? "" : axes.ylabel.replace(/\s*\[.*?\]/, "").toLowerCase();
+    const upward = this.compact || title.toLowerCase().includes(up) ? "" : axisName(axes.ylabel);
+    return { title, names: names.filter((name) => name.row < rows), upward, rows: rows + (upward ? 1 : 0) };
   }
 
   /** The title with its unit, and the names of the marks. @param {number} width */
   _title(width) {
-    const { pen, em } = this, { title, names } = this.heading;
+    const { pen, em } = this, { title, names, upward, rows } = this.heading;
     pen.textAlign = "left"; pen.textBaseline = "middle"; pen.globalAlpha = 1;
     this.letters(12, 600); pen.fillStyle = this.colour("ink");
     pen.fillText(title, 4, 9 * em);
@@ -256,6 +258,10 @@ export class Chart {
       pen.fillStyle = pen.strokeStyle = tint;
       if (form) this._sign(form, at + 6, middle); else pen.fillRect(at, middle - 2, 12, 4);
       pen.fillStyle = this.colour("ink"); pen.fillText(words, at + 16, middle);
+    }
+    if (upward) {
+      this.letters(10.5); pen.fillStyle = this.ink("guide"); pen.textAlign = "left";
+      pen.fillText(upward, 4, (15 * rows - 5) * em);
     }
     if (this.picture.still && !this.own) {
       pen.fillStyle = this.ink("guide"); pen.textAlign = "right";
@@ -373,7 +379,7 @@ export class Chart {
 const short = (value) => String(+value.toPrecision(6)).replace("-", "\u2212");
 
 /** The name of an axis with its unit as it is printed. @param {string} words */
-const axisName = (words) => words.replace(/\[(.*)\]\s*$/, (_, unit) => `[${pretty(unit)}]`);
+const axisName = (words) => words.replace(/\[(.*?)\]/, (_, unit) => `[${pretty(unit)}]`);
 
 /** @param {CanvasRenderingContext2D} pen @param {string} tint @param {number[][]} points */
 function stroke(pen, tint, points) {

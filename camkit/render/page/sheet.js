@@ -3,9 +3,11 @@ import { make } from "./controls.js";
 import { PARTS } from "./parts.js";
 import { Chart } from "./picture.js";
 import { fill, format } from "./numbers.js";
+import { download } from "./files.js";
 
 /**
- * @typedef {{get(name: string): any, send(message: any, callbacks?: any, buffers?: ArrayBuffer[]): void}} Model
+ * @typedef {{get(name: string): any, send(message: any, callbacks?: any, buffers?: ArrayBuffer[]): void,
+ *   on(event: string, act: Function): void, off(event: string, act: Function): void, stored?: boolean}} Model
  */
 
 /** Arrays that came in buffers. @param {DataView[]} buffers */
@@ -13,10 +15,13 @@ const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b
 /** How long a question waits for its answer before another one is asked, ms. */
 const PATIENCE = 10_000;
 
+const GONE = "The kernel has ended: run the cell again to go on.";
+
 export class Sheet {
-  /** @param {HTMLElement} root @param {Model} model */
-  constructor(root, model) {
-    Object.assign(this, { root, model, asked: 0, sentAt: 0 });
+  /** @param {HTMLElement} root @param {Model} model what the kernel says, or what a file holds
+   * @param {import("./panel.js").Panel | null} [panel] the panel whose tab it is */
+  constructor(root, model, panel = null) {
+    Object.assign(this, { root, model, panel, asked: 0, sentAt: 0 });
     const { look, units } = model.get("setting");
     Object.assign(this, { look, units });
     /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
@@ -28,11 +33,29 @@ export class Sheet {
     this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     this.resized = new ResizeObserver(() => this.draw());
     this.resized.observe(root);
+    this.heard = {
+      "change:body": () => this.show(),
+      "msg:custom": (/** @type {any} */ message) => {
+        if (message.text !== undefined) download(message.name, new Blob([message.text], { type: message.mime }));
+      },
+      "comm_live_update": () => { root.dataset.gone = GONE; }, // it happens once more after the beginning: at the end
+    };
+    for (const [event, act] of Object.entries(this.heard)) model.on(event, act);
+    root.classList.toggle("camkit-stored", Boolean(model.stored));
     this.show();
   }
 
   /** Leave the page. */
-  end() { this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true; }
+  end() {
+    for (const [event, act] of Object.entries(this.heard)) this.model.off(event, act);
+    this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true;
+  }
+
+  /** A design of a picture under the pointer, or none: the panel shows it beside its own. @param {Float64Array | null} design */
+  preview(design) { void this.panel?.preview(design); }
+
+  /** A design of a picture is taken, where no kernel does it. @param {Float64Array} design */
+  choose(design) { if (this.model.stored) this.panel?.load(design); }
 
   dark = () => {
     const light = document.body.dataset.jpThemeLight;
@@ -141,13 +164,13 @@ const KINDS = {
     part.show = (/** @type {any} */ { id, pixels, description, pointing }) => {
       const made = sheet.model.get("pictures")[id] ?? [];
       if (made.length !== part.charts.length) {
-        part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, () => part.pointing, say, () => sheet.draw()));
+        part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, () => part.pointing, say, sheet));
         element.replaceChildren(...part.charts.map((/** @type {Chart} */ chart) => chart.canvas), tip);
       }
       part.pointing = pointing;
       element.style.setProperty("--tall", `${pixels}px`);
       element.setAttribute("role", "group"); element.setAttribute("aria-label", description);
-      made.forEach((/** @type {any} */ one, /** @type {number} */ k) => Object.assign(part.charts[k], { picture: one.picture, own: arrays(one.arrays) }));
+      made.forEach((/** @type {any} */ one, /** @type {number} */ k) => Object.assign(part.charts[k], { picture: one.picture, own: arrays(one.arrays), offered: one.offered && arrays(one.offered) }));
       sheet.draw();
     };
     return part;
@@ -155,9 +178,9 @@ const KINDS = {
 };
 
 /** What the pointer does in a picture: hover for values; click and drag for the kernel, else pan and zoom.
- * @param {Chart} chart @param {number} view @param {HTMLElement} tip @param {() => string} pointing @param {any} say @param {() => void} draw */
-function pointed(chart, view, tip, pointing, say, draw) {
-  const { canvas } = chart;
+ * @param {Chart} chart @param {number} view @param {HTMLElement} tip @param {() => string} pointing @param {any} say @param {Sheet} sheet */
+function pointed(chart, view, tip, pointing, say, sheet) {
+  const { canvas } = chart, draw = () => sheet.draw();
   /** @type {number[] | null} */ let from = null;
   let moved = false;
   const at = (/** @type {any} */ event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
@@ -174,7 +197,7 @@ function pointed(chart, view, tip, pointing, say, draw) {
   canvas.addEventListener("pointermove", (event) => {
     if (!chart.box) return;
     const here = at(event);
-    if (!from) { hover(chart, tip, here); return; }
+    if (!from) { hover(chart, tip, here); sheet.preview(designAt(chart, here)); return; }
     if (!moved && Math.hypot(here[0] - from[0], here[1] - from[1]) < 4) return;
     moved = true;
     if (pointing() === "drag") tell("drag", here);
@@ -183,11 +206,13 @@ function pointed(chart, view, tip, pointing, say, draw) {
   canvas.addEventListener("pointerup", (event) => {
     if (!from) return;
     from = null;
+    const chosen = moved ? null : designAt(chart, at(event), Infinity);
+    if (chosen) sheet.choose(chosen);
     if (!moved && pointing()) tell("click", at(event));
     if (pointing() === "drag") tell("release", at(event));
   });
   canvas.addEventListener("pointercancel", () => { from = null; });
-  canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+  canvas.addEventListener("pointerleave", () => { tip.hidden = true; sheet.preview(null); });
   canvas.addEventListener("dblclick", () => { chart.fit(); draw(); });
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && document.activeElement !== canvas) return; // the page scrolls
@@ -195,6 +220,19 @@ function pointed(chart, view, tip, pointing, say, draw) {
     chart.zoom(Math.exp(event.deltaY * 0.0015), ...at(event)); draw();
   }, { passive: false });
   return chart;
+}
+
+/** The design whose point is nearest to a place, if the picture offers designs. @param {any} chart
+ * @param {number[]} place pixels @param {number} [within] pixels @returns {Float64Array | null} */
+function designAt(chart, [px, py], within = 18) {
+  if (!chart.offered) return null;
+  const [x, y, designs] = chart.offered, size = designs.length / (x.length || 1);
+  let best = -1, least = within;
+  for (let i = 0; i < x.length; i++) {
+    const away = Math.hypot(chart.x(x[i]) - px, chart.y(y[i]) - py);
+    if (away < least) { least = away; best = i; }
+  }
+  return best < 0 ? null : designs.subarray(best * size, (best + 1) * size);
 }
 
 /** The place under the pointer, or the values of the curves there. @param {Chart} chart @param {HTMLElement} tip @param {number[]} place */

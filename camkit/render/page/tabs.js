@@ -17,6 +17,15 @@ export class Tabs {
   /** One thing more; the first one is shown. @param {string} name @param {HTMLElement} element
    * @param {() => void} [onshow] called whenever it begins to be shown @param {boolean} [wide] whether it takes more room */
   add(name, element, onshow = () => {}, wide = false) {
+    const there = this.all.find((one) => one.name === name);
+    if (there) { // another thing of the same name
+      element.setAttribute("role", "tabpanel"); element.id = there.element.id;
+      element.setAttribute("aria-labelledby", there.tab.id);
+      there.element.replaceWith(element);
+      Object.assign(there, { element, onshow, wide });
+      this._mark();
+      return;
+    }
     const id = `camkit-tab-${++count}`;
     const tab = make("button", { type: "button", role: "tab", id, "aria-controls": `${id}-panel`, onclick: () => this.show(name) }, name);
     for (const [attribute, value] of [["role", "tabpanel"], ["id", `${id}-panel`], ["aria-labelledby", id]]) {

@@ -1,12 +1,13 @@
 // The page as a widget of a notebook: it computes and draws by itself and tells the kernel what a person settled on.
 import { programOf } from "./engine.js";
 import { Panel } from "./panel.js";
+import { Docks } from "./docks.js";
 import { download } from "./files.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineOf(model) {
   const packed = model.get("program");
-  return packed.byteLength ? { run: await programOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)) } : asking(model);
+  return packed.byteLength ? { run: await programOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)), here: true } : asking(model);
 }
 
 /** Arrays that came in buffers. @param {DataView[]} buffers */
@@ -44,12 +45,22 @@ async function render({ model, el }) {
     file: (/** @type {string} */ kind) => { saving = true; model.send({ file: kind }); },
     open: (/** @type {string} */ text) => model.send({ open: text }),
   };
+  const docks = new Docks();
+  const dock = async () => {
+    const of = panel, found = await Promise.all(model.get("tabs").map(async (/** @type {any} */ { title, sheets }) => ({
+      title, models: await Promise.all(sheets.map((/** @type {string} */ name) => model.widget_manager.get_model(name.replace("IPY_MODEL_", "")))),
+    })));
+    if (of === panel) docks.show(panel, found);
+  };
   let begun = 0;
   const begin = async () => {
     const number = ++begun, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
     if (number < begun) return; // structure and program come together
+    const shown = panel?.tabs.shown?.name;
     panel?.end();
     panel = el.camkit = new Panel(root, structure, engine, host);
+    await dock();
+    if (shown) panel.showTab(shown);
     panel.say(model.get("message"));
     moved(); // the design may have moved since the structure was made
   };
@@ -60,6 +71,7 @@ async function render({ model, el }) {
   const heard = {
     "change:structure": begin, // and with it the program, which may be the same
     "change:program": begin,
+    "change:tabs": dock,
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
@@ -70,7 +82,7 @@ async function render({ model, el }) {
   };
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
   await begin();
-  return () => { panel?.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
+  return () => { panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
 export default { render };
