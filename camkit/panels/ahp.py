@@ -8,19 +8,16 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ..decision import SAATY_SCALE, Judgements, ahp, typed_judgement
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, escaped, html, table
 from ..views.front import weight_bars
-from .kit.banner import Banner
-from .kit.controls import small_html, tables_html
-from .kit.layout import button, column, menu, wrapped
-from .kit.panel import Panel
-from .kit.picture import LivePicture
+from .kit.drawn import LivePicture
+from .kit.inputs import Menu, Scale, Typed
+from .kit.parts import Banner, Button, Group, Part, Table, Words, bold, row
 from .kit.quiet import Quiet
+from .kit.sheet import Panel
 
 Pair = tuple[int, int]
 
@@ -44,51 +41,44 @@ class AhpPanel(Panel):
         self.names = tuple(judgements.names)
         self._quiet = Quiet()
         methods = [("eigenvector", "eigenvector"), ("geometric mean", "geometric")]
-        self.method = menu(methods, "weights by", "230px")
+        self.method = Menu(methods, "weights by")
         self._quiet.hear(self.method, lambda _: self._judge(self.judgements))
         self.sliders = {pair: self._slider(pair) for pair in judgements.pairs}
         self.boxes = {pair: self._box(pair) for pair in judgements.pairs}
-        self.picture = LivePicture(
-            (weight_bars,), f"Weights of {', '.join(self.names)}", width=7.2, height=0.9 + 0.5 * len(self.names)
-        )
-        self.numbers, self.banner = w.HTML(), Banner()
-        super().__init__([w.HTML(html("<b>{}</b>", title)), self._body()])
+        height = 0.9 + 0.5 * len(self.names)
+        self.picture = LivePicture((weight_bars,), f"Weights of {', '.join(self.names)}", width=7.2, height=height)
+        self.numbers, self.banner = Table(), Banner()
+        super().__init__(self._body(), heading=title)
         self.load(judgements)
 
-    def _body(self) -> w.Widget:
+    def _body(self) -> Part:
         back = "back to the judgements that the panel began with"
-        reset = button("Reset", lambda: self.load(self.start), "undo", tooltip=back)
-        rows = [self._row(pair) for pair in self.sliders]
-        hint = w.HTML(small_html(HINT))
-        left = [*rows, hint, w.HBox([reset, self.method]), self.banner, self.numbers]
-        body = wrapped(column(left, 430), column([self.picture.widget], 420, 720))
-        body.layout.align_items = "flex-start"
-        return body
+        reset = Button("Reset", lambda: self.load(self.start), tooltip=back)
+        rows = Group(*(part for pair in self.sliders for part in self._row(pair)), look="pairs")
+        hint = Words(value=[HINT], look="hint")
+        left = Group(rows, hint, row(reset, self.method), self.banner, self.numbers)
+        return Group(left, self.picture, look="beside")
 
-    def _slider(self, pair: Pair) -> w.SelectionSlider:
-        slider = w.SelectionSlider(
-            options=[(_fraction(v), v) for v in SAATY_SCALE[::-1]],
-            value=1.0,
-            readout=False,
-            layout=w.Layout(width="170px"),
-        )
+    def _slider(self, pair: Pair) -> Scale:
+        options = [(_fraction(v), v) for v in SAATY_SCALE[::-1]]
+        slider = Scale(options, f"{self.names[pair[0]]} against {self.names[pair[1]]}", value=1.0)
         self._quiet.hear(slider, lambda value: self._say(pair, value))
         return slider
 
-    def _box(self, pair: Pair) -> w.Text:
+    def _box(self, pair: Pair) -> Typed:
         first, second = (self.names[k] for k in pair)
-        box = w.Text(
-            continuous_update=False, placeholder="not judged", layout=w.Layout(width="88px"),
+        box = Typed(
+            placeholder="not judged",
+            description=f"{first} against {second}, number",
             tooltip=f"how many times {first} matters more than {second}",
-        )  # fmt: skip
+        )
         self._quiet.hear(box, lambda text: self._typed(pair, text))
         return box
 
-    def _row(self, pair: Pair) -> w.Widget:
-        first, second = (w.HTML(escaped(self.names[k]), layout=w.Layout(flex="0 0 118px")) for k in pair)
-        first.add_class("camkit-right")
-        cells = [first, self.sliders[pair], second, self.boxes[pair]]
-        return w.HBox(cells, layout=w.Layout(align_items="center"))
+    def _row(self, pair: Pair) -> tuple[Part, ...]:
+        first, second = (Words(value=[self.names[k]]) for k in pair)
+        first.look = "right"
+        return first, self.sliders[pair], second, self.boxes[pair]
 
     @property
     def weights(self) -> np.ndarray:
@@ -131,28 +121,27 @@ class AhpPanel(Panel):
         self.banner.show_message(f"The judgement of {first} against {second} stays as it was: {sentence}.")
 
     def _judge(self, judgements: Judgements) -> None:
-        self.judgements = replace(judgements, method=self.method.value)
-        for pair in self.sliders:
-            self._place(pair)
-        self._show()
+        with self.held():
+            self.judgements = replace(judgements, method=self.method.value)
+            for pair in self.sliders:
+                self._place(pair)
+            self._show()
         self._tell_followers()
 
     def _place(self, pair: Pair) -> None:
         """Slider and box of a pair show its judgement, or what the others imply."""
         value, slider = self.judgements.array[pair], self.sliders[pair]
         options = sorted({*SAATY_SCALE} if math.isnan(value) else {*SAATY_SCALE, value}, reverse=True)
-        at = _nearest(options, float(self.judgements.complete().array[pair]))
-        shown = tuple((_fraction(v), v) for v in options)
-        (slider.add_class if math.isnan(value) else slider.remove_class)("camkit-unjudged")
+        slider.pale = math.isnan(value)
         with self._quiet:
-            if slider.options != shown:
-                slider.options = shown
-            slider.value = at
+            slider.offer(
+                [(_fraction(v), v) for v in options], _nearest(options, float(self.judgements.complete().array[pair]))
+            )
             self.boxes[pair].value = "" if math.isnan(value) else _fraction(value)
 
     def _show(self) -> None:
         self.picture.show(self.judgements)
-        self.numbers.value = self._matrix_html()
+        self.numbers.put(("", *self.names, "weight"), self._matrix())
         self.banner.show_message(self.advice)
 
     @property
@@ -171,12 +160,9 @@ class AhpPanel(Panel):
         )
         return f"The judgements contradict each other (consistency ratio {ratio:.2f}, above 0.10). {advice}."
 
-    def _matrix_html(self) -> Html:
-        rows = (
-            (name, *self._matrix_row(i), html("<b>{}</b>", f"{weight:.4f}"))
-            for i, (name, weight) in enumerate(zip(self.names, self.weights, strict=True))
-        )
-        return tables_html(table(("", *self.names, "weight"), rows))
+    def _matrix(self) -> list[tuple[object, ...]]:
+        named = enumerate(zip(self.names, self.weights, strict=True))
+        return [(name, *self._matrix_row(i), bold(f"{weight:.4f}")) for i, (name, weight) in named]
 
     def _matrix_row(self, i: int) -> list[str]:
         """A row of the matrix; what nobody has judged is in brackets, as the others imply it."""

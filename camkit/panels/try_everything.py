@@ -7,18 +7,40 @@ from contextlib import ExitStack
 import ipywidgets as w
 
 from ..quantities.kinds import refuse_arguments
+from .kit import parts
 from .kit.banner import Banner
+from .kit.inputs import Check, Input, Menu, Number, Span, Typed, Whole
 from .kit.number import NumberBox
+from .kit.sheet import Sheet
 
 KINDS = (
     w.FloatSlider, w.IntSlider, w.FloatRangeSlider, NumberBox, w.FloatText, w.BoundedIntText, w.Text,
-    w.Dropdown, w.SelectionSlider, w.Checkbox,
+    w.Dropdown, w.SelectionSlider, w.Checkbox, Input,
 )  # fmt: skip
 """What is moved; a button is not, for what it does may not be undone."""
 
 
-def _others(control: w.Widget) -> list[object]:
+def _other_inputs(control: Input) -> list[object]:
+    """Values that what stands on a sheet can take besides its own."""
+    if isinstance(control, Menu):
+        return [value for value in control.values if value != control.value]
+    if isinstance(control, Check):
+        return [not control.value]
+    if isinstance(control, Typed):
+        return ["" if control.value else "1"]
+    if isinstance(control, Span):
+        return _narrower(control)
+    if isinstance(control, Number):
+        return [control.value + (control.declared.high - control.declared.low) / 100 * control.declared.factor]
+    if isinstance(control, Whole) and control.value == control.max:
+        return [control.value - 1]
+    return [control.value + 1]
+
+
+def _others(control: w.Widget | Input) -> list[object]:
     """Values that a control can take besides its own: a step up for a number, every option for a menu."""
+    if isinstance(control, Input):
+        return _other_inputs(control)
     if isinstance(control, (w.Dropdown, w.SelectionSlider)):
         return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
     if isinstance(control, w.Checkbox):
@@ -32,14 +54,14 @@ def _others(control: w.Widget) -> list[object]:
     return [up if top is None or up <= top else round(control.value - step, 9)]
 
 
-def _narrower(band: w.FloatRangeSlider) -> list[object]:
+def _narrower(band: w.FloatRangeSlider | Span) -> list[object]:
     """The band without its lower, then without its upper half."""
     low, high = band.value
     middle = (low + high) / 2
     return [(middle, high), (low, middle)]
 
 
-def try_everything(panel: w.Box) -> str:
+def try_everything(panel: w.DOMWidget) -> str:
     """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
 
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
@@ -48,23 +70,37 @@ def try_everything(panel: w.Box) -> str:
     refuse_arguments(try_everything, locals())
     controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
     with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
-        for control in controls:
-            quiet.enter_context(control.hold_sync())
+        for held in _inside(panel):
+            if isinstance(held, Sheet):
+                quiet.enter_context(held.held())
+            elif isinstance(held, w.Widget):
+                quiet.enter_context(held.hold_sync())
         for control in controls:
             before = control.value
             for value in [*_others(control), before]:
-                control.value = value
+                _give(control, value)
                 _refuse_failure(panel)
             assert control.value == before, f"{control.description or type(control).__name__} did not come back"
     return f"{len(controls)} control{'' if len(controls) == 1 else 's'} moved"
 
 
-def _refuse_failure(panel: w.Box) -> None:
+def _give(control: w.Widget | Input, value: object) -> None:
+    """Another value, as a person gives it."""
+    if isinstance(control, Number):
+        control.take({"value": value})
+    else:
+        control.value = value
+
+
+def _refuse_failure(panel: w.DOMWidget) -> None:
     """``AssertionError`` if the panel says that a measure or a view raised an error of Python."""
     for banner in _inside(panel):
-        assert not (isinstance(banner, Banner) and "cannot be computed:" in banner.value), banner.value
+        said = getattr(banner, "text", "") if isinstance(banner, parts.Banner) else getattr(banner, "value", "")
+        assert not (isinstance(banner, (Banner, parts.Banner)) and "cannot be computed:" in said), said
 
 
-def _inside(box: w.Widget) -> list[w.Widget]:
-    """Every widget inside ``box``."""
+def _inside(box: w.Widget) -> list[w.Widget | parts.Part]:
+    """Every widget inside ``box``, and every part of a sheet."""
+    if isinstance(box, Sheet):
+        return [box, *box.top.inside()]
     return [box, *(c for child in getattr(box, "children", ()) for c in _inside(child))]

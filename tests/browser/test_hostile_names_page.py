@@ -116,7 +116,7 @@ def assert_nothing_ran(page: Page) -> None:
 def test_a_name_makes_no_element(page: Page, i: int) -> None:
     output = cell_output(page, 2 + i)
     expect(output).to_be_visible()
-    expect(output.locator(".camkit-panel, .camkit-page, table").first).to_be_visible()
+    expect(output.locator(".camkit-panel, .camkit-sheet, .camkit-page, table").first).to_be_visible()
     assert_nothing_ran(page)
     shown = output.inner_text() + " ".join(output.locator("select").all_inner_texts())
     assert "<img src=x" in shown or "edit_program" in PANELS[i], shown
