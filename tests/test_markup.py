@@ -35,7 +35,8 @@ from camkit.panels import (
 from camkit.panels.kit.sheet import Sheet
 from camkit.papers.published import Comparison, Row, Table
 from camkit.quantities import Design, Measure, quantity
-from camkit.quantities.markup import Html, attribute, csv_cell, escaped, html, joined, markdown, table
+from camkit.quantities.markup import Html, attribute, csv_cell, escaped, html, joined, letters, markdown, table
+from camkit.render.draw import plain
 from camkit.render.picture import picture
 from camkit.search.nsga2 import nsga2
 from camkit.units import deg, mm
@@ -293,3 +294,17 @@ def test_a_picture_draws_dollars_as_dollars():
     drawn = picture(EvilAnalysis(Evil()), evil_view)
     assert drawn._repr_png_()
     assert drawn.axes[0].get_title(loc="left").count(r"\$") == EVIL.count("$")
+
+
+LETTERS = json.loads((Path(__file__).parent / "data" / "page" / "numbers.json").read_text())["letters"]
+
+
+@pytest.mark.parametrize(("symbol", "shown"), LETTERS)
+def test_symbols_have_the_letters_that_the_page_gives_them(symbol, shown):
+    assert letters(symbol) == shown
+    assert plain(symbol) == shown
+
+
+def test_powers_of_units_are_raised():
+    assert letters("a  [m/s^2]") == "a  [m/s²]"
+    assert letters("[N^0.5 mm^-0.5]") == "[N⁰·⁵ mm⁻⁰·⁵]"

@@ -24,7 +24,18 @@ from camkit import (
 )
 from camkit.cam import ContactPair
 from camkit.motion import LAWS, Cycloidal, Poly345
-from camkit.quantities import Choice, Design, Measure, Quantity, UnitRemark, choice, declarations, quantity, unremarked
+from camkit.quantities import (
+    Choice,
+    Design,
+    Measure,
+    Quantity,
+    UnitRemark,
+    choice,
+    declarations,
+    label,
+    quantity,
+    unremarked,
+)
 from camkit.units import deg, mm
 
 
@@ -306,7 +317,7 @@ def test_every_design_shows_as_a_table(kind):
     for name, declared in declarations(kind).items():
         if name in following:
             continue
-        assert name.replace("_", " ") in html
+        assert label(name, declared) in html
         assert declared.meaning in html
         if isinstance(declared, Quantity):
             assert f"{declared.default:.6g} {declared.unit}".strip() in html

@@ -2,7 +2,15 @@
 
 from .analysis import CamAnalysis
 from .flat_analysis import FlatAnalysis
-from .follower_measures import face_width, jump_margin, mean_torque, min_force, min_profile_radius, peak_pressure
+from .follower_measures import (
+    face_width,
+    jump_margin,
+    leaving_speed,
+    mean_torque,
+    min_force,
+    min_profile_radius,
+    peak_pressure,
+)
 from .force_closure import (
     ContactPair,
     NoContact,
@@ -62,6 +70,7 @@ __all__ = [
     "groove_gap",
     "jump_margin",
     "jump_speed",
+    "leaving_speed",
     "max_pressure_angle",
     "mean_efficiency",
     "mean_torque",

@@ -24,10 +24,10 @@ from .measures import (
 
 _force = attrgetter("contact_force")
 
-min_profile_radius = Measure("least convex radius (profile)", "mm", lambda a: a.profile_margin.value)
-undercut_place = Measure("cam angle of the least convex radius", "deg", lambda a: a.profile_margin.cam_angle)
-face_width = Measure("least width of the face", "mm", lambda a: a.face_width)
-min_force = Measure("least contact force", "N", lambda a: a.lowest(_force).value)
+min_profile_radius = Measure("minimum convex radius of curvature, profile", "mm", lambda a: a.profile_margin.value)
+undercut_place = Measure("cam angle of the minimum convex radius", "deg", lambda a: a.profile_margin.cam_angle)
+face_width = Measure("minimum width of the face", "mm", lambda a: a.face_width)
+min_force = Measure("minimum contact force", "N", lambda a: a.lowest(_force).value)
 
 
 def _mean_torque(analysis: CamAnalysis) -> Value:
@@ -45,14 +45,15 @@ def _overspeed(analysis: CamAnalysis) -> Value:
         return jump_speed(analysis) / np.abs(number(analysis.cam.load.speed)) - 1
 
 
-jump_margin = Measure("overspeed before the follower jumps", "%", _overspeed)
+leaving_speed = Measure("speed at which the follower leaves the cam", "rpm", jump_speed)
+jump_margin = Measure("overspeed before the follower leaves the cam", "%", _overspeed)
 
 
 peak_pressure = Measure("peak contact pressure", "MPa", peak(attrgetter("contact_pressure")))
 """The largest Hertz pressure along a cam whose contact is given; ``nan`` if a flank is undercut."""
 ContactPair.measures = (peak_pressure,)
 
-_CLOSING = (min_force, mean_torque, jump_margin)
+_CLOSING = (min_force, mean_torque, leaving_speed)
 ROLLER_CURVE = (*CURVE, groove_gap, min_profile_radius, undercut_place, *_CLOSING)
 """What a table of a cam under a sliding roller shows."""
 FLAT_CURVE = (

@@ -20,13 +20,19 @@ class ArmLoad(Design):
     arm's weight.  Torque counts positive where it resists a growing arm angle.
     """
 
-    mass: float = quantity("m", 2, 0, 10, "kg", "uniform arm", at_least=0)
-    speed: float = quantity("omega", 15, 0, 100, "rpm", "speed of the cam", at_least=0)
-    torque: float = quantity("T", 0, -50, 50, "N m", "constant resisting torque", above=None)
-    spring_rate: float = quantity("c", 0, 0, 50, "N m/rad", "torsion spring on the arm", at_least=0)
-    preload: float = quantity("T_0", 0, 0, 50, "N m", "torque of the spring at the motion's level 0", at_least=0)
-    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the arm; 0: it turns level", at_least=0)
-    up_angle: float = quantity("u", 90, -180, 180, "deg", "from the line cam-pivot to straight up", above=None)
+    mass: float = quantity("m", 2, 0, 10, "kg", "uniform arm", at_least=0, name="arm mass")
+    speed: float = quantity("omega", 15, 0, 100, "rpm", "speed of the cam", at_least=0, name="cam speed")
+    torque: float = quantity("T", 0, -50, 50, "N m", "constant resisting torque", above=None, name="resisting torque")
+    spring_rate: float = quantity("c", 0, 0, 50, "N m/rad", "torsion spring on the arm", at_least=0, name="spring rate")
+    preload: float = quantity(
+        "T_0", 0, 0, 50, "N m", "torque of the spring at the motion's level 0", at_least=0, name="spring preload"
+    )
+    gravity: float = quantity(
+        "g", 0, 0, 9.81, "m/s^2", "weight of the arm; 0: it turns level", at_least=0, name="gravity"
+    )
+    up_angle: float = quantity(
+        "u", 90, -180, 180, "deg", "from the line cam-pivot to straight up", above=None, name="direction of gravity"
+    )
     torque_table: tuple[tuple[float, float], ...] = ()
     """Pairs of arm travel (from the motion's level 0) [rad] and resisting torque [N m], in order; straight between."""
     cam_angle_table: tuple[tuple[float, float], ...] = ()

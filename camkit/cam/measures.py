@@ -88,11 +88,11 @@ def work_ratio(analysis: CamAnalysis | ConjugatePairAnalysis) -> Value:
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
-max_pressure_angle = Measure("steepest pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
+max_pressure_angle = Measure("maximum pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
-min_convex_radius = Measure("least convex radius (pitch)", "mm", _min_radius(1))
-min_concave_radius = Measure("least concave radius (pitch)", "mm", _min_radius(-1))
-undercut_margin = Measure("undercut margin of the groove", "", _groove_margin)
+min_convex_radius = Measure("minimum convex radius of curvature, pitch curve", "mm", _min_radius(1))
+min_concave_radius = Measure("minimum concave radius of curvature, pitch curve", "mm", _min_radius(-1))
+undercut_margin = Measure("undercut margin", "", _groove_margin)
 groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap)
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
 it is an estimate from above, and where nothing but neighbours along the curve is near it tells of them, up to 1.14
@@ -103,7 +103,7 @@ mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "effici
 published_mean_efficiency = Measure(
     "mean efficiency, published formula", "%", lambda a: mean_over(a, "published_efficiency")
 )
-work_efficiency = Measure("work out / work in", "%", work_ratio)
+work_efficiency = Measure("work efficiency", "%", work_ratio)
 
 MOTION = (
     Measure("peak velocity", "", peak(lambda a: abs(a.velocity))),

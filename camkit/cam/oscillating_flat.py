@@ -30,7 +30,7 @@ from .analysis import lowest, over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .flat_analysis import FlatAnalysis
-from .follower_measures import FLAT_CURVE
+from .follower_measures import FLAT_CURVE, jump_margin
 from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
@@ -247,4 +247,4 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
         return self.contact_length
 
 
-OscillatingFlatCam.measures = FLAT_CURVE
+OscillatingFlatCam.measures = (*FLAT_CURVE, jump_margin)

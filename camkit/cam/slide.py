@@ -22,13 +22,28 @@ class SlideLoad(Design):
     179.62 N
     """
 
-    mass: float = quantity("m", 0.5, 0, 10, "kg", "follower and all that moves with it", at_least=0)
-    speed: float = quantity("omega", 300, 0, 3000, "rpm", "speed of the cam", at_least=0)
-    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None)
-    spring_rate: float = quantity("c", 5, 0, 50, "N/mm", "closing spring", at_least=0)
-    preload: float = quantity("F_0", 50, 0, 1000, "N", "force of the spring at the motion's level 0", at_least=0)
-    gravity: float = quantity("g", 0, 0, 9.81, "m/s^2", "weight of the follower; 0: it travels level", at_least=0)
-    up_angle: float = quantity("u", 0, -180, 180, "deg", "from the direction of the rise to straight up", above=None)
+    mass: float = quantity(
+        "m", 0.5, 0, 10, "kg", "follower and all that moves with it", at_least=0, name="follower mass"
+    )
+    speed: float = quantity("omega", 300, 0, 3000, "rpm", "speed of the cam", at_least=0, name="cam speed")
+    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None, name="resisting force")
+    spring_rate: float = quantity("c", 5, 0, 50, "N/mm", "closing spring", at_least=0, name="spring rate")
+    preload: float = quantity(
+        "F_0", 50, 0, 1000, "N", "force of the spring at the motion's level 0", at_least=0, name="spring preload"
+    )
+    gravity: float = quantity(
+        "g", 0, 0, 9.81, "m/s^2", "weight of the follower; 0: it travels level", at_least=0, name="gravity"
+    )
+    up_angle: float = quantity(
+        "u",
+        0,
+        -180,
+        180,
+        "deg",
+        "from the direction of the rise to straight up",
+        above=None,
+        name="direction of gravity",
+    )
     force_table: Table = ()
     """Pairs of travel (from the motion's level 0) [m] and resisting force [N], in order; straight lines between."""
     cam_angle_table: Table = ()

@@ -26,7 +26,7 @@ from .analysis import lowest, over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .flat_analysis import FlatAnalysis
-from .follower_measures import FLAT_CURVE
+from .follower_measures import FLAT_CURVE, jump_margin
 from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .sizing import if_possible, refuse_radius
@@ -176,4 +176,4 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         return 1.0 + 0.0 * self.height
 
 
-TranslatingFlatCam.measures = FLAT_CURVE
+TranslatingFlatCam.measures = (*FLAT_CURVE, jump_margin)

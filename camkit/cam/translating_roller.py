@@ -26,7 +26,7 @@ from . import bodies
 from .analysis import highest, over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
-from .follower_measures import ROLLER_CURVE
+from .follower_measures import ROLLER_CURVE, jump_margin
 from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import number
@@ -233,4 +233,4 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
         return self.height / self._size
 
 
-TranslatingRollerCam.measures = ROLLER_CURVE
+TranslatingRollerCam.measures = (*ROLLER_CURVE, jump_margin)

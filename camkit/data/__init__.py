@@ -23,7 +23,7 @@ def load(name: str) -> Any:
 def as_printed(name: str) -> Any:
     """The same with every number as the text that was printed, so that its last digit is known.
 
-    >>> as_printed("door_handle")["table_4"]["lift"]["steepest_pressure_angle_rad"]["after"]
+    >>> as_printed("door_handle")["table_4"]["lift"]["max_pressure_angle_rad"]["after"]
     '0.720'
     """
     return json.loads(_text(name), parse_float=str, parse_int=str)

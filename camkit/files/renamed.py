@@ -43,6 +43,50 @@ RENAMED: dict[tuple[str, str], str] = {
             "roller_modulus [GPa]": "contact.follower_modulus [GPa]",
         }.items()
     },
+    **{
+        ("measure", f"{before}{of}{unit}"): f"{now}{of}{unit}"
+        for of in ("", ", lift", ", relief", ", worse curve")
+        for before, now, unit in (
+            ("steepest pressure angle", "maximum pressure angle", " [deg]"),
+            ("least convex radius (pitch)", "minimum convex radius of curvature, pitch curve", " [mm]"),
+            ("least concave radius (pitch)", "minimum concave radius of curvature, pitch curve", " [mm]"),
+            ("undercut margin of the groove", "undercut margin", ""),
+            ("work out / work in", "work efficiency", " [%]"),
+        )
+    },
+    **{
+        ("measure", before): now
+        for before, now in {
+            "least convex radius of the stroke (pitch), lift [mm]": (
+                "minimum convex radius of curvature of the stroke, pitch curve, lift [mm]"
+            ),
+            "least convex radius (profile) [mm]": "minimum convex radius of curvature, profile [mm]",
+            "cam angle of the least convex radius [deg]": "cam angle of the minimum convex radius [deg]",
+            "least convex radius anywhere [mm]": "minimum convex radius of curvature [mm]",
+            "least hollow radius [mm]": "minimum concave radius of curvature [mm]",
+            "least width of the face [mm]": "minimum width of the face [mm]",
+            "least contact force [N]": "minimum contact force [N]",
+            "overspeed before the follower jumps [%]": "overspeed before the follower leaves the cam [%]",
+            "contact stress F_sigma [N^0.5 mm^-0.5]": "stress index F_sigma [N^0.5 mm^-0.5]",
+            "contact stress F_sigma [N^0.5 cm^-0.5]": "stress index F_sigma [N^0.5 cm^-0.5]",
+            "wear F_wear [N^1.5 mm^-0.5]": "wear index [N^1.5 mm^-0.5]",
+            "wear F_wear [N^1.5 cm^-0.5]": "wear index [N^1.5 cm^-0.5]",
+            "least normal force [N]": "minimum normal force [N]",
+            "speed at which the roller lifts [%]": "speed at which the roller leaves the cam [%]",
+            "least travel from the ends (3-4-5: 1)": "minimum travel from the ends (3-4-5: 1)",
+            "undercut margin 1 - r kappa": "undercut margin",
+            "smallest radius r_k1 [mm]": "minimum radius r_k1 [mm]",
+            "steepest pressure angle, crank [deg]": "maximum pressure angle, crank [deg]",
+            "steepest pressure angle, rocker [deg]": "maximum pressure angle, rocker [deg]",
+            "least transmission angle, crank [deg]": "minimum transmission angle, crank [deg]",
+            "least transmission angle, rocker [deg]": "minimum transmission angle, rocker [deg]",
+            "least discriminant of the sweep": "minimum discriminant of the sweep",
+            "largest velocity ratio": "maximum velocity ratio",
+            "least output speed [rpm]": "minimum output speed [rpm]",
+            "largest output speed [rpm]": "maximum output speed [rpm]",
+            "largest torque in the tube [N m]": "maximum torque in the tube [N m]",
+        }.items()
+    },
 }
 """``{(where, earlier name): name of today}``, both as files write them: with their units.
 
@@ -50,7 +94,7 @@ RENAMED: dict[tuple[str, str], str] = {
 for a measure, ``"rule"`` or ``"mode"`` for an entry of a search's menus.  A minus before the new name of a field stands
 for a number of the other sign.  What was a field of its own and stands deeper in the design today has a path for its
 new name, such as ``"load.spring_rate [N/mm]"``; the order of a file's entries then is the order in which they are put
-in, so a law comes before its coefficients.  What was one and is several today has their paths with commas between.
+in, so a law comes before its coefficients.  A field that is several today has their paths with commas between.
 What is renamed twice has a row for each of its earlier names.
 """
 
@@ -89,9 +133,8 @@ class Renaming:
         """The name of today."""
         now = RENAMED.get((where, name), name)
         if now != name:
-            self.renamed[_parted(name)[0]] = " and ".join(
-                _parted(each)[0].removeprefix("-") for each in now.split(", ")
-            )
+            several = [now] if where == "measure" else now.split(", ")
+            self.renamed[_parted(name)[0]] = " and ".join(_parted(each)[0].removeprefix("-") for each in several)
         return now
 
     def entries(self, where: str, entries: Mapping[str, object]) -> dict[str, Given]:

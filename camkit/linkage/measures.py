@@ -100,25 +100,25 @@ MAKERS: dict[str, Callable[..., Measure]] = {
 
 
 max_crank_pressure_angle = PeakMeasure(
-    "steepest pressure angle, crank", "deg", lambda a: a.crank_pressure_angle, angle=lambda a: a.crank_angle
+    "maximum pressure angle, crank", "deg", lambda a: a.crank_pressure_angle, angle=lambda a: a.crank_angle
 )
 max_rocker_pressure_angle = PeakMeasure(
-    "steepest pressure angle, rocker", "deg", lambda a: a.rocker_pressure_angle, angle=lambda a: a.crank_angle
+    "maximum pressure angle, rocker", "deg", lambda a: a.rocker_pressure_angle, angle=lambda a: a.crank_angle
 )
 max_pressure_angle = PeakMeasure(
-    "steepest pressure angle",
+    "maximum pressure angle",
     "deg",
     lambda a: np.concatenate([a.crank_pressure_angle, a.rocker_pressure_angle], axis=-1),
     angle=lambda a: np.concatenate([a.crank_angle, a.crank_angle], axis=-1),
 )
 min_crank_transmission = -PeakMeasure(
-    "least transmission angle, crank", "deg", lambda a: -a.crank_transmission_angle, angle=lambda a: a.crank_angle
+    "minimum transmission angle, crank", "deg", lambda a: -a.crank_transmission_angle, angle=lambda a: a.crank_angle
 )
 min_rocker_transmission = -PeakMeasure(
-    "least transmission angle, rocker", "deg", lambda a: -a.rocker_transmission_angle, angle=lambda a: a.crank_angle
+    "minimum transmission angle, rocker", "deg", lambda a: -a.rocker_transmission_angle, angle=lambda a: a.crank_angle
 )
 swing = Measure("output swing", "deg", lambda a: np.ptp(a.rocker_angle, axis=-1))
-assembly_margin = Measure("least discriminant of the sweep", "", lambda a: a.min_discriminant[..., 0])
+assembly_margin = Measure("minimum discriminant of the sweep", "", lambda a: a.min_discriminant[..., 0])
 possible_turn = Measure("possible turn of the crank", "deg", lambda a: a.possible_turn[..., 0])
 """From limit to limit; 360 deg: all the way round."""
 peak_coupler_force = Measure("peak coupler force", "N", lambda a: abs(a.coupler_force).max(-1))
@@ -135,7 +135,7 @@ peak_crank_bearing_moment = Measure(
 )
 peak_hinge_force = Measure("peak force on the rocker's bearing", "N", lambda a: _longest(a.rocker_bearing_force))
 peak_hinge_moment = Measure("peak moment on the rocker's bearing", "N m", lambda a: _longest(a.rocker_bearing_moment))
-largest_ratio = Measure("largest velocity ratio", "", lambda a: abs(a.ratio).max(-1))
+largest_ratio = Measure("maximum velocity ratio", "", lambda a: abs(a.ratio).max(-1))
 
 SWEEP = (
     departure(),

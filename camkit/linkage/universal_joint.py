@@ -299,8 +299,8 @@ def _peak(name: str, unit: str, attribute: str) -> Measure:
     return Measure(name, unit, lambda a: np.max(abs(getattr(a, attribute)), axis=-1))
 
 
-slowest = Measure("least output speed", "rpm", lambda a: a.output_speed.min(-1))
-fastest = Measure("largest output speed", "rpm", lambda a: a.output_speed.max(-1))
+slowest = Measure("minimum output speed", "rpm", lambda a: a.output_speed.min(-1))
+fastest = Measure("maximum output speed", "rpm", lambda a: a.output_speed.max(-1))
 fluctuation = Measure("fluctuation of the speed", "%", lambda a: np.ptp(a.speed_ratio, axis=-1))
 angle_error = Measure("angle error, peak to peak", "deg", lambda a: np.ptp(a.lead, axis=-1))
 peak_acceleration = _peak("peak acceleration of the output", "rad/s^2", "output_acceleration")

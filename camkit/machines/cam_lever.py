@@ -58,7 +58,9 @@ class CamLever(FreeLawCam):
 
     arm_length: float = quantity("l", 313, 200, 380, "mm", "arm: pivot to roller centre")
     roller_radius: float = quantity("r", 45, 10, 50, "mm", "roller")
-    max_radius: float = quantity("r_k2", 94, 80, 140, "mm", "largest radius of the profile")
+    max_radius: float = quantity(
+        "r_k2", 94, 80, 140, "mm", "largest radius of the profile", name="radius at the far dwell"
+    )
     lever: float = quantity("x", 250, 200, 300, "mm", "lever: pivot to slider")
     rise_angle: float = quantity("phi_1", 61, 40, 90, "deg", "cam angle over which the slider rises")
     return_angle: float = quantity("phi_2", 61, 40, 90, "deg", "cam angle over which the slider sinks")
@@ -183,8 +185,8 @@ def _closing(analysis: HighSpeedAnalysis) -> Array:
     return press.inertia * press.shaft_speed**2 * analysis.tops(_slowing) / (press.weight * press.lever)
 
 
-lever_stress = peak("contact stress F_sigma", "N^0.5 cm^-0.5", lambda a: a.stress)
-lever_wear = peak("wear F_wear", "N^1.5 cm^-0.5", lambda a: a.wear)
+lever_stress = peak("stress index F_sigma", "N^0.5 cm^-0.5", lambda a: a.stress)
+lever_wear = peak("wear index", "N^1.5 cm^-0.5", lambda a: a.wear)
 closing_share = peak("inertia / closing weight", "", _closing)
 reach = Measure("arm and roller l + r", "mm", lambda a: number(a.cam.arm_length + a.cam.roller_radius))
 

@@ -229,7 +229,7 @@ CURVE_TABLE = tuple(part(measure, name) for name in BOTH for measure in (*CURVE,
 
 
 stroke_radius = Measure(
-    "least convex radius of the stroke (pitch), lift", "mm", lambda a: radius_of(a.stroke_curvature)
+    "minimum convex radius of curvature of the stroke, pitch curve, lift", "mm", lambda a: radius_of(a.stroke_curvature)
 )
 
 _LEAST = (base_radius, min_convex_radius, undercut_margin)

@@ -51,7 +51,9 @@ class FreeLawCam(Design):
 
     arm_length: float = quantity("l", 165, 40, 290, "mm", "arm: pivot to roller centre")
     roller_radius: float = quantity("r", 30, 20, 200, "mm", "roller")
-    max_radius: float = quantity("r_k2", 130, 60, 140, "mm", "largest radius of the profile")
+    max_radius: float = quantity(
+        "r_k2", 130, 60, 140, "mm", "largest radius of the profile", name="radius at the far dwell"
+    )
     rise_law: Any = choice("a", ShapedLaw(), LAW_MENU, "law by which the arm swings away")
     return_law: Any = choice("a'", ShapedLaw(), LAW_MENU, "law by which the arm swings back", c="d")
     contact: ContactPair = field(default_factory=lambda: ContactPair(width=20 * mm))
@@ -87,7 +89,9 @@ class HighSpeedCam(FreeLawCam):
     swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm")
     rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away")
     return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back")
-    speed: float = quantity("n", 100, 10, 200, "%", "share of the rated speed, for which load and spring are given")
+    speed: float = quantity(
+        "n", 100, 10, 200, "%", "for the rated speed load and spring are given", name="speed, % of rated"
+    )
     spring_factor: float = quantity(
         "K", 0, 0, STRONG, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
     )
@@ -139,7 +143,7 @@ class HighSpeedCam(FreeLawCam):
             )
         if refuse := unless(clear):
             refuse(
-                f"the smallest radius r_k1 of the profile is {self.min_radius / mm:.4g} mm; it must be above 0 mm: "
+                f"the minimum radius r_k1 of the profile is {self.min_radius / mm:.4g} mm; it must be above 0 mm: "
                 f"the roller of {self.roller_radius / mm:.4g} mm covers the cam axis"
             )
         self._keep(reaches & starts & clear)

@@ -97,7 +97,7 @@ class UniversalJointShaft(Design):
 
     @property
     def tube_torque(self) -> Array:
-        """The largest torque in the tube over a turn, ``M / cos(beta)``, N m.
+        """The maximum torque in the tube over a turn, ``M / cos(beta)``, N m.
 
         Behind a joint the torque swings between ``M cos(beta)`` and this, twice a turn.  The couple that the joint
         bends the tube with is nothing where the torque is largest: with ``psi`` the tube's angle from where it is
@@ -149,7 +149,7 @@ def _margin(use: Measure) -> Measure:
 
 tube_area = _measure("area of the tube", "mm^2", lambda a: a.area)
 tube_mass = _measure("mass of the tube", "kg", lambda a: a.mass)
-tube_torque = _measure("largest torque in the tube", "N m", lambda a: a.tube_torque)
+tube_torque = _measure("maximum torque in the tube", "N m", lambda a: a.tube_torque)
 shear_stress = _measure("shear stress", "MPa", lambda a: a.shear_stress)
 twist = _measure("twist", "deg/m", lambda a: a.twist)
 critical_speed = _measure("critical speed", "rpm", lambda a: a.critical_speed)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..cam.follower_measures import jump_margin
+from ..cam.follower_measures import jump_margin, leaving_speed
 from ..cam.measures import max_pressure_angle, peak, peak_force
 from ..quantities import Measure
 from ..quantities.kinds import listed, refuse_arguments
@@ -21,8 +21,8 @@ nose_acceleration = Measure("nose acceleration", "m/s^2", lambda a: a.nose_accel
 nose_deceleration = Measure("nose deceleration", "m/s^2", lambda a: abs(a.nose_acceleration))
 peak_acceleration = Measure("peak positive acceleration", "m/s^2", lambda a: a.peak_acceleration)
 nose_radius = Measure("radius at the nose (flat follower)", "mm", lambda a: a.nose_radius)
-min_radius = Measure("least convex radius anywhere", "mm", lambda a: a.profile_margin.value)
-min_concave_radius = Measure("least hollow radius", "mm", lambda a: a.min_concave_radius)
+min_radius = Measure("minimum convex radius of curvature", "mm", lambda a: a.profile_margin.value)
+min_concave_radius = Measure("minimum concave radius of curvature", "mm", lambda a: a.min_concave_radius)
 face_reach = Measure("reach of the contact on a flat face", "mm", peak(lambda a: abs(a.velocity)))
 peak_stress = Measure("peak contact stress", "MPa", peak(lambda a: a.contact_stress))
 peak_camshaft_torque = Measure("peak camshaft torque", "N m", peak(lambda a: abs(a.cam_torque)))
@@ -36,7 +36,7 @@ VALVE_MEASURES = (
     min_concave_radius,
     max_pressure_angle,
     face_reach,
-    jump_margin,
+    leaving_speed,
     peak_force,
     peak_stress,
     peak_camshaft_torque,
@@ -96,6 +96,7 @@ ValveCam.measures = (
     *VALVE_MEASURES,
     nose_deceleration,
     listed_deceleration,
+    jump_margin,
     *AS_STATED[:2],
     acceleration_share,
     *AS_LISTED,

@@ -34,11 +34,15 @@ class ValveLoad(SlideLoad):
 over the lift, as its force table
     """
 
-    mass: float = quantity("m_v", 0.25, 0.02, 1, "kg", "valve, spring's share, tappet, as felt at the cam")
-    speed: float = quantity("omega", 1800, 300, 4000, "rpm", "speed of the camshaft")
-    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None)
-    spring_rate: float = quantity("c", 30, 0, 100, "N/mm", "valve spring", at_least=0)
-    preload: float = quantity("F_0", 250, 0, 1000, "N", "valve spring with the valve shut", at_least=0)
+    mass: float = quantity(
+        "m_v", 0.25, 0.02, 1, "kg", "valve, spring's share, tappet, as felt at the cam", name="follower mass"
+    )
+    speed: float = quantity("omega", 1800, 300, 4000, "rpm", "speed of the camshaft", name="cam speed")
+    force: float = quantity("F", 0, -500, 500, "N", "constant resisting force", above=None, name="resisting force")
+    spring_rate: float = quantity("c", 30, 0, 100, "N/mm", "valve spring", at_least=0, name="spring rate")
+    preload: float = quantity(
+        "F_0", 250, 0, 1000, "N", "valve spring with the valve shut", at_least=0, name="spring preload"
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

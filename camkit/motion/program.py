@@ -9,7 +9,7 @@ array([0.01, 0.02, 0.  ])
 >>> round(program.peaks().velocity.value, 6)
 0.019099
 >>> program.transitions()[0].verdict
-'at 120 deg the jerk jumps by -0.08594 follower units/rad^3: finite; acceptable'
+'120°: jerk step -0.08594 follower units/rad³, acceptable'
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..extrema import Extreme, highest_between
 from ..quantities.types import Value
-from ..units import in_unit
+from ..units import factor, in_unit
 from .law import Kinematics, derivative_size
 
 if TYPE_CHECKING:
@@ -26,12 +26,12 @@ HAIR = 1e-12
 """How far (share of a segment) the two sides of a kink inside a law are taken from it."""
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
-UNITS = ("follower units", "follower units/rad", "follower units/rad^2", "follower units/rad^3")
+PER = ("", "/rad", "/rad²", "/rad³")
 MEANINGS = (
-    "the follower would have to leap; impact, forbidden",
-    "infinite acceleration; impact, forbidden",
-    "infinite jerk; vibration, not for a fast cam",
-    "finite; acceptable",
+    "the follower would have to leap: impact, forbidden",
+    "infinite acceleration: impact, forbidden",
+    "infinite jerk: vibration, not for a fast cam",
+    "acceptable",
 )
 
 
@@ -58,11 +58,20 @@ class Transition:
     @property
     def verdict(self) -> str:
         """What jumps, by how much, and what that means for the machine."""
-        place = f"at {in_unit(self.angle, 'deg'):.6g} deg"
+        return self.text()
+
+    def text(self, unit: str = "") -> str:
+        """The `verdict` with the jump in the follower's ``unit``, a length or an angle; without one as it is, SI.
+
+        >>> Transition(0.5235987756, 0, 0, 0, 0.1963, 3).text("mm")
+        '30°: jerk step 196.3 mm/rad³, acceptable'
+        """
+        place = f"{in_unit(self.angle, 'deg'):.6g}°"
         if self.order is None:
-            return f"{place} the motion is smooth"
-        size = (self.s, self.v, self.a, self.j)[self.order]
-        return f"{place} the {NAMES[self.order]} jumps by {size:.4g} {UNITS[self.order]}: {MEANINGS[self.order]}"
+            return f"{place}: smooth"
+        size = (self.s, self.v, self.a, self.j)[self.order] / factor(unit)
+        told = f"{NAMES[self.order]} step {size:.4g} {unit or 'follower units'}{PER[self.order]}"
+        return f"{place}: {told}, {MEANINGS[self.order]}"
 
 
 class ProgramPeaks(NamedTuple):

@@ -11,7 +11,7 @@ import ipywidgets as w
 import numpy as np
 
 from ..decision import JudgementRange, Judgements
-from ..quantities import Measure, words
+from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, joined, table
 from ..render.draw import colour
@@ -245,8 +245,8 @@ class ChoosePanel(Panel):
         front = self.shown.front
         declared = front.study.declared
         goals, free = front.study.minimise, front.study.free
-        names = [*(m.name for m in goals), *(words(n) for n in free)]
-        head = ("winner by", "design", *names, "wins at, of all weightings")
+        names = [*(m.name for m in goals), *(label(n, declared[n]) for n in free)]
+        head = ("winner by", "design", *names, "share of all weightings won")
         rows = []
         for rule, i in self.shown.winners.items():
             values = [m.text(m.sign * f) for m, f in zip(goals, front.f[i], strict=True)]

@@ -8,7 +8,7 @@ from typing import Any
 import ipywidgets as w
 import numpy as np
 
-from ..quantities import Measure, Quantity, with_quantities, words
+from ..quantities import Measure, Quantity, label, with_quantities, words
 from ..quantities.kinds import a_number, refuse_arguments
 from ..quantities.markup import html, joined
 from ..study.design_map import DesignMap
@@ -165,7 +165,7 @@ class ContourPanel(Panel):
         study = self.plane.study
         analysis = study.design(self.optimum).analyse(study.angles)
         free = zip(study.free, self.plane.declared, self.optimum, strict=True)
-        where = ", ".join(f"{words(n)} {v / q.factor:.4g} {q.unit}".rstrip() for n, q, v in free)
+        where = ", ".join(f"{label(n, q)} {v / q.factor:.4g} {q.unit}".rstrip() for n, q, v in free)
         objective = study.minimise[0]
         parts = objective.parts if isinstance(objective, WeightedSum) else (objective,)
         told = [f"{m.name}: {_text(m, analysis)}" for m in (*parts, *(m for m, _, _ in study.limits))]

@@ -115,7 +115,7 @@ class CycleTimePanel(JobPanel):
     def _show_step(self, step: Step, last: bool) -> None:
         self.progress.max, self.progress.value = step.of, step.number
         stopped = " (stopped)" if last and not (self.runner.job and self.runner.job.ended) else ""
-        self.runner.status.value = f"{step.number} intervals tried, {step.evaluated} designs looked at{stopped}"
+        self.runner.status.value = f"{step.number} intervals tried, {step.evaluated} designs evaluated{stopped}"
 
     def summary(self) -> str:
         """What was asked, and what was found."""

@@ -138,7 +138,7 @@ class Explorer(Panel):
         """The control that turns the mechanism or the view of it."""
         if name == "turn":
             angle, low, high = self._turn_range()
-            declared = Quantity("phi", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
+            declared = Quantity("theta", low / deg, low / deg, high / deg, "deg", "turns the mechanism", above=None)
             return NumberRow(
                 f"{angle}_shown", declared, low if value is None else value, self._turned, self._refuse_number
             )

@@ -21,11 +21,11 @@ from ..quantities import (
     Paths,
     Quantity,
     declared_in,
+    label,
     measures_of,
     quantities_of,
     refuse_design,
     value_of,
-    words,
 )
 from ..quantities.applied import a_path, raised
 from ..quantities.kinds import refuse_arguments, shown
@@ -125,7 +125,7 @@ class Instrument(anywidget.AnyWidget):
         """An ordinary slider for the quantity at ``path``, in its unit, linked both ways."""
         declared: Quantity = Paths(self.design, [path], Quantity).declared[path]
         step = (declared.high - declared.low) / 500
-        slider = w.FloatSlider(min=declared.low, max=declared.high, step=step, description=words(path))
+        slider = w.FloatSlider(min=declared.low, max=declared.high, step=step, description=label(path, declared))
 
         def follow(design: object) -> None:
             value = in_unit(value_of(design, path), declared.unit)

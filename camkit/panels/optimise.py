@@ -29,7 +29,7 @@ class OptimisePanel(JobPanel):
 
     ``studies`` is a `Study`, or maps names in a menu to several; there is a menu for the ``methods``, too, if there
     are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so far is then in the
-    sliders.  *Put back* loads the design from which the search began.
+    sliders.  *Undo* loads the design from which the search began.
     """
 
     def __init__(
@@ -42,14 +42,14 @@ class OptimisePanel(JobPanel):
         self.problem = menu(list(self.studies), "problem", "100%", "112px")
         self.method = menu(list(methods), "method", "100%", "112px")
         self.runner = Runner("Optimise from here", self._prepare, self._show, self.studies)
-        layout, refused = w.Layout(width="190px"), staying("starts", self.runner.banner.show_message, "stay")
-        self.starts = WholeBox(1, 1, 100, refused, description="starts", description_width="112px", layout=layout)
+        layout, refused = w.Layout(width="190px"), staying("restarts", self.runner.banner.show_message, "stay")
+        self.starts = WholeBox(1, 1, 100, refused, description="restarts", description_width="112px", layout=layout)
         self.method.observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.back = button("Put back", lambda: self.explorer.load(self.before), "undo", disabled=True)
+        self.back = button("Undo", lambda: self.explorer.load(self.before), "undo", disabled=True)
         self.verdict = w.HTML()
         self._lines: tuple[str, ...] = ()
         self._seen: list[Evaluated] = []
@@ -84,7 +84,7 @@ class OptimisePanel(JobPanel):
 
     def _show(self, step: Step, last: bool) -> None:
         best = f", best so far {self._text(step.best.f)}" if step.best else ""
-        self.runner.status.value = escaped(f"{step.evaluated} designs looked at{best}")
+        self.runner.status.value = escaped(f"{step.evaluated} designs evaluated{best}")
         self.picture.show(ShownLooks(self._measure, tuple(self._seen)))
         if last:
             stopped = f"The search was stopped after {step.evaluated} designs."

@@ -181,9 +181,8 @@ class ProgramEditor(Panel):
         return [] if {0, len(self.rows)} & set(run) else run
 
     def _verdicts(self) -> list[tuple[str, bool]]:
-        """What happens at each joint, in the follower's SI unit, and whether it may."""
-        si = "rad" if self.unit == "deg" else "m"
-        return [(joint.verdict.replace("follower units", si), joint.lawful) for joint in self.program.transitions()]
+        """What happens at each transition, in the unit of the table, and whether it may."""
+        return [(joint.text(self.unit), joint.lawful) for joint in self.program.transitions()]
 
     def _table_html(self) -> Html:
         peaks = self.program.peaks()

@@ -49,7 +49,7 @@ def optima() -> Comparison:
         rows.append(
             Row(f"sum, crank from {start:g} to {end:g} deg", "deg", printed["sum"], found.f / deg, _sizes(found.x))
         )
-    title, source = "Least sums of |alpha - 30 deg|", "an independent computation"
+    title, source = "Least sums of |α - 30 deg|", "an independent computation"
     return Comparison(title, source, rows, against="evaluated apart")
 
 
@@ -68,7 +68,7 @@ def searches() -> Table:
         gap = 100 * (np.array(found["sum"]) / least - 1)
         spread = (f"{value:.2f} %" for value in (gap.min(), np.median(gap), gap.max()))
         rows.append((name, int(np.median(found["designs"])), *spread, f"{(gap <= 1).sum()} of {len(gap)}"))
-    head = ("search", "designs looked at", "best", "median", "worst", "within 1 %")
+    head = ("search", "designs evaluated", "best", "median", "worst", "within 1 %")
     return Table(head, rows, f"Least sum found, above the optimum of {least:.2f} deg; thirty seeds")
 
 

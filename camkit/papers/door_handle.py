@@ -91,9 +91,11 @@ def table_3() -> Comparison:
     radius = {curve: _computed(curve, min_convex_radius, mm)["after"] for curve in ("lift", "relief")}
     kept = f"{alpha / deg:.2f} deg of at most 45: {'kept' if alpha <= 45 * deg else 'missed'}"
     remark = {"lift": "at least 7: kept, on the base circle", "relief": "at least 7: missed, less than the roller"}
-    rows = [Row("lift: steepest angle", "rad", printed["lift"]["steepest_pressure_angle_rad"]["after"], alpha, kept)]
+    rows = [Row("lift: maximum angle", "rad", printed["lift"]["max_pressure_angle_rad"]["after"], alpha, kept)]
     rows += [
-        Row(f"{curve}: least convex radius", "mm", printed[curve]["min_radius"]["after"], radius[curve], remark[curve])
+        Row(
+            f"{curve}: minimum convex radius", "mm", printed[curve]["min_radius"]["after"], radius[curve], remark[curve]
+        )
         for curve in ("lift", "relief")
     ]
     return Comparison("Table 3: the chosen design l1 = 48.09 mm, psi_0 = 0.34 rad, l2 = 74.49 mm", SOURCE, rows)
@@ -103,9 +105,9 @@ def table_4(curve: str) -> Comparison:
     """Largest pressure angle, torque, force and least radius of ``"lift"`` or ``"relief"``, before and after."""
     printed = _printed("table_4", curve)
     alpha = _computed(curve, max_pressure_angle)
-    angles = printed["steepest_pressure_angle_rad"]
+    angles = printed["max_pressure_angle_rad"]
     rows = [
-        Row(f"steepest pressure angle, {when}", "rad", angles[when], alpha[when], _REMARK[curve, when]) for when in WHEN
+        Row(f"maximum pressure angle, {when}", "rad", angles[when], alpha[when], _REMARK[curve, when]) for when in WHEN
     ]
     if curve == "relief":
         kept = before().replace(relief_arm=after().relief_arm).analyse(7201)
@@ -145,7 +147,7 @@ def _radii(curve: str, printed: Any) -> list[Row]:
     kinds = {"convex": min_convex_radius, "concave": min_concave_radius}
     why = "from no sign variant of (14), nor from the geometry"
     return [
-        Row(f"least radius, {when}, as {kind}", "mm", printed["min_radius"][when], computed[when], why)
+        Row(f"minimum radius, {when}, as {kind}", "mm", printed["min_radius"][when], computed[when], why)
         for kind, computed in ((kind, _computed(curve, measure, mm)) for kind, measure in kinds.items())
         for when in WHEN
     ]

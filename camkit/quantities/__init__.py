@@ -43,12 +43,12 @@ from .declaration import (
     quantity,
     row,
     unremarked,
-    words,
 )
 from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
 from .known import certain, floats, known, text_if, text_of, unless
+from .markup import words
 from .measure import Measure, PeakMeasure
-from .tree import Paths, choices_of, declared_in, members, quantities_of, value_of, with_quantities
+from .tree import Paths, choices_of, declared_in, label, members, quantities_of, value_of, with_quantities
 
 __all__ = [
     "Analysable",
@@ -69,6 +69,7 @@ __all__ = [
     "declared_in",
     "floats",
     "known",
+    "label",
     "measures_of",
     "members",
     "numbered",

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from ..units import factor, in_unit
 from .kinds import listed, number, one_number, refuse_fields, refuse_kinds, shown, whole
 from .known import certain, text_if, text_of, unless
+from .markup import words
 from .types import Array, Value
 
 OURS = __name__.partition(".")[0]
@@ -65,6 +66,7 @@ class Quantity:
     ``at_most`` limits the size of the number, to both sides of 0; where it is not given, `BEYOND` times the larger of
     ``low, high`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
     What may not be below 0 is 0 or at least `BELOW` times that largest: one can divide by it without overflow.
+    ``name`` is what people call it, if its field, in a part with a name of its own, says less (see `label`).
     """
 
     symbol: str
@@ -76,6 +78,7 @@ class Quantity:
     above: float | None = 0.0
     at_least: float | None = None
     at_most: float | None = None
+    name: str = ""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
@@ -265,14 +268,15 @@ def quantity(
     above: float | None = 0.0,
     at_least: float | None = None,
     at_most: float | None = None,
+    name: str = "",
 ) -> Any:
     """A dataclass field for one number, all arguments in ``unit``.
 
     ``low`` and ``high`` are what a slider offers.  What is possible at all is ``above`` (strictly,
     0 unless said otherwise; ``None``: any finite number) or ``at_least``, and a size of ``at_most`` (a thousand
-    times what a slider offers, unless said otherwise).
+    times what a slider offers, unless said otherwise).  ``name`` is its name where its field says less.
     """
-    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least, at_most)
+    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least, at_most, name)
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 
@@ -298,7 +302,10 @@ def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quanti
     >>> numbered("c", Quantity("c", 0, -1, 1, "", "shapes the law", above=None))(1)[1].symbol
     'c_1'
     """
-    return cache(lambda i: (f"{name}{i}", replace(declared, symbol=f"{declared.symbol}_{i}")))
+    letter, called = declared.symbol, declared.name
+    return cache(
+        lambda i: (f"{name}{i}", replace(declared, symbol=f"{letter}_{i}", name=called and f"{called} {i + 1}"))
+    )
 
 
 def declarations(design: object) -> dict[str, Quantity | Choice]:
@@ -317,12 +324,6 @@ def _declared(kind: type) -> dict[str, Quantity | Choice]:
 def counted(n: int, what: str, least: int = 2, most: int = 1_000_000) -> int:
     """``n`` if it is a whole number from ``least`` to ``most``; a ``ValueError`` in a sentence otherwise."""
     return whole(n, f"the number of {what}", least, most)
-
-
-def words(name: str) -> str:
-    """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.max_force`` -> ``load maximum force``."""
-    read = name.replace("_", " ").replace(".", " ").split()
-    return " ".join({"min": "minimum", "max": "maximum"}.get(word, word) for word in read)
 
 
 class Declared:

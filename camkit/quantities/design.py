@@ -8,11 +8,11 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 
-from .declaration import Choice, Declared, Quantity, declarations, words
+from .declaration import Choice, Declared, Quantity, declarations
 from .kinds import columns, refuse_kinds, refuse_lengths, shown
-from .markup import Html, html, table
+from .markup import Html, html, letters, table, words
 from .measure import Measure
-from .tree import a_design, choices_of, declared_in, value_of
+from .tree import a_design, choices_of, declared_in, label, value_of
 
 
 @runtime_checkable
@@ -66,12 +66,17 @@ class Design(Declared):
 
     def _repr_mimebundle_(self, **wanted: object) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""
-        told = (f"{words(path)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
+        told = (f"{label(path, d)} {_shown(value_of(self, path), d)}" for path, d in declared_in(self).items())
         return {"text/plain": f"{type(self).__name__}: {', '.join(told)}", "text/html": self._repr_html_()}
 
     def _repr_html_(self) -> str:
         rows = [
-            (_left(words(path)), html("<i>{}</i>", d.symbol), _shown(value_of(self, path), d), _left(d.meaning))
+            (
+                _left(label(path, d)),
+                html("<i>{}</i>", letters(d.symbol)),
+                _shown(value_of(self, path), d),
+                _left(d.meaning),
+            )
             for path, d in declared_in(self).items()
         ]
         return table((), rows, type(self).__name__)
@@ -82,7 +87,7 @@ def measures_of(design: object) -> tuple[Measure, ...]:
 
     >>> from camkit.cam import ContactPair, TranslatingRollerCam
     >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
-    ['overspeed before the follower jumps', 'peak contact pressure']
+    ['overspeed before the follower leaves the cam', 'peak contact pressure']
     """
     return (*getattr(type(design), "measures", ()), *_measures_below(a_design(design)))
 
@@ -107,6 +112,10 @@ def refuse_unmeasured(design: object, measures: Iterable[Measure], what: str) ->
                 raise ValueError(
                     f"the {measure.name} does not apply to {what}: the {words(path)} is {now}; it must be {name}"
                 )
+
+
+def _italic(symbol: str) -> Html:
+    return html("<i>{}</i>", letters(symbol))
 
 
 def _left(text: str) -> Html:

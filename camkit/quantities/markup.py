@@ -118,3 +118,45 @@ def _visible(text: object) -> str:
     """``text`` without what shows nothing but changes what is around it, such as the direction of writing."""
     said = str(text)
     return said if said.isascii() else "".join(c for c in said if unicodedata.category(c) != "Cf")
+
+
+def words(name: str) -> str:
+    """A field's name as it is read: ``lift_arm`` -> ``lift arm``, ``load.max_force`` -> ``load maximum force``."""
+    read = name.replace("_", " ").replace(".", " ").split()
+    return " ".join({"min": "minimum", "max": "maximum"}.get(word, word) for word in read)
+
+
+GREEK = re.findall(
+    "[a-z]+",
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho final sigma tau upsilon "
+    "phi chi psi omega",
+)
+SUBSCRIPTS = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
+RAISED = {**dict(zip("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹", strict=True)), "-": "⁻", ".": "·", "+": ""}
+
+
+def letters(text: str) -> str:
+    """A symbol, or a text in which symbols stand, with the literature's letters, as the page writes them.
+
+    >>> letters("psi_0"), letters("F_sigma  [N^0.5 mm^-0.5]"), letters("lift_arm"), letters("h_max")
+    ('ψ₀', 'Fσ  [N⁰·⁵ mm⁻⁰·⁵]', 'lift_arm', 'hₘₐₓ')
+    """
+    text = re.sub(r"\b([A-Za-z]+)_([A-Za-z0-9]+)\b", _indexed, text)
+    text = re.sub(r"[A-Za-z]+", lambda word: _greek(word[0]), text)
+    return re.sub(r"\^([+-]?[\d.]+)", lambda power: "".join(RAISED[c] for c in power[1]), text)
+
+
+def _indexed(word: re.Match[str]) -> str:
+    """A letter with its index below it, if there is such a small letter; what is no letter stays a name."""
+    letter, index = _greek(word[1]), _greek(word[2])
+    if len(letter) > 1:
+        return word[0]
+    return letter + ("".join(SUBSCRIPTS[c] for c in index) if {*index} <= SUBSCRIPTS.keys() else index)
+
+
+def _greek(name: str) -> str:
+    """A letter by its name, small or large."""
+    small = name[0].lower() + name[1:]
+    if small not in GREEK or small == "final":
+        return name
+    return chr((0x3B1 if small == name else 0x391) + GREEK.index(small))

@@ -19,6 +19,7 @@ import numpy as np
 
 from .declaration import Choice, Declared, Quantity
 from .kinds import shown
+from .markup import words
 
 T = TypeVar("T")
 """A design, or a part of one."""
@@ -88,6 +89,21 @@ def a_design(design: object) -> Declared:
 def _leaves_of(design: object) -> dict[str, Leaf]:
     """All of a design by path, in order; ``ValueError`` for what is no design, nor a part of one."""
     return dict(_walk(a_design(design), {}))
+
+
+def label(path: str, declared: Quantity | Choice) -> str:
+    """What stands at a path is called where it is shown: by its path, or by the name of its declaration.
+
+    A load, a motion and a law add nothing to a name; which of several it is they do.
+
+    >>> from camkit import TranslatingRollerCam
+    >>> quantities = quantities_of(TranslatingRollerCam())
+    >>> [label(path, quantities[path]) for path in ("roller_radius", "load.mass", "motion.rise.angle")]
+    ['roller radius', 'follower mass', 'motion rise angle']
+    """
+    name = declared.name if isinstance(declared, Quantity) else ""
+    owners = [word for word in words(path.rpartition(".")[0]).split() if word not in ("load", "motion", "law")]
+    return " ".join((*owners, name)) if name else words(path)
 
 
 def declared_in(design: object) -> dict[str, Quantity | Choice]:

@@ -5,7 +5,6 @@ Each mark is one artist, known by the mark's key.  Roles get their colours and w
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
@@ -18,6 +17,7 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import NullLocator
 
 from ..geometry import circle
+from ..quantities.markup import letters
 from ..quantities.types import Value
 from ..views import picture as shown
 from .contours import outlined
@@ -126,20 +126,12 @@ def colour(role: str, index: int = 0, theme: str = "light") -> str:
 def plain(words: object) -> str:
     """Text that is drawn letter by letter: matplotlib reads what stands between two dollars as a formula.
 
+    Symbols and powers in it are written as in the literature: α, l₁, mm².
+
     >>> print(plain("5 $ or 6 $"))
     5 \\$ or 6 \\$
     """
-    return words if isinstance(words, shown.Formula) else str(words).replace("$", r"\$")
-
-
-def unit_text(words: str) -> str:
-    """Text with the powers of its units, in brackets, raised.
-
-    >>> print(unit_text("x^2  [N^0.5 mm^-0.5]"))
-    x^2  [N$^{0.5}$ mm$^{-0.5}$]
-    """
-    name, bracket, unit = words.rpartition("[")
-    return name + bracket + re.sub(r"\^(-?[\d.]+)", r"$^{\1}$", unit) if bracket else words
+    return words if isinstance(words, shown.Formula) else letters(str(words)).replace("$", r"\$")
 
 
 def moving(ax: Axes) -> list[Artist]:
@@ -260,8 +252,8 @@ def _put_text(ax: Axes, mark: shown.Text, artist: Any, style: dict[str, object],
 def _frame(ax: Axes, axes: shown.Axes) -> None:
     """Title, labels, scales and window; few ticks: text takes three quarters of a drawing's time."""
     ax.set_title(plain(axes.title), loc="left")
-    ax.set_xlabel(unit_text(plain(axes.xlabel)))
-    ax.set_ylabel(unit_text(plain(axes.ylabel)))
+    ax.set_xlabel(plain(axes.xlabel))
+    ax.set_ylabel(plain(axes.ylabel))
     _scale(ax, "x", axes.log, axes.xticks, axes.xlim)
     _scale(ax, "y", axes.log, axes.yticks, axes.ylim)
     if axes.equal:

@@ -27,6 +27,7 @@ from ..quantities import (
     Paths,
     Quantity,
     choices_of,
+    label,
     measures_of,
     quantities_of,
     refuse_design,
@@ -347,7 +348,7 @@ def _quantity(path: str, declared: Quantity, value: float) -> dict[str, Json]:
     size = "size" if declared.unit in ("mm", "m", "um", "deg", "") else "power, speed, material"
     return {
         "group": words(group) or size,
-        "name": words(path),
+        "name": label(path, declared),
         "value": value,
         **{name: getattr(declared, name) for name in own},
     }

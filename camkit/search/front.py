@@ -113,10 +113,10 @@ def dominated(f: np.ndarray) -> np.ndarray:
 def _why_empty(evaluation: Evaluation, study: Study) -> str:
     built = np.isfinite(evaluation.f).all(-1)
     if not built.any():
-        return "no design that was looked at can be built; widen or move the bounds"
+        return "no design that was evaluated can be built; widen or move the bounds"
     nearest = np.argmin(np.where(built, evaluation.missed.sum(-1), np.inf))
     missed = study.worst_miss(evaluation.g[nearest])
-    return f"no design that was looked at keeps every limit; the nearest misses {missed}"
+    return f"no design that was evaluated keeps every limit; the nearest misses {missed}"
 
 
 def reference_point(study: Study, n: int = 256) -> np.ndarray:

@@ -56,7 +56,7 @@ def minimise(
     >>> from camkit.machines import high_speed_study
     >>> best = minimise(high_speed_study())
     >>> best.evaluations < 200, *(f"{held.name} {held.value}" for held in best.active)
-    (True, 'contact stress F_sigma 1.683 N^0.5 mm^-0.5', 'maximum radius 140 mm (upper bound)')
+    (True, 'stress index F_sigma 1.683 N^0.5 mm^-0.5', 'radius at the far dwell 140 mm (upper bound)')
 
     Raises ``ValueError`` for a study with several objectives, an unknown method, or numbers that are no whole ones.
     """
@@ -124,7 +124,7 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
         if len(ends) >= starts and min(merits)[0] == 0:
             break
     best, used, finished = _tightened(study, judge, _better(judge, *ends))
-    stopped = "the slopes show no way down" if finished else "no step made the design better"
+    stopped = "Converged: no small change lowers it further" if finished else "Stopped: no step made the design better"
     f = tuple(f if broken < SAME else np.inf for broken, f in merits)
     return Found(best, evaluations + used, f, stopped)
 
@@ -211,7 +211,7 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Fou
         )
     except RuntimeError as wrapped:  # scipy takes what the study refuses for a fault of its own
         raise (wrapped.__cause__ if isinstance(wrapped.__cause__, ValueError) else wrapped) from None
-    why = "its designs had drawn together" if found.success else "it had looked at as many designs as it may"
+    why = "Converged: its designs have drawn together" if found.success else f"Stopped: {designs} designs evaluated"
     return Found(_better(judge, found.x), looked, (), why)
 
 
@@ -223,7 +223,7 @@ def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int,
     algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
     algorithm.run()
     best = _better(judge, *algorithm.opt.get("X"))
-    return Found(best, int(algorithm.evaluator.n_eval), (), f"its {generations} generations were over")
+    return Found(best, int(algorithm.evaluator.n_eval), (), f"Stopped: {generations} generations evaluated")
 
 
 def _ga(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:

@@ -7,7 +7,7 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
-from ..quantities import D, Measure, PeakMeasure, words
+from ..quantities import D, Measure, PeakMeasure, label
 from ..study.study import Evaluation, Study
 from ..units import deg
 from .minimax import parts_of
@@ -73,10 +73,10 @@ def described(study: Study[D], found: Found) -> Minimum[D]:
     evaluation = study.evaluate(found.x)
     built, feasible = bool(np.isfinite(evaluation.f).all()), bool(evaluation.feasible[0])
     active = _active(study, evaluation) if built else ()
-    words = [f"The search stopped because {found.why}.", _held(active) if feasible else _missed(study, evaluation)]
+    words = [f"{found.why}.", _held(active) if feasible else _missed(study, evaluation)]
     if feasible and len(found.ends) > 1:
         same = sum(abs(end - min(found.ends)) <= SAME * abs(min(found.ends)) for end in found.ends)
-        words.append(f"{same} of {len(found.ends)} starts ended with this objective, to {SAME:.1%} of it.")
+        words.append(f"{same} of {len(found.ends)} restarts ended with this objective, to {SAME:.1%} of it.")
     if found.descended is not None:
         words.append(_sureness(study, evaluation, found.descended))
     f, message = float(evaluation.f[0, 0]), " ".join(words)
@@ -152,5 +152,9 @@ def _bounds_reached(study: Study, x: np.ndarray) -> list[Active]:
     for name, value, low, high in zip(study.free, x, *study.bounds, strict=True):
         for end, word in ((low, "lower"), (high, "upper")):
             if abs(value - end) <= CLOSE * (high - low):
-                found.append(Active("bound", words(name), f"{study.declared[name].text(value)} ({word} bound)"))
+                found.append(
+                    Active(
+                        "bound", label(name, study.declared[name]), f"{study.declared[name].text(value)} ({word} bound)"
+                    )
+                )
     return found

@@ -123,7 +123,7 @@ def motion(analysis: Cam) -> Picture:
             peak = np.max(abs(values), axis=-1)
             share = values / np.where(peak > 0, peak, 1.0)
             marks.append(Line(f"{name} {key}", curve.cam_angle / deg, gaps(share, moves), role=role, label=key))
-    return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="share of its peak"), marks)
+    return Picture.of(Axes(title="Motion", xlabel=ANGLE, ylabel="normalised"), marks)
 
 
 def _moving(curve: CamCurve) -> Array:
@@ -148,7 +148,7 @@ def pressure_angle(analysis: Cam, limits: Mapping[Measure, float] | None = None)
     bands = [
         Band(f"allowed {i}", -limit, limit, role="allowed", opacity=0.1) for i, limit in enumerate(sorted(allowed))
     ]
-    axes = Axes(title="Pressure angle", xlabel=ANGLE, ylabel="alpha  [deg]")
+    axes = Axes(title="Pressure angle", xlabel=ANGLE, ylabel="α  [deg]")
     return Picture.of(axes, bands, _each(analysis, "pressure_angle", deg))
 
 
@@ -181,7 +181,7 @@ def curvature(analysis: Cam) -> Picture:
         shown = gaps(inner, abs(inner) < 2 * limit)
         style: LineStyle = {"role": "series", "index": i, "stroke": "thin dashed"}
         marks.append(Line(f"{name} profile", curve.cam_angle / deg, shown, **style))
-    return Picture.of(Axes(title="Curvature", xlabel=ANGLE, ylabel="kappa  [1/mm]"), bounds, marks)
+    return Picture.of(Axes(title="Curvature", xlabel=ANGLE, ylabel="κ  [1/mm]"), bounds, marks)
 
 
 def efficiency(analysis: Cam) -> Picture:
@@ -194,7 +194,7 @@ def efficiency(analysis: Cam) -> Picture:
         if hasattr(curve, "published_efficiency"):
             published = gaps(100 * curve.published_efficiency, moves)
             marks.append(Line(f"{name} published", x, published, stroke="thin dashed", **style))
-    return Picture.of(Axes(title="Efficiency", xlabel=ANGLE, ylabel="eta  [%]", ylim=(0, 100)), marks)
+    return Picture.of(Axes(title="Efficiency", xlabel=ANGLE, ylabel="η  [%]", ylim=(0, 100)), marks)
 
 
 def contact_pressure(analysis: Cam) -> Picture:
@@ -208,4 +208,4 @@ def contact_pressure(analysis: Cam) -> Picture:
         there, other = np.isfinite(y), several & (curve.contact_force < 0)
         marks.append(Line(name, x, gaps(y, there), label=several * name, role="series", index=i))
         marks.append(Line(f"{name} none", x, gaps(0 * x, ~(there | other)), role="trouble"))
-    return Picture.of(Axes(title="Contact pressure", xlabel=ANGLE, ylabel="p_0  [MPa]"), marks)
+    return Picture.of(Axes(title="Contact pressure", xlabel=ANGLE, ylabel="p₀  [MPa]"), marks)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..decision import CHOOSERS, WEIGHING, JudgementRange, Judgements, WinnerMap, judgement_ranges, winner_map
-from ..quantities import Measure, words
+from ..quantities import Measure, label
 from ..units import factor
 from .front import Judged
 from .parallel import Column, Designs, parallel_coordinates
@@ -96,7 +96,7 @@ def _numbers(front: Judged, measures: Sequence[Measure] | None) -> tuple[tuple[C
     """Every number of the front's designs that is shown, in its unit, ``(p, n)``."""
     study, p = front.study, len(front)
     goals = [(Column(m.name, m.unit, m.sign), m.sign * f) for m, f in zip(study.minimise, front.f.T, strict=True)]
-    free = [(Column(words(n), q.unit), x) for (n, q), x in zip(study.declared.items(), front.x.T, strict=True)]
+    free = [(Column(label(n, q), q.unit), x) for (n, q), x in zip(study.declared.items(), front.x.T, strict=True)]
     limited = {m: sense for m, _, sense in study.limits}
     further = [
         m for m in (limited if measures is None else measures) if m not in study.minimise and -m not in study.minimise
@@ -293,7 +293,7 @@ def _weight_shares(shown: ShownDecision) -> Picture:
             marks.append(Text(f"{rule} {design} share", percent + 1, y, told, anchor="left", size=9.5))
     axes = Axes(
         title=TITLE,
-        xlabel="share of all weightings  [%]",
+        xlabel="share of all weightings won  [%]",
         xlim=(0, 118),
         ylim=(0.5 - rows * len(shown.maps), 0.7),
         xticks={float(x): f"{x}" for x in range(0, 101, 20)},
@@ -336,7 +336,8 @@ def judgement_bars(shown: ShownDecision) -> Picture:
 
 
 def _judgement_bar(key: str, shown: ShownDecision, rule: str, told: JudgementRange, y: float) -> list[Mark]:
-    below, above = ("stays" if design is None else f"then {design}" for design in (told.below, told.above))
+    ends = told.below, told.above
+    below, above = ("stays" if design is None else f"next winner: design {design}" for design in ends)
     return [
         _bar(f"{key} scale", 1 / 9, 9, y, BAR / 2, role="body"),
         _bar(key, told.low, told.high, y, BAR / 2, **_look(shown, shown.winners[rule])),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import Analysable, words
+from ..quantities import Analysable, label
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..quantities.types import Array, Value
 from ..study.design_map import DesignMap
@@ -30,7 +30,7 @@ def units_of(plane: DesignMap) -> np.ndarray:
 def _axes(plane: DesignMap, title: str, xlim: tuple[Value, Value], ylim: tuple[Value, Value]) -> Axes:
     """The axes are named after the quantities, with their symbols and units."""
     x, y = (
-        words(name) + ("" if name == q.symbol else f"  {q.symbol}") + (f"  [{q.unit}]" if q.unit else "")
+        label(name, q) + ("" if name == q.symbol else f"  {q.symbol}") + (f"  [{q.unit}]" if q.unit else "")
         for name, q in zip(plane.study.free, plane.declared, strict=True)
     )
     return Axes(title=title, xlabel=x, ylabel=y, grid=False, xlim=xlim, ylim=ylim)

@@ -50,7 +50,7 @@ def _wear(part: Any) -> Array:
     return part.wear_coefficient / mm**0.5
 
 
-STRESS = Curve("Contact stress", "F_sigma", "N^0.5 mm^-0.5", _stress)
+STRESS = Curve("Stress index", "Fσ", "N^0.5 mm^-0.5", _stress)
 WEAR = Curve("Wear", "F_wear", "N^1.5 mm^-0.5", _wear)
 HERTZ = Curve("Hertz pressure", "p_0", "MPa", attrgetter("contact_pressure"))
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure, Quantity, declarations, words
+from ..quantities import Measure, Quantity, declarations, label
 from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..study.study import Study
 from ..units import deg, factor, in_unit
@@ -53,7 +53,7 @@ def best_so_far(shown: ShownLooks) -> Picture:
         )
     ]
     line = Line("best", looked, sense * best, role="profile", steps=True, label="best so far")
-    axes = Axes(title="The search", xlabel="designs looked at", ylabel=two_lines(shown.measure), log="x")
+    axes = Axes(title="The search", xlabel="designs evaluated", ylabel=two_lines(shown.measure), log="x")
     return Picture.of(axes, dots, line)
 
 
@@ -126,7 +126,7 @@ class _Shown(NamedTuple):
 def _free(study: Study, name: str) -> _Shown:
     declared = declarations(study.start)[name]
     assert isinstance(declared, Quantity)
-    return _Shown(words(name).capitalize(), f"{declared.symbol}  [{declared.unit}]", declared.factor)
+    return _Shown(label(name, declared).capitalize(), f"{declared.symbol}  [{declared.unit}]", declared.factor)
 
 
 def _objective(study: Study) -> _Shown:
@@ -147,8 +147,9 @@ def least_over_bound(name: str) -> View:
             Text(f"at {x:g}", x, y, f" {y:.2f}", anchor="left bottom", size=11)
             for x, y in zip(bound, least, strict=True)
         ]
-        label = f"bound of the {words(name)}  [{declared.unit}]"
-        axes = Axes(title=f"What a larger {words(name)} buys", xlabel=label, ylabel=two_lines(measure))
+        called = label(name, declared)
+        xlabel = f"bound of the {called}  [{declared.unit}]"
+        axes = Axes(title=f"What a larger {called} buys", xlabel=xlabel, ylabel=two_lines(measure))
         results = Points("results", bound, least, role="position")
         return Picture.of(axes, Line("least", bound, least, role="position"), results, told)
 

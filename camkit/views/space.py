@@ -158,7 +158,7 @@ def _pressure_angles_at(scene: Turntable, here: Any) -> None:
     ):
         start, moves, along = joint[:, 0] / mm, motion[:, 0], sign * here.coupler_direction[:, 0]
         moves = moves * np.where(dot(moves, along) >= 0, 1, -1)
-        label = "joint's way" if sign > 0 else ""
+        label = "path of the joint" if sign > 0 else ""
         scene.arrow(f"{name} way", start, size * moves, role="velocity", label=label)
         share = np.linspace(0, 1, 13)
         fan = moves[:, None] * (1 - share) + along[:, None] * share
@@ -223,7 +223,7 @@ def pressure_angles(analysis: Any, turn: float | None = None, limits: Mapping[Me
     allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
     x = analysis.crank_angle
     return Picture.of(
-        _swept("Pressure angle", "alpha  [deg]", ylim=(0, 90)),
+        _swept("Pressure angle", "α  [deg]", ylim=(0, 90)),
         [Band(f"limit {i}", limit, limit, role="limit") for i, limit in enumerate(sorted(allowed))],
         _curve("crank", x, analysis.crank_pressure_angle / deg, turn, **CRANK),
         _curve("rocker", x, analysis.rocker_pressure_angle / deg, turn, **ROCKER),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import words
+from ..quantities import label
 from ..quantities.kinds import refuse_arguments
 from ..study.study import Study
 from ..study.sweep import Sweep
@@ -17,9 +17,9 @@ LOWEST, HIGHEST = -100.0, 100.0
 
 
 def limit_sweep(sweep: Sweep) -> Picture:
-    """Excess over each limit (below 0: kept) along the free quantity; filled: every limit kept."""
+    """Distance to each limit (below 0: kept) along the free quantity; filled: every limit kept."""
     x, now = sweep.x / sweep.declared.factor, sweep.now / sweep.declared.factor
-    told = words(sweep.name)
+    told = label(sweep.name, sweep.declared)
     limits = [
         Line(f"limit {i}", x, np.clip(100 * excess, LOWEST, HIGHEST), role="series", index=i, label=measure.name)
         for i, (measure, excess) in enumerate(zip(sweep.measures, sweep.limits, strict=True))
@@ -27,7 +27,7 @@ def limit_sweep(sweep: Sweep) -> Picture:
     axes = Axes(
         title=f"How large must the {told} be?",
         xlabel=f"{told}  [{sweep.declared.unit}]",
-        ylabel="excess  [%]",
+        ylabel="distance to the limit  [%]",
         xlim=(x[0], x[-1]),
         ylim=(LOWEST, HIGHEST),
     )

@@ -248,10 +248,12 @@ def wins(book: Workbook, weights: Any, importance: Any, rule: str) -> None:
     """The panel names the winner that is chosen here."""
     x, f = front_here(book, weights)
     i = CHOOSERS[rule](f, importance)
-    goals = f"effort {f[i, 0]:.4g}, least convex radius (pitch), worse curve {-f[i, 1] / mm:.4g} mm"
+    goals = f"effort {f[i, 0]:.4g}, minimum convex radius of curvature, pitch curve, worse curve {-f[i, 1] / mm:.4g} mm"
     arm, start, share = x[i] / (mm, deg, deg)
     arms = f"lift arm {arm:.6g} mm, lift start angle {start:.6g} deg, relief cam angle {share:.6g} deg"
-    expect(book.finder).to_contain_text(f"winner: design {i} of 0..{len(f) - 1}: {goals}")
+    expect(book.finder).to_contain_text(
+        re.compile(rf"winner: design {i}, {i + 1}(st|nd|rd|th) of {len(f)}: {re.escape(goals)}")
+    )
     expect(book.finder).to_contain_text(arms)
 
 

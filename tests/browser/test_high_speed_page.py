@@ -67,7 +67,7 @@ def shows(book: Workbook, cam: HighSpeedCam) -> None:
     for name, field in (
         ("arm length", "arm_length"),
         ("roller radius", "roller_radius"),
-        ("maximum radius", "max_radius"),
+        ("radius at the far dwell", "max_radius"),
     ):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{getattr(cam, field) / mm:.6g}")
     expected = table_of_measures(HIGH_SPEED_MEASURES, cam.analyse(), START.analyse(), {}, LIMITS)
@@ -104,13 +104,13 @@ def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> 
     book.better.get_by_role("button", name="Optimise from here").click()
     best = minimise(high_speed_study(objective=peak_wear))
     first = peak_wear.text(float(best.study.evaluate([best.study.x0]).f[0, 0]))
-    expect(book.better).to_contain_text(f"wear F_wear: {first} → {peak_wear.text(best.f)}")
-    expect(book.better).to_contain_text("the slopes show no way down")
-    expect(book.better).to_contain_text("maximum radius 140 mm (upper bound)")
+    expect(book.better).to_contain_text(f"wear index: {first} → {peak_wear.text(best.f)}")
+    expect(book.better).to_contain_text("Converged: no small change lowers it further")
+    expect(book.better).to_contain_text("radius at the far dwell 140 mm (upper bound)")
     found = book.value("[app.design.arm_length, app.design.roller_radius, app.design.max_radius]")
     np.testing.assert_allclose(found, [getattr(best.design, name) for name in GEOMETRY], rtol=1e-4)
     assert book.value("float(app.measures[1](app.analysis))") < 0.6 * float(peak_wear(START.analyse()))
-    book.better.get_by_role("button", name="Put back").click()
+    book.better.get_by_role("button", name="Undo").click()
     shows(book, START)
 
 
@@ -119,7 +119,7 @@ def test_a_long_search_can_be_stopped_and_keeps_the_best(book: Workbook) -> None
     menus.nth(0).select_option(label="contact stress: sizes and laws")
     menus.nth(1).select_option(label="de")
     book.better.get_by_role("button", name="Optimise from here").click()
-    expect(book.better).to_contain_text(re.compile(r"\d+ designs looked at, best so far"))
+    expect(book.better).to_contain_text(re.compile(r"\d+ designs evaluated, best so far"))
     book.better.get_by_role("button", name="Stop").click()
     expect(book.better).to_contain_text(re.compile(r"The search was stopped after \d+ designs"))
     assert book.value("float(app.measures[0](app.analysis))") <= float(peak_stress(START.analyse())) * 1.001

@@ -70,7 +70,7 @@ def _from_the_start(book: Workbook) -> None:
 
 def shows(book: Workbook, cam: ValveCam) -> None:
     """Boxes and table show ``cam``, computed here."""
-    for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("load speed", cam.load.speed / rpm)):
+    for name, shown in (("n", cam.n), ("base radius", cam.base_radius / mm), ("cam speed", cam.load.speed / rpm)):
         expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{shown:.6g}")
     limits = dict.fromkeys((nose_radius, min_radius), PAPER_MIN_RADIUS)
     expected = table_of_measures(VALVE_MEASURES, cam.analyse(), START.analyse(), {}, limits)
@@ -101,7 +101,7 @@ def test_the_roller_from_the_menu_and_the_profile_to_download(book: Workbook) ->
 def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
     book.bench.get_by_role("button", name="Weakest spring").click()
     shows(book, START.with_spring())
-    book.bench.get_by_role("button", name="Keep 4.5 mm everywhere").click()
+    book.bench.get_by_role("button", name="Smallest base circle for radius 4.5 mm").click()
     shows(book, keeping_least_radius(START.with_spring()))
     assert book.value("app.analysis.profile_margin.value") == pytest.approx(4.5 * mm, rel=1e-9)
 

@@ -246,7 +246,7 @@ WORK_DAMAGE = {
     "a sum of nothing": lambda w: w["minimise"][0].update(weights={}),
     "a reference too short": lambda w: w["minimise"][0].update(reference=[1]),
     "a limit on an unknown measure": lambda w: w["at_most"].update({"speed [m/s]": 5}),
-    "a limit of text": lambda w: w.update(at_most={"steepest pressure angle, lift [deg]": "45"}),
+    "a limit of text": lambda w: w.update(at_most={"maximum pressure angle, lift [deg]": "45"}),
     "angles of text": lambda w: w.update(angles="many"),
     "no angles": lambda w: w.update(angles=None),
     "negative angles": lambda w: w.update(angles=-1),

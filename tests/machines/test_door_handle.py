@@ -165,7 +165,7 @@ def test_table_4_torque_in_the_papers_unit(before, after):
 
 def test_table_4_pressure_angles(before, after):
     """Lift: printed and computed agree to 0.005 rad; relief: the printed fall is a rise."""
-    printed = {name: PAPER["table_4"][name]["steepest_pressure_angle_rad"] for name in BOTH}
+    printed = {name: PAPER["table_4"][name]["max_pressure_angle_rad"] for name in BOTH}
     assert_allclose(max_pressure_angle(before.lift), printed["lift"]["before"], atol=1e-3)
     assert_allclose(max_pressure_angle(after.lift), printed["lift"]["after"], atol=5e-3)
     assert_allclose(max_pressure_angle(before.relief), printed["relief"]["before"], atol=5e-3)
@@ -387,10 +387,10 @@ def test_the_default_study_judges_the_whole_cam_where_whole_cams_live():
     study = door_handle_study()
     assert dict(study.free) == DOOR_HANDLE_SPACE
     assert {m.name: (limit, sense) for m, limit, sense in study.limits} == {
-        "steepest pressure angle, worse curve": (45 * deg, 1),
+        "maximum pressure angle, worse curve": (45 * deg, 1),
         "base radius (pitch), worse curve": (30 * mm, -1),
-        "least convex radius (pitch), worse curve": (7 * mm, -1),
-        "undercut margin of the groove, worse curve": (0.1, -1),
+        "minimum convex radius of curvature, pitch curve, worse curve": (7 * mm, -1),
+        "undercut margin, worse curve": (0.1, -1),
         "wall between parts of the groove": (0.0, -1),
     }
     x, f, feasible = drawn(study)
@@ -444,9 +444,9 @@ def test_the_lift_curve_alone_is_judged_as_in_the_paper():
     assert evaluation.feasible.all()
     limits = {m.name: (limit, sense) for m, limit, sense in study.limits}
     assert limits == {
-        "steepest pressure angle, lift": (45 * deg, 1),
+        "maximum pressure angle, lift": (45 * deg, 1),
         "base radius (pitch), lift": (30 * mm, -1),
-        "least convex radius of the stroke (pitch), lift": (7 * mm, -1),
+        "minimum convex radius of curvature of the stroke, pitch curve, lift": (7 * mm, -1),
     }
 
 

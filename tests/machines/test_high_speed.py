@@ -502,7 +502,7 @@ def test_a_weak_spring_loses_contact():
         ({"swing": 60 * deg}, r"the arm ends at 50.9 deg .* swings 60 deg; it must start above 0 deg"),
         (
             {"roller_radius": 120 * mm, "max_radius": 30 * mm},
-            r"smallest radius r_k1 of the profile is -\d+.* mm; it must",
+            r"minimum radius r_k1 of the profile is -\d+.* mm; it must",
         ),
         ({"rise_law": "cycloidal"}, r"the rise law is 'cycloidal'; it must be one of"),
         ({"return_law": TORQUE}, r"the return law is ConstantTorque.*; it must be one of"),
@@ -681,7 +681,7 @@ def test_a_study_at_more_than_the_rated_speed_keeps_the_roller_on_the_cam():
     assert best.design.spring_factor >= 2.25 * best.design.analyse(4001).least_spring_factor * (1 - 1e-6)
     stuck = minimise(high_speed_study(FIRST.replace(speed=1.5, spring_factor=2.6)), "de", designs=500)
     assert not stuck.feasible
-    assert "misses the least normal force of at least 0 N by " in stuck.message
+    assert "misses the minimum normal force of at least 0 N by " in stuck.message
 
 
 def test_a_gain_is_the_share_that_is_left_of_the_print():

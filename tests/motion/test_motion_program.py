@@ -228,12 +228,12 @@ def test_verdicts():
         MotionProgram((Rise(60 * deg, 12 * mm, Poly4567()), Dwell(60 * deg))).transitions()[0],
     ]
     assert [joint.verdict for joint in said] == [
-        "at 60 deg the jerk jumps by -0.627 follower units/rad^3: finite; acceptable",
-        "at 60 deg the jerk jumps by -0.627 follower units/rad^3: finite; acceptable",
-        "at 60 deg the acceleration jumps by 0.054 follower units/rad^2: infinite jerk; vibration, not for a fast cam",
-        "at 60 deg the velocity jumps by -0.01146 follower units/rad: infinite acceleration; impact, forbidden",
-        "at 60 deg the position jumps by 0.006 follower units: the follower would have to leap; impact, forbidden",
-        "at 60 deg the motion is smooth",
+        "60°: jerk step -0.627 follower units/rad³, acceptable",
+        "60°: jerk step -0.627 follower units/rad³, acceptable",
+        "60°: acceleration step 0.054 follower units/rad², infinite jerk: vibration, not for a fast cam",
+        "60°: velocity step -0.01146 follower units/rad, infinite acceleration: impact, forbidden",
+        "60°: position step 0.006 follower units, the follower would have to leap: impact, forbidden",
+        "60°: smooth",
     ]
     assert [joint.lawful for joint in said] == [True, True, False, False, False, True]
 

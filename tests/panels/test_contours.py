@@ -93,7 +93,7 @@ def test_marks_and_legend():
     assert view.axes.title == "Fullness against nose deceleration"
     view = objective_plane(ShownPlane(DesignMap(corrected_valve_study(), n=21)))
     assert np.isnan(view["optimum"].x).all()
-    assert legend(view) == ["least convex radius anywhere at least 4.5 mm"]
+    assert legend(view) == ["minimum convex radius of curvature at least 4.5 mm"]
 
 
 @dataclass(frozen=True)
@@ -239,7 +239,7 @@ def test_the_design_in_the_sliders_counts(panel):
     settled(panel)
     assert_allclose(panel.optimum, DesignMap(corrected_valve_study(WIDE), n=21).best, rtol=1e-6)
     assert_allclose(panel.optimum, (4.0305, 20), atol=1e-4)
-    assert "least convex radius anywhere: 4.5 mm" in panel.summary()
+    assert "minimum convex radius of curvature: 4.5 mm" in panel.summary()
 
 
 def test_free_quantities_move_the_mark_and_nothing_else(panel):

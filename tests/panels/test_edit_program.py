@@ -92,7 +92,7 @@ def test_followers_hear_of_every_possible_program(editor):
 
 
 def test_the_verdict_names_a_broken_joint(editor):
-    assert "at 180 deg the acceleration jumps by -0.0225 m/rad^2: infinite jerk" in editor.summary()
+    assert "180°: acceleration step -22.5 mm/rad², infinite jerk" in editor.summary()
     editor.rows[3].law.value = Cycloidal()
     assert "acceleration" not in editor.summary()
 

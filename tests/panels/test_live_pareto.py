@@ -527,7 +527,7 @@ def test_a_problem_without_a_design_is_told_in_place_of_the_picture(panel):
     panel.settle()
     assert not len(panel.front)
     assert panel.winner is None
-    assert "There is no front: no design that was looked at" in panel.banner.value
+    assert "There is no front: no design that was evaluated" in panel.banner.value
     assert panel.picture.widget.layout.display == "none"
     assert panel.summary().startswith("no front: no design")
     panel.explorer.load(DoorHandleCam())

@@ -32,7 +32,7 @@ def test_the_printed_relief_base_radius_follows_from_a_start_angle_rounded_to_25
 
 def test_the_printed_relief_angle_is_met_with_the_base_radius_of_the_start():
     kept, chosen = (row(paper.table_4("relief"), name)
-                    for name in ("the same, base radius kept", "steepest pressure angle, after"))  # fmt: skip
+                    for name in ("the same, base radius kept", "maximum pressure angle, after"))  # fmt: skip
     assert abs(kept.computed / 0.734 - 1) < 0.0025
     assert abs(chosen.computed / 0.734 - 1) > 0.02
     cam = DoorHandleCam(relief_arm=74.49 * mm)

@@ -70,7 +70,7 @@ REFUSED = {
     "the arm swings over 401.1 deg": ("high speed", {"rise_angle": 5.0, "return_angle": 2.0}),
     "the roller's centre has to come": ("high speed", {"max_radius": 0.4}),
     "the arm ends at": ("high speed", {"swing": 1.2}),
-    "the smallest radius r_k1": ("high speed", {"arm_length": 0.26, "roller_radius": 0.125, "swing": 0.86}),
+    "the minimum radius r_k1": ("high speed", {"arm_length": 0.26, "roller_radius": 0.125, "swing": 0.86}),
     "the stroke is 600 mm": ("lever", {"stroke": 0.6}),
     "the relief cam angle is 200.5 deg": ("door handle", {"relief_cam_angle": 3.5}),
     "relief curve, transition arc": ("door handle", {"handle_angle": 4.0}),

@@ -136,7 +136,7 @@ def test_limits_tighten_monotonically():
     assert (np.diff(caps) < -1e-3 * caps[0]).all()
     flat = minimise(high_speed_study(at_most={max_pressure_angle: 40 * deg}))
     assert flat.f > minimise(high_speed_study()).f
-    assert "the steepest pressure angle 40 deg" in flat.message
+    assert "the maximum pressure angle 40 deg" in flat.message
 
 
 def test_rechecked_limits_hold_between_the_angles_of_the_search():
@@ -262,11 +262,11 @@ def test_the_search_for_an_interval_ends_at_once_if_there_is_none_or_nothing_to_
     study = cam_lever_study(free_laws=False)
     (only,) = shortest_interval(study, 5 / cm**0.5, 40 * deg, 61 * deg)
     assert only.best is None
-    assert only.message.startswith("An interval of 61 deg does not keep the contact stress F_sigma of at most 5")
+    assert only.message.startswith("An interval of 61 deg does not keep the stress index F_sigma of at most 5")
     both = list(shortest_interval(study, 20 / cm**0.5, 55 * deg, 61 * deg))
     assert len(both) == 2
     assert both[-1].high == 55 * deg
-    assert both[-1].message.startswith("An interval of 55 deg keeps the contact stress F_sigma of at most 20")
+    assert both[-1].message.startswith("An interval of 55 deg keeps the stress index F_sigma of at most 20")
 
 
 def test_the_intervals_of_any_cam_can_be_shortened():

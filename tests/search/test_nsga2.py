@@ -209,7 +209,7 @@ def test_an_empty_front_says_which_limit_stood_in_the_way():
     assert len(front) == 0
     assert front.f.shape == (0, 2)
     assert front.message == (
-        f"no design that was looked at keeps every limit; the nearest misses the distance from 0 of at most 2 by "
+        f"no design that was evaluated keeps every limit; the nearest misses the distance from 0 of at most 2 by "
         f"{front.message.split()[-1]}"
     )
     # The nearest: x with the least (x^2/2 - 1) + ((x - 2)^2/0.01 - 1) where both are above 0 is x = 1.9: 3.61 - 2.
@@ -219,7 +219,7 @@ def test_an_empty_front_says_which_limit_stood_in_the_way():
 def test_an_empty_front_says_the_limit_in_its_unit():
     front = nsga2(two_places(at_least={right: 8.0}), 40, 60, 1)
     assert front.message == (
-        "no design that was looked at keeps every limit; the nearest misses the place of at least 8000 mm by 3000 mm"
+        "no design that was evaluated keeps every limit; the nearest misses the place of at least 8000 mm by 3000 mm"
     )
 
 
@@ -230,7 +230,7 @@ def test_an_empty_front_says_by_how_much_a_limit_of_nothing_is_missed():
 
 def test_an_empty_front_says_that_nothing_can_be_built():
     front = nsga2(Study(Ball(), {"y": (3.5, 4.0)}, (near_0,)), 8, 3, 1)
-    assert front.message == "no design that was looked at can be built; widen or move the bounds"
+    assert front.message == "no design that was evaluated can be built; widen or move the bounds"
 
 
 # ---------------------------------------------------------------- a front under other objectives

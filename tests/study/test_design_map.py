@@ -84,7 +84,7 @@ def test_the_window_may_reach_beyond_the_bounds_but_the_best_design_does_not() -
 
 
 def test_it_knows_no_mechanism() -> None:
-    """The lift arm and start angle of the door-handle cam with the least of its steepest pressure angles."""
+    """The lift arm and start angle of the door-handle cam with the least of its maximum pressure angles."""
     free = {"lift_arm": (40 * mm, 55 * mm), "lift_start_angle": (15 * deg, 30 * deg)}
     least = Study(
         DoorHandleCam().lift,

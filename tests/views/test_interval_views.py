@@ -189,13 +189,13 @@ def test_the_slider_rises_by_its_stroke_and_arm_and_lever_are_one_piece():
 def test_stress_over_the_lift_in_the_papers_unit():
     analysis = PRESS.analyse()
     for view, measure, power in (
-        (stress_over_way, lever_stress, "0.5"),
-        (wear_over_way, lever_wear, "1.5"),
+        (stress_over_way, lever_stress, "⁰·⁵"),
+        (wear_over_way, lever_wear, "¹·⁵"),
     ):
         ax = drawn(PRESS, view)
         tops = [xy(ax, f"{way} peak") for way in ("away", "back")]
         assert max(top[1, 0] for top in tops) == pytest.approx(measure(analysis) * cm**0.5, rel=1e-6)
-        assert f"N$^{{{power}}}$ cm$^{{-0.5}}$" in ax.get_ylabel()
+        assert f"[N{power} cm⁻⁰·⁵]" in ax.get_ylabel()
         x, _ = xy(ax, "away")
         assert_allclose(x, analysis.way[: len(x)] / mm, atol=1e-6)
         assert_allclose(x[[0, -1]], (0, 18), atol=1e-6)

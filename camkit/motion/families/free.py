@@ -160,7 +160,7 @@ def _values(word: str, given: object) -> tuple[Value | None, ...]:
     )
 
 
-COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None)
+COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None, name="shape")
 
 
 def coefficients(given: object, law: str) -> tuple[Value, ...]:

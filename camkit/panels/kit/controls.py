@@ -13,7 +13,7 @@ import ipywidgets as w
 import traitlets
 
 from ...files.json_file import MOST_BYTES
-from ...quantities import Choice, Quantity, words
+from ...quantities import Choice, Quantity, label
 from ...quantities.markup import Html, attribute, escaped, html, joined
 from ...units import in_unit
 from .number import NumberBox, staying
@@ -34,7 +34,7 @@ def symbol_html(symbol: str) -> Html:
 
 def label_html(name: str, declared: Quantity | Choice) -> Html:
     """A quantity's symbol and name (once, where they are the same); its meaning to hover, and how it is said aloud."""
-    said = words(name)
+    said = label(name, declared)
     shown = escaped(said)
     if isinstance(declared, Quantity):
         symbol = symbol_html(declared.symbol)
@@ -76,7 +76,7 @@ class NumberRow:
         refused: Callable[[str], None],
     ) -> None:
         self.declared, self.value, self._changed, self._quiet = declared, float(value), changed, Quiet()
-        self._refused = staying(words(name), refused)
+        self._refused = staying(label(name, declared), refused)
         shown, step = in_unit(self.value, declared.unit), 10 ** _decade((declared.high - declared.low) / 500)
         self.slider = w.FloatSlider(
             value=shown,
@@ -96,9 +96,9 @@ class NumberRow:
             meaning=declared.meaning,
             layout=w.Layout(width="5.9em"),
         )
-        label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
+        caption = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
         unit = w.HTML(small_html(declared.unit), layout=w.Layout(flex="0 0 4.2em"))
-        self.row = w.HBox([label, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
+        self.row = w.HBox([caption, self.slider, self.box, unit], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
         self._quiet.hear(self.slider, self._moved)
         self._quiet.hear(self.box, self._typed)
@@ -187,8 +187,8 @@ class Menu:
             options=self._options(value), value=value,
             tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
         )  # fmt: skip
-        label = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
-        self.row = w.HBox([label, self.menu], layout=w.Layout(align_items="center"))
+        caption = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
+        self.row = w.HBox([caption, self.menu], layout=w.Layout(align_items="center"))
         self.row.add_class("camkit-knob")
         self._quiet.hear(self.menu, lambda _: changed())
 

@@ -15,7 +15,7 @@ import ipywidgets as w
 import numpy as np
 
 from ...decision import CHOOSERS
-from ...quantities import Analysable, words
+from ...quantities import Analysable, label
 from ...quantities.markup import html
 from ...quantities.types import Array
 from ...search.front import Front
@@ -62,9 +62,14 @@ class FrontChoice:
             return [self.front.message]
         study, x, f = self.front.study, self.front.x[self.winner], self.front.f[self.winner]
         goals = ", ".join(objective_texts(study, f))
-        free = [f"{words(n)} {q.text(v)}" for (n, q), v in zip(study.declared.items(), x, strict=True)]
+        free = [f"{label(n, q)} {q.text(v)}" for (n, q), v in zip(study.declared.items(), x, strict=True)]
         return [
-            html("<b>winner: design {}</b> of 0..{}: {}", self.winner, len(self.front) - 1, goals),
+            html(
+                "<b>winner: design {}</b>, {}: {}",
+                self.winner,
+                f"{_ordinal(self.winner + 1)} of {len(self.front)}",
+                goals,
+            ),
             ", ".join(free),
         ]
 
@@ -154,3 +159,9 @@ class FrontPanel(Panel):
     def on_front(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after each new front is shown, from whichever thread shows it."""
         self.on_change(act)
+
+
+def _ordinal(n: int) -> str:
+    """1st, 2nd, 3rd, 4th, 11th, 21st."""
+    tail = "th" if n % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th")
+    return f"{n}{tail}"

@@ -61,6 +61,6 @@ def time_left(step: Step) -> str:
 
 def record_text(record: Mapping[str, object]) -> str:
     """How a front was found, in one line; all that is known of it is in the saved study."""
-    words_of = {"generations": "{} generations", "designs": "{} designs looked at", "seed": "seed {}"}
+    words_of = {"generations": "{} generations", "designs": "{} designs evaluated", "seed": "seed {}"}
     known = (text.format(record[name]) for name, text in words_of.items() if name in record)
     return f"found in {record['seconds']:.3g} s: {', '.join(known)}" if record else ""
