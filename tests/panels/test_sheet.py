@@ -134,10 +134,10 @@ def test_what_changes_together_is_told_once(sheet):
     sheet.observe(lambda change: bodies.append(change.new), "body")
     with sheet.held():
         sheet.whole.value, sheet.typed.value = 4, "x"
-        sheet.numbers.put(("a",), [(1,), (bold(2),)])
+        sheet.numbers.put(("a",), [(1,), (bold(2),), ([bold(3), " mm"],)])
     assert len(bodies) == 1
-    assert told(sheet, sheet.numbers)["rows"] == [["1"], [{"words": "2", "look": "bold"}]]
-    assert sheet.numbers.text == "a\n1\n2"
+    assert told(sheet, sheet.numbers)["rows"] == [["1"], [bold(2)], [[bold(3), " mm"]]]
+    assert sheet.numbers.text == "a\n1\n2\n3 mm"
 
 
 def test_threads_do_not_wait_for_each_other_and_are_told_together(sheet):

@@ -96,7 +96,7 @@ class Banner(Words):
 
 
 class Table(Part):
-    """Rows of cells under a head; a cell is a text or looks otherwise (see `Piece`)."""
+    """Rows of cells under a head; a cell is a text, looks otherwise (see `Piece`), or is a list of such pieces."""
 
     kind = "table"
     head = traitlets.List().tag(page=True)  # type: ignore[var-annotated]
@@ -187,4 +187,4 @@ def plain(line: Line) -> str:
 
 
 def _cell(cell: object) -> object:
-    return cell if isinstance(cell, Mapping) else str(cell)
+    return cell if isinstance(cell, Mapping | list) else str(cell)

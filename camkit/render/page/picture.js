@@ -127,12 +127,13 @@ export class Chart {
       for (const name of up) widen("y", many(mark[name], outputs), by);
       if (mark.kind === "band" && mark.along === "y") widen("x", [one(mark.low, outputs), one(mark.high, outputs)]);
     }
+    const scattered = !this.picture.marks.some(({ kind, role }) => ["line", "area", "polygon"].includes(kind) && role !== "guide" && role !== "limit");
     /** @param {"x"|"y"} name */
     const ends = (name) => {
       const asked = found(axes[`${name}lim`], outputs) ?? [null, null], log = axes.log.includes(name);
       let [low, high] = reach[name];
       if (!(low <= high)) [low, high] = log ? [0.1, 1] : [0, 1];
-      const margin = log ? 0 : (axes.equal ? 0.04 : name === "x" ? 0 : 0.06) * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
+      const margin = log ? 0 : (axes.equal || (name === "x" && scattered) ? 0.04 : name === "x" ? 0 : 0.06) * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
       const fit = { low: low - margin, high: high + margin, log };
       const before = this.window?.[name], span = before ? before.high - before.low : 0;
       const alike = before && !log && high - low > (settled ? 0.6 : 0.25) * span && high - low < 4 * span;
@@ -155,7 +156,9 @@ export class Chart {
     const { axes } = this, { x, y } = this.window, small = this.compact;
     const bare = axes.bare, named = !small && axes.xlabel && !axes.equal, { em } = this;
     this.heading = this._heading(width);
-    const box = { left: bare ? 6 : (axes.yticks ? 96 : 44) * em, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - (bare ? 6 : (named ? 34 : 18) * em) };
+    this.letters(10.5);
+    const ticked = Object.values(axes.yticks ?? {}).flatMap((words) => this.how.words(words).split("\n").map((line) => this.pen.measureText(line).width));
+    const box = { left: bare ? 6 : axes.yticks ? Math.min(10 + Math.max(0, ...ticked), 0.45 * width) : 44 * em, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - (bare ? 6 : (named ? 34 : 18) * em) };
     let ends = { x, y };
     if (axes.equal) {
       const across = box.right - box.left, up = box.bottom - box.top;
@@ -198,7 +201,8 @@ export class Chart {
       if (p < box.top - 0.5 || p > box.bottom + 0.5) continue;
       if (axes.grid) stroke(pen, grid, [[box.left, p], [box.right, p]]);
       pen.fillStyle = ink;
-      pen.fillText(words, box.left - 5, p);
+      const lines = words.split("\n");
+      lines.forEach((/** @type {string} */ line, /** @type {number} */ k) => pen.fillText(line, box.left - 5, p + (k - (lines.length - 1) / 2) * 12.5 * em));
     }
     if (!this.compact && axes.xlabel && !axes.equal) {
       pen.textAlign = "right"; pen.textBaseline = "bottom";
@@ -251,7 +255,7 @@ export class Chart {
     const { pen, em } = this, { title, names, upward, rows } = this.heading;
     pen.textAlign = "left"; pen.textBaseline = "middle"; pen.globalAlpha = 1;
     this.letters(12, 600); pen.fillStyle = this.colour("ink");
-    pen.fillText(title, 4, 9 * em);
+    pen.fillText(title, 4, 9 * em, width - 8);
     this.letters(11);
     for (const { words, tint, form, at, row } of names) {
       const middle = (9 + 15 * row) * em;

@@ -25,7 +25,7 @@ export class Sheet {
     const { look, units } = model.get("setting");
     Object.assign(this, { look, units });
     /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
-    /** What waits to be sent, the newest of each part. @type {Map<number, any>} */ this.waiting = new Map();
+    /** What waits to be sent: the newest of all that is done alike with a part. @type {Map<string, any>} */ this.waiting = new Map();
     root.classList.add("camkit-sheet");
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.system.addEventListener("change", () => this.draw());
@@ -78,7 +78,8 @@ export class Sheet {
     this.seen = new Set();
     const top = this._part(body).element;
     if (this.root.children.length !== 2) this.root.replaceChildren(this.heading, top);
-    for (const id of this.parts.keys()) if (!this.seen.has(id)) { this.parts.delete(id); this.waiting.delete(id); }
+    for (const id of this.parts.keys()) if (!this.seen.has(id)) this.parts.delete(id);
+    for (const [key, { id }] of this.waiting) if (!this.seen.has(id)) this.waiting.delete(key);
     this._sendNext();
     this.draw();
   }
@@ -107,10 +108,10 @@ export class Sheet {
     return {
       units: this.units, look: this.look, dark: this.dark, sheet: this, id,
       say: (/** @type {any} */ done, /** @type {ArrayBuffer[]} */ buffers = []) => {
-        this.waiting.delete(id);
-        const known = this.parts.get(id);
+        const known = this.parts.get(id), key = `${id} ${done.does ?? ""}`; // a click is not lost because a release comes after it
         if (known) known.sent = Infinity;
-        this.waiting.set(id, { done, buffers });
+        this.waiting.delete(key);
+        this.waiting.set(key, { id, done, buffers });
         this._sendNext();
       },
     };
@@ -120,11 +121,11 @@ export class Sheet {
   _sendNext() {
     const free = this.answered >= this.asked || performance.now() - this.sentAt > PATIENCE, [next] = this.waiting;
     if (!free || !next) return;
-    const [part, { done, buffers }] = next;
-    this.waiting.delete(part);
+    const [key, { id, done, buffers }] = next;
+    this.waiting.delete(key);
     this.sentAt = performance.now();
-    this.parts.get(part).sent = ++this.asked;
-    this.model.send({ ...done, part, count: this.asked }, undefined, buffers);
+    this.parts.get(id).sent = ++this.asked;
+    this.model.send({ ...done, part: id, count: this.asked }, undefined, buffers);
   }
 
   /** Draw every picture in the next frame. */
@@ -170,6 +171,11 @@ const KINDS = {
       part.pointing = pointing;
       element.style.setProperty("--tall", `${pixels}px`);
       element.setAttribute("role", "group"); element.setAttribute("aria-label", description);
+      part.charts.forEach((/** @type {Chart} */ chart, /** @type {number} */ k) => {
+        const { axes } = made[k].picture, named = (/** @type {any} */ of) => JSON.stringify([of.xlabel, of.ylabel]);
+        if (named(axes) !== named(chart.picture.axes)) chart.fit(); // other quantities: the ends of the last ones say nothing
+        chart.canvas.style.touchAction = pointing === "drag" || axes.equal ? "none" : "pan-y"; // past curves the page scrolls
+      });
       made.forEach((/** @type {any} */ one, /** @type {number} */ k) => Object.assign(part.charts[k], { picture: one.picture, own: arrays(one.arrays), offered: one.offered && arrays(one.offered) }));
       sheet.draw();
     };
