@@ -53,8 +53,7 @@ if TYPE_CHECKING:
     from .panels import optimise_panel as optimise_panel
     from .panels import pareto_panel as pareto_panel
     from .panels import tolerance_panel as tolerance_panel
-    from .panels.explore import explore as explore
-    from .panels.instrument import instrument as instrument
+    from .panels.instrument import explore as explore
     from .panels.presets import presets as presets
     from .panels.shortlist import shortlist as shortlist
     from .panels.try_everything import try_everything as try_everything
@@ -74,7 +73,6 @@ _LATER = {
     "cycle_time_panel": "panels",
     "edit_program": "panels",
     "explore": "panels",
-    "instrument": "panels",
     "live_pareto_panel": "panels",
     "nsga2": "search.nsga2",
     "optimise_panel": "panels",

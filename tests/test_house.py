@@ -10,6 +10,7 @@ import pkgutil
 
 import numpy as np
 import pytest
+from hand import move, sliders
 from numpy.testing import assert_allclose, assert_array_equal
 
 import camkit
@@ -48,8 +49,7 @@ def made():
     yield names
     names["live"].settle()
     names["spread"].settle()
-    for panel in ("app", "live"):
-        names[panel].picture.settle()
+    names["live"].picture.settle()
 
 
 def test_it_takes_fifteen_lines_and_imports_from_camkit_and_its_wings_alone():
@@ -65,10 +65,10 @@ def test_it_takes_fifteen_lines_and_imports_from_camkit_and_its_wings_alone():
 
 def test_every_free_quantity_has_a_slider_and_every_curve_a_picture(made):
     app = made["app"]
-    assert list(app.controls) == made["free"]
-    assert [view.__name__ for view in app.picture.views][:3] == ["mechanism", "motion", "pressure_angle"]
+    assert sliders(app) == made["free"]
+    assert [view.__name__ for view in app.views][:3] == ["mechanism", "motion", "pressure_angle"]
     before, force = made["cam"], app.analysis.contact_force
-    app.controls["motion.return.law.c1"].box.value = 0.1
+    move(app, "motion.return.law.c1", 0.1)
     assert value_of(app.design, "motion.return.law.c1") == 0.1
     assert np.abs(app.analysis.contact_force - force).max() > 0.01
     app.load(before)

@@ -13,6 +13,7 @@ from pathlib import Path
 import ipywidgets as w
 import numpy as np
 import pytest
+from hand import move
 
 import camkit
 from camkit import Judgements, Study
@@ -252,7 +253,7 @@ def test_side_by_side_is_safe_as_html_and_as_markdown():
 
 def test_the_explorer_and_what_belongs_to_it(explorer):
     assert_panel_harmless(explorer, 3)
-    explorer.controls["x"].box.value = -1
+    move(explorer, "x", -1)
     assert_panel_harmless(explorer, 3)
     explorer.load(Evil())
     kept = shortlist(explorer, study())

@@ -154,7 +154,7 @@ OVER_TWO = STUDY.replace(free={**SPACE, "roller_radius": (0.005, 0.01)})
 def app(name="roller"):
     """An explorer."""
     kind = {"roller": TranslatingRollerCam, "lever": camkit.machines.CamLever}[name]
-    return explore(kind(), pressure_angle, free=["roller_radius"], width=4, height=3)
+    return explore(kind(), pressure_angle, free=["roller_radius"])
 
 
 @cache

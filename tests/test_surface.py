@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from hand import sliders
 
 import camkit
 
@@ -113,5 +114,5 @@ def test_the_mechanism_of_the_walk_has_a_panel_a_study_and_a_minimum() -> None:
     made: dict = {"__name__": "__main__"}
     exec(code, made)
     assert made["app"].design.crank == pytest.approx(0.025, rel=1e-6)
-    assert set(made["app"].controls) >= {"crank", "rod"}
-    assert "position of the slider" in made["app"].picture.views[0].__name__.replace("_", " ")
+    assert set(sliders(made["app"])) >= {"crank", "rod"}
+    assert "position of the slider" in made["app"].views[0].__name__.replace("_", " ")

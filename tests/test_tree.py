@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from hand import choose, move, sliders
 from numpy.testing import assert_allclose
 
 from camkit import (
@@ -338,22 +339,22 @@ def test_a_law_of_ones_own_is_in_every_study_sweep_tolerance_and_file():
 
 def test_every_path_has_a_control_and_what_is_chosen_brings_its_own():
     app = explore(OscillatingFlatCam(), pressure_angle)
-    assert list(app.controls) == list(declared_in(app.design))
-    app.controls["motion.rise.law"].menu.label = "shaped"
-    app.controls["motion.rise.law.c0"].box.value = 0.1
+    assert sliders(app) == list(declared_in(app.design))
+    choose(app, "motion.rise.law", "shaped")
+    move(app, "motion.rise.law.c0", 0.1)
     assert app.design.motion.segments[0].law == ShapedLaw(Poly345(), (0.1, 0.0, 0.0, 0.0))
     app.load(with_quantities(app.design, {"motion.rise.law": Bent(0.5)}))
-    app.controls["motion.rise.law.k"].box.value = -1.0
-    app.controls["rotation"].menu.label = "clockwise"
+    move(app, "motion.rise.law.k", -1.0)
+    choose(app, "rotation", "clockwise")
     assert (app.design.rotation, app.design.motion.segments[0].law) == (-1, Bent(-1.0))
-    app.controls["motion.rise.law"].menu.label = "cycloidal"
-    assert "motion.rise.law.k" not in app.controls
-    app.controls["motion.rise.angle"].box.value = 130.0
+    choose(app, "motion.rise.law", "cycloidal")
+    assert "motion.rise.law.k" not in sliders(app)
+    move(app, "motion.rise.angle", 130.0)
     assert app.design.motion.segments[3].angle == pytest.approx(50 * deg)
 
 
 def test_named_paths_alone_have_controls_where_that_is_asked_for():
     app = explore(own_cam(), pressure_angle, free=["motion.rise.law.c0", "load.preload"])
-    assert list(app.controls) == ["motion.rise.law.c0", "load.preload"]
+    assert sliders(app) == ["motion.rise.law.c0", "load.preload"]
     app.load(OscillatingFlatCam())
-    assert list(app.controls) == ["load.preload"]
+    assert sliders(app) == ["load.preload"]

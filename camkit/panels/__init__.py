@@ -7,9 +7,8 @@ with extra("camkit.panels"):
     from .choose import choose_panel
     from .contours import contour_panel
     from .cycle_time import CycleTimePanel, cycle_time_panel
-    from .explore import Explorer, explore
     from .fronts import FrontsPanel, compare_fronts
-    from .instrument import Instrument, instrument
+    from .instrument import Instrument, explore
     from .live_pareto import LiveParetoPanel, live_pareto_panel
     from .optimise import OptimisePanel, optimise_panel
     from .pareto import ParetoPanel, pareto_panel
@@ -22,7 +21,6 @@ with extra("camkit.panels"):
 __all__ = [
     "AhpPanel",
     "CycleTimePanel",
-    "Explorer",
     "FrontsPanel",
     "Instrument",
     "LiveParetoPanel",
@@ -38,7 +36,6 @@ __all__ = [
     "edit_program",
     "explore",
     "general_tolerances",
-    "instrument",
     "live_pareto_panel",
     "optimise_panel",
     "pareto_panel",

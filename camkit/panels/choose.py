@@ -28,7 +28,7 @@ from ..views.decision import (
 )
 from ..views.front import Judged
 from ..views.parallel import Designs
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.controls import bar_html, small_html, tables_html
 from .kit.front_picker import objective_texts, place_on
@@ -46,7 +46,7 @@ class FrontSource(Protocol):
     """A panel with a front, such as `pareto_panel` gives."""
 
     front: Front
-    explorer: Explorer
+    explorer: Instrument
     importance: Any
 
     def select(self, index: int | None) -> None:

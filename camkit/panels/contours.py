@@ -15,7 +15,7 @@ from ..study.design_map import DesignMap
 from ..study.study import Study, WeightedSum, named_studies
 from ..units import factor
 from ..views.design_map import ShownPlane, objective_plane
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.controls import NumberRow
 from .kit.latest_only import Debounced
@@ -45,7 +45,7 @@ def _quarters(study: Study) -> list[Study]:
 
 
 class ContourPanel(Panel):
-    """The objective over two quantities of the design of an `Explorer`, where limits are missed, and the optimum.
+    """The objective over two quantities of the design of an `Instrument`, where limits are missed, and the optimum.
 
     ``studies`` is a `Study` with two free quantities, or maps names in a menu to several; ``weights`` names the parts
     of the weighted objective, a slider each (they are shared out so as to add to 1).  The best design of the grid is
@@ -54,7 +54,7 @@ class ContourPanel(Panel):
 
     def __init__(
         self,
-        explorer: Explorer,
+        explorer: Instrument,
         studies: Study | Mapping[str, Study],
         weights: Mapping[str, float],
         steps: int = 41,
@@ -195,7 +195,7 @@ def _text(measure: Measure, analysis: object) -> str:
 
 
 def contour_panel(
-    explorer: Explorer, studies: Study | Mapping[str, Study], weights: Mapping[str, float], **options: Any
+    explorer: Instrument, studies: Study | Mapping[str, Study], weights: Mapping[str, float], **options: Any
 ) -> ContourPanel:
     """A panel that shows an objective over two quantities of the design in ``explorer`` (see `ContourPanel`)."""
     return ContourPanel(explorer, studies, weights, **options)

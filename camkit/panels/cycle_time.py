@@ -13,7 +13,7 @@ from ..search.protocol import Step
 from ..study.study import Study, named_studies
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.controls import NumberRow
 from .kit.layout import button, menu
 from .kit.picture import LivePicture
@@ -26,14 +26,14 @@ TOLERANCE = 0.1 * deg
 class CycleTimePanel(JobPanel):
     """How short the intervals may be for the optimum of a study to keep a limit, and what that gains in output.
 
-    ``studies`` is a `Study`, or maps names in a menu to several, searched around the design of an `Explorer`; the
+    ``studies`` is a `Study`, or maps names in a menu to several, searched around the design of an `Instrument`; the
     objective is limited to ``limit``.  ``intervals`` between ``shortest`` and ``longest`` (rad) are tried, each search
     starting where the last one ended; gains count from the longest.  ``step`` holds the best so far, also after Stop.
     """
 
     def __init__(
         self,
-        explorer: Explorer,
+        explorer: Instrument,
         studies: Study | Mapping[str, Study],
         limit: float,
         shortest: float,
@@ -123,7 +123,7 @@ class CycleTimePanel(JobPanel):
 
 
 def cycle_time_panel(
-    explorer: Explorer,
+    explorer: Instrument,
     studies: Study | Mapping[str, Study],
     limit: float,
     shortest: float,

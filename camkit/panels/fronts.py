@@ -16,7 +16,7 @@ from ..search.front import Front
 from ..search.protocol import Step
 from ..study.study import Study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.controls import tables_html
 from .kit.front_picker import objective_texts
 from .kit.layout import menu, wrapped
@@ -31,7 +31,7 @@ Way = tuple[Study, Search]
 
 
 class FrontsPanel(JobPanel):
-    """Fronts of the same two objectives by several ways of search, around the design of an `Explorer`.
+    """Fronts of the same two objectives by several ways of search, around the design of an `Instrument`.
 
     ``ways`` maps names to searches (see `Way`); ``given`` are fronts that are there already.  The searches run one
     after the other in a thread: the page stays alive, Stop takes effect before the next design and keeps the fronts
@@ -41,7 +41,7 @@ class FrontsPanel(JobPanel):
     """
 
     def __init__(
-        self, explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
+        self, explorer: Instrument, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
     ) -> None:
         refuse_arguments(FrontsPanel.__init__, locals())
         self.explorer = explorer
@@ -175,7 +175,7 @@ class FrontsPanel(JobPanel):
 
 
 def compare_fronts(
-    explorer: Explorer, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
+    explorer: Instrument, ways: Mapping[str, Way] | None = None, given: Mapping[str, Front] | None = None
 ) -> FrontsPanel:
     """A panel of fronts by several searches; a design from them goes into the sliders of ``explorer``."""
     return FrontsPanel(explorer, ways, given)

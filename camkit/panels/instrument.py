@@ -1,4 +1,4 @@
-"""`instrument`: a design under sliders, computed and drawn by the page itself."""
+"""`explore`: a design under sliders, computed and drawn by the page itself."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import ipywidgets as w
 import numpy as np
 import traitlets
 
-from ..files import designs, profiles
+from ..files import designs
 from ..quantities import (
     Analysable,
     Choice,
@@ -31,12 +31,13 @@ from ..quantities.applied import a_path, raised
 from ..quantities.kinds import refuse_arguments, shown
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
-from ..render.picture import Still, below, picture, positions_of, saved, small_png, strip, turn_range
+from ..render.picture import Still, below, picture, positions_of, small_png, strip, turn_range
 from ..study.study import refuse_limits
 from ..units import in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
-from .explore import changed, remarked
+from .kit.changes import alike, changed, numbers_of
+from .kit.design_files import FILES, files_of, remarked
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
 
 AGREED = 1e-9
@@ -155,7 +156,7 @@ class Instrument(anywidget.AnyWidget):
         self._refuse_other(design)
         analysis = design.analyse()
         now = [measure.one(analysis) for measure in self.measures]
-        if not self._living or not _alike(self._living.design, design):
+        if not self._living or not alike(self._living.design, design):
             self._living = self._recorded(design, analysis)
         self.analysis, self._now = analysis, now
         return design
@@ -187,14 +188,13 @@ class Instrument(anywidget.AnyWidget):
         return self._living
 
     def _send_structure(self) -> None:
-        files = [kind for kind in FILES if kind not in OF_PROFILES or hasattr(self.analysis, "profile")]
         with self.hold_sync():
-            self.structure, self.program = {**self._page.structure, "files": files}, self._page.packed
+            self.structure, self.program = {**self._page.structure, "files": files_of(self.analysis)}, self._page.packed
             self._push()
 
     def _push(self) -> None:
         """The page's sliders at the values of the design."""
-        self.values = [float(value_of(self.design, path)) for path in quantities_of(self.design)]
+        self.values = list(numbers_of(self.design).values())
 
     def _stand(self, views: Sequence[View]) -> dict[str, float]:
         """Where the mechanism stands when the page begins."""
@@ -203,8 +203,8 @@ class Instrument(anywidget.AnyWidget):
 
     def _settled(self, change: Any) -> None:
         """What the page shows becomes the design, if it can be built."""
-        paths = list(quantities_of(self.design))
-        if len(change.new) == len(paths) and change.new != [value_of(self.design, path) for path in paths]:
+        numbers = list(numbers_of(self.design).values())
+        if len(change.new) == len(numbers) and change.new != numbers:
             self._try(lambda: self._of(change.new))
 
     def _of(self, values: Sequence[float]) -> Any:
@@ -217,10 +217,9 @@ class Instrument(anywidget.AnyWidget):
     def _try(self, make: Callable[[], Analysable]) -> None:
         try:
             self.design = make()
-        except ValueError:
-            return  # the page says it in the same words
-        except Exception as error:  # whatever somebody's own mechanism raises
-            self._go_back(error)
+        except Exception as error:
+            if not isinstance(error, ValueError) or isinstance(error, np.linalg.LinAlgError):
+                self._go_back(error)  # else the page says it in the same words
 
     def _go_back(self, error: Exception) -> None:
         self._push()
@@ -287,6 +286,7 @@ class Instrument(anywidget.AnyWidget):
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
         try:
             found = designs.read_json(file, type(self.design))
+            found.thing.analyse()
         except IMPOSSIBLE as refusal:
             self.message = f"This file cannot be used: {reason(refusal)}."
         else:
@@ -334,28 +334,7 @@ class Instrument(anywidget.AnyWidget):
         return data | still, about
 
 
-FILES: dict[str, Callable[[Instrument], bytes]] = {
-    "json": lambda app: designs.to_json(app.design).encode(),
-    "html": lambda app: app.html().encode(),
-    "svg": lambda app: saved(app.figure(), "svg"),
-    "pdf": lambda app: saved(app.figure(), "pdf"),
-    "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
-    "dxf": lambda app: profiles.profile_dxf(app.analysis).encode(),
-}
-"""What the page can save of a design, by the ending of the file's name."""
-OF_PROFILES = ("csv", "dxf")
-"""Of these, what only a design with a profile has."""
-
-
-def _alike(one: Analysable, other: Analysable) -> bool:
-    """Whether designs differ in their quantities alone, so that one recording is for both."""
-    try:
-        return bool(changed(one, {path: value_of(other, path) for path in quantities_of(other)}) == other)
-    except ValueError:  # another make, or an array in it
-        return False
-
-
-def instrument(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:
+def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:
     """Sliders and menus for the ``free`` paths of ``design`` (default: all) over live ``views`` of it.
 
     Without ``views`` it shows the shapes and curves that the analysis offers, in its order.

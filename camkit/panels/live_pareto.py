@@ -19,7 +19,7 @@ from ..search.protocol import search
 from ..study.study import Study, named_studies
 from ..views.front import LiveFront, live_pareto
 from .ahp import AhpPanel
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.front_picker import FrontPanel, FrontPicker, objective_texts
 from .kit.latest_only import LatestOnly
@@ -29,7 +29,7 @@ from .kit.picture import LivePicture
 
 
 class LiveParetoPanel(FrontPanel):
-    """The Pareto front around the design of an `Explorer`, which follows its sliders and the judgements.
+    """The Pareto front around the design of an `Instrument`, which follows its sliders and the judgements.
 
     ``studies`` is a `Study`, or maps names in a menu to several.  ``space`` maps the free quantities, four at most, to
     bounds in SI; without it they are those that the first study frees.  ``criteria`` weigh the parts of objectives that
@@ -41,7 +41,7 @@ class LiveParetoPanel(FrontPanel):
 
     def __init__(
         self,
-        explorer: Explorer,
+        explorer: Instrument,
         studies: Study | Mapping[str, Study],
         space: Mapping[str, tuple[float, float]] | None = None,
         criteria: AhpPanel | None = None,
@@ -215,7 +215,7 @@ class LiveParetoPanel(FrontPanel):
 
 
 def live_pareto_panel(
-    explorer: Explorer,
+    explorer: Instrument,
     studies: Study | Mapping[str, Study],
     space: Mapping[str, tuple[float, float]] | None = None,
     **options: Any,

@@ -17,7 +17,7 @@ from ..search.minimum import Minimum
 from ..search.protocol import Evaluated, Step, search
 from ..study.study import Study, named_studies
 from ..views.progress import ShownLooks, best_so_far
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.layout import button, menu
 from .kit.number import WholeBox, staying
 from .kit.picture import LivePicture
@@ -25,7 +25,7 @@ from .kit.runner import JobPanel, Runner, told
 
 
 class OptimisePanel(JobPanel):
-    """*Optimise from here*: `minimise` from the design of an `Explorer`, whose sliders then show what was found.
+    """*Optimise from here*: `minimise` from the design of an `Instrument`, whose sliders then show what was found.
 
     ``studies`` is a `Study`, or maps names in a menu to several; there is a menu for the ``methods``, too, if there
     are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so far is then in the
@@ -33,7 +33,7 @@ class OptimisePanel(JobPanel):
     """
 
     def __init__(
-        self, explorer: Explorer, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
+        self, explorer: Instrument, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
     ) -> None:
         refuse_arguments(OptimisePanel.__init__, locals())
         if not len(methods) or any(method not in METHODS for method in methods):
@@ -114,7 +114,7 @@ class OptimisePanel(JobPanel):
 
 
 def optimise_panel(
-    explorer: Explorer, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
+    explorer: Instrument, studies: Study | Mapping[str, Study], methods: Sequence[str] = ("slsqp",)
 ) -> OptimisePanel:
     """A panel that optimises from the design in ``explorer`` (see `OptimisePanel`)."""
     return OptimisePanel(explorer, studies, methods)

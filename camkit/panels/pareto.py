@@ -20,9 +20,10 @@ from ..search.protocol import Step
 from ..study.study import Study, named_studies, refuse_bounds
 from ..views.front import ShownFront, pareto
 from .ahp import AhpPanel
-from .explore import Explorer, remarked
+from .instrument import Instrument
 from .kit.bounds import Bounds
 from .kit.controls import Download, Upload
+from .kit.design_files import remarked
 from .kit.front_picker import FrontPanel, FrontPicker
 from .kit.layout import button, column, menu, wrapped
 from .kit.number import WholeBox, staying
@@ -38,7 +39,7 @@ COUNTS = {"population": range(4, 1001), "generations": range(1, 10_001), "seed":
 
 
 class ParetoPanel(JobPanel, FrontPanel):
-    """NSGA-II on the design of an `Explorer`, and the choice from its front.
+    """NSGA-II on the design of an `Instrument`, and the choice from its front.
 
     ``studies`` is a `Study`, or maps names in a menu to several; it is searched around the design in the explorer.
     ``space`` are the quantities that can be freed, with their bounds in SI, ``free`` those of them that are free at
@@ -57,7 +58,7 @@ class ParetoPanel(JobPanel, FrontPanel):
 
     def __init__(
         self,
-        explorer: Explorer,
+        explorer: Instrument,
         studies: Study | Mapping[str, Study],
         space: Mapping[str, tuple[float, float]] | None = None,
         free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,
@@ -357,7 +358,7 @@ class ParetoPanel(JobPanel, FrontPanel):
 
 
 def pareto_panel(
-    explorer: Explorer,
+    explorer: Instrument,
     studies: Study | Mapping[str, Study],
     space: Mapping[str, tuple[float, float]] | None = None,
     free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,

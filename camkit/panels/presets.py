@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import Any
 
 import ipywidgets as w
 
 from ..quantities import D
 from ..quantities.kinds import refuse_arguments
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.layout import button, menu, wrapped
-from .kit.panel import IMPOSSIBLE, Panel
+from .kit.panel import IMPOSSIBLE, PanelStyle
 from .kit.quiet import Quiet
 
 Change = Callable[[D], D]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
 
 
-class Presets(Panel):
-    """An `Explorer` under a row of menus and buttons, each of which changes its design.
+class Presets(w.VBox):
+    """An `Instrument` under a row of menus and buttons, each of which changes its design.
 
     ``menus`` maps a menu's name to its options, ``buttons`` a button's words to what it does: a function from the
     design in the sliders to another.  A menu shows which of its options the design already is, and nothing if it
@@ -28,15 +29,17 @@ class Presets(Panel):
     """
 
     def __init__(
-        self, explorer: Explorer, menus: Mapping[str, Mapping[str, Change]], buttons: Mapping[str, Change]
+        self, explorer: Instrument, menus: Mapping[str, Mapping[str, Change]], buttons: Mapping[str, Change]
     ) -> None:
         refuse_arguments(Presets.__init__, locals())
-        self.explorer, self.picture = explorer, explorer.picture
+        self.explorer = explorer
         self._quiet = Quiet()
         self.banner = Banner()
         self.menus = {name: self._menu(name, options) for name, options in menus.items()}
         self.buttons = {words: button(words, partial(self._make, change)) for words, change in buttons.items()}
-        super().__init__([wrapped(*self.menus.values(), *self.buttons.values()), self.banner, explorer])
+        offers = wrapped(*self.menus.values(), *self.buttons.values())
+        super().__init__([PanelStyle(layout=w.Layout(display="none")), offers, self.banner, explorer])
+        self.add_class("camkit-panel")
         explorer.on_change(self._follow)
         self._follow(explorer.design)
 
@@ -50,6 +53,8 @@ class Presets(Panel):
             self.explorer.load(change(self.explorer.design))
         except IMPOSSIBLE as refusal:
             self.banner.show_message(f"This cannot be offered: {refusal}.")
+        else:
+            self._follow(self.explorer.design)
 
     def _follow(self, design: object) -> None:
         """Every menu shows which of its options the design is."""
@@ -58,9 +63,10 @@ class Presets(Panel):
             for offers in self.menus.values():
                 offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 
-    def summary(self) -> str:
-        """The explorer's numbers."""
-        return self.explorer.summary()
+    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, Any]:
+        """The live panel for a kernel, picture and numbers of the instrument where there is none."""
+        still, _ = self.explorer._repr_mimebundle_()
+        return super()._repr_mimebundle_(**wanted) | {kind: still[kind] for kind in ("image/png", "text/plain")}
 
 
 def _leads_to(change: Change, design: object) -> bool:
@@ -71,7 +77,7 @@ def _leads_to(change: Change, design: object) -> bool:
 
 
 def presets(
-    explorer: Explorer,
+    explorer: Instrument,
     menus: Mapping[str, Mapping[str, Change]] | None = None,
     buttons: Mapping[str, Change] | None = None,
 ) -> Presets:

@@ -12,7 +12,7 @@ from ..quantities.kinds import refuse_arguments
 from ..render.draw import colour
 from ..study.study import Study
 from ..views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.controls import Download, bar_html, tables_html
 from .kit.layout import button, wrapped
@@ -25,14 +25,14 @@ MOST_MEASURES = 12
 
 
 class Shortlist(Panel):
-    """Designs of an `Explorer` that are worth keeping, in columns.
+    """Designs of an `Instrument` that are worth keeping, in columns.
 
     ``designs`` are the kept ones by the letter of their place.  ``keep()`` keeps the design in the sliders, ``drop``
     and ``load`` take a letter.  ``study`` says which measures are to be small or large and what must be kept, so that
     the best of a line can be marked.
     """
 
-    def __init__(self, explorer: Explorer, study: Study | None = None) -> None:
+    def __init__(self, explorer: Instrument, study: Study | None = None) -> None:
         refuse_arguments(Shortlist.__init__, locals())
         self.explorer, self.study = explorer, study
         self.designs: dict[str, Analysable] = {}
@@ -122,7 +122,7 @@ class Shortlist(Panel):
         return self.markdown() if self.designs else "no design is kept yet"
 
 
-def _measures(explorer: Explorer, study: Study | None) -> tuple[Measure, ...]:
+def _measures(explorer: Instrument, study: Study | None) -> tuple[Measure, ...]:
     """The study's objectives and limits, then the explorer's measures."""
     told = (*study.minimise, *(m for m, _, _ in study.limits)) if study else ()
     return tuple(dict.fromkeys(m if m.sign > 0 else -m for m in (*told, *explorer.measures)))
@@ -133,6 +133,6 @@ def _close(row: w.HBox) -> None:
         widget.close()
 
 
-def shortlist(explorer: Explorer, study: Study | None = None) -> Shortlist:
+def shortlist(explorer: Instrument, study: Study | None = None) -> Shortlist:
     """A list of up to five designs of ``explorer``, compared in a table and a picture, saved as a file."""
     return Shortlist(explorer, study)

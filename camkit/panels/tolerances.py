@@ -16,7 +16,7 @@ from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
 from ..views.picture import Picture, View
 from ..views.tolerances import cloud, deviation, sobol_bars
-from .explore import Explorer
+from .instrument import Instrument
 from .kit.banner import Banner
 from .kit.controls import NumberRow, tables_html
 from .kit.latest_only import Debounced
@@ -38,7 +38,7 @@ class HasFront(Protocol):
 
 
 class TolerancePanel(Panel):
-    """What tolerances do to the design of an `Explorer`: yield, cloud of parts, bands on curves, Sobol indices.
+    """What tolerances do to the design of an `Instrument`: yield, cloud of parts, bands on curves, Sobol indices.
 
     ``study`` says what is limited.  ``half_widths`` names the dimensions that spread, with their first tolerance (SI);
     without them these are the study's free quantities with general tolerances (ISO 2768-1, class m).  ``curves`` are
@@ -48,7 +48,7 @@ class TolerancePanel(Panel):
 
     def __init__(
         self,
-        explorer: Explorer,
+        explorer: Instrument,
         study: Study,
         half_widths: Mapping[str, float] | None = None,
         curves: Sequence[AnalysisCurve] = (),
@@ -169,7 +169,7 @@ def general_tolerances(study: Study) -> dict[str, float]:
 
 
 def tolerance_panel(
-    explorer: Explorer, study: Study, half_widths: Mapping[str, float] | None = None, **options: Any
+    explorer: Instrument, study: Study, half_widths: Mapping[str, float] | None = None, **options: Any
 ) -> TolerancePanel:
     """Sliders for the tolerances of the design in ``explorer``, and what they do to it (see `TolerancePanel`)."""
     return TolerancePanel(explorer, study, half_widths, **options)

@@ -14,12 +14,12 @@ from lab import eventually, kernel_value, open_notebook, run_all
 from test_living_page import DRAG, SHOWN, compare
 
 START = """
-from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, instrument
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore
 study = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
-app = instrument(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
+app = explore(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app
 """
-STUBBORN = f"{inspect.getsource(stubborn)}\nfrom camkit import instrument\napp = instrument(Stubborn())\napp"
+STUBBORN = f"{inspect.getsource(stubborn)}\nfrom camkit import explore\napp = explore(Stubborn())\napp"
 BUSY = """() => { const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
     kernel.requestExecute({ code: "import time; time.sleep(8)" }); }"""
 STUDY = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))

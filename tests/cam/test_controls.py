@@ -8,6 +8,7 @@ import pkgutil
 
 import numpy as np
 import pytest
+from hand import sliders
 from numpy.testing import assert_allclose
 
 import camkit.cam
@@ -159,7 +160,7 @@ def box(design):
 @every_case
 def test_it_has_a_control_for_every_path(design):
     app = explore(design, *(() if design in ALL_VIEWS else (pressure_angle,)))
-    assert set(app.controls) == set(declared_in(design))
+    assert set(sliders(app)) == set(declared_in(design))
     assert type(app.analysis.cam) is type(design)
 
 

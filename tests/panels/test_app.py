@@ -24,9 +24,11 @@ import matplotlib.figure
 import numpy as np
 import pytest
 import sheets
+from hand import at, choose, move
 from matplotlib import _pylab_helpers
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
+from try_everything import try_everything
 
 from camkit import (
     ArmLoad,
@@ -41,11 +43,9 @@ from camkit import (
     most_isolated,
     nsga2,
     pareto_panel,
-    try_everything,
 )
 from camkit.decision import CHOOSERS
 from camkit.files import Session, from_json, to_json
-from camkit.files.profiles import profile_csv
 from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import (
     CURVE_TABLE,
@@ -55,22 +55,22 @@ from camkit.machines.door_handle import (
     PAPER_SPACE,
     stroke_radius,
 )
-from camkit.motion import Cycloidal, Poly345
+from camkit.motion import Poly345
 from camkit.panels.kit import picture as live
 from camkit.panels.kit.controls import Download, Upload, label_html
 from camkit.panels.kit.number import NumberBox
+from camkit.panels.kit.picture import LivePicture
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import pending
 from camkit.panels.kit.search_job import time_left
-from camkit.quantities import Measure, Quantity, value_of
+from camkit.quantities import Quantity, quantities_of, value_of
 from camkit.render.draw import artist_of
 from camkit.search.checkpoint import read
 from camkit.search.protocol import Step, search
-from camkit.units import deg, mm
+from camkit.units import deg, in_unit, mm
 from camkit.views import curvature, mechanism, pressure_angle
 from camkit.views.front import shown_objectives
 
-SMALL = {"width": 4.0, "height": 2.6}
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction.coefficient")
 STUDIES = {"lift curve alone": lift_curve_study(), "whole cam": door_handle_study()}
 
@@ -106,7 +106,7 @@ def _searches_are_kept_elsewhere(tmp_path_factory):
 def an_explorer():
     study = lift_curve_study()
     return explore(DoorHandleCam(), pressure_angle, free=SLIDERS, measures=(*CURVE_TABLE[:5], stroke_radius),
-                   at_most=study.at_most, at_least=study.at_least, **SMALL)  # fmt: skip
+                   at_most=study.at_most, at_least=study.at_least)  # fmt: skip
 
 
 def a_search(app, population=24, generations=12):
@@ -190,178 +190,65 @@ def alert(panel):
     return "" if box.layout.display == "none" else box.value.removeprefix("<div role='alert'>").removesuffix("</div>")
 
 
-# ---------------------------------------------------------------- sliders
+# ---------------------------------------------------------------- pictures
 
 
-def test_a_moved_slider_changes_everything_at_once(app):
-    pixels, table, analysis = app.picture.widget.data, app.numbers.value, app.analysis
-    seen = []
-    app.on_change(seen.append)
-    app.controls["lift_arm"].slider.value = 48.1
-    assert app.design == DoorHandleCam(lift_arm=48.1 * mm)
-    assert app.controls["lift_arm"].box.value == 48.1
-    assert app.analysis is not analysis
-    assert_array_equal(app.analysis.lift.pressure_angle, app.design.analyse().lift.pressure_angle)
-    assert app.picture.widget.data != pixels
-    assert app.numbers.value != table
-    assert seen == [app.design]
+def a_picture(*views):
+    picture = LivePicture(views or (pressure_angle,), "Pictures of the door handle", width=4.0, height=2.6)
+    picture.show(DoorHandleCam().analyse())
+    return picture
 
 
-def test_the_table_holds_now_start_change_and_whether_a_limit_is_met(app):
-    app.controls["lift_arm"].slider.value = 45.0
-    cells = app.numbers.value
-    for measure, now, first in app.rows():
-        assert now == measure(app.design.analyse())
-        assert first == measure(DoorHandleCam().analyse())
-        change = f"{100 * (now - first) / abs(first):+.1f} %"
-        assert f"<td>{measure.name}</td><td>{measure.text(now)}</td><td>{measure.text(first)}</td><td>{change}" in cells
-    assert "&le; 45 deg" in cells
-    assert cells.count(">met<") + cells.count("not met") == 3
-    app.controls["lift_start_angle"].slider.value = 18.0
-    assert app.rows()[0][1] > 45 * deg
-    assert app.numbers.value.count("not met") == 1
-
-
-def test_a_typed_number_counts_to_its_last_digit(app):
-    app.controls["lift_arm"].box.value = 51.23456789
-    assert app.design.lift_arm == 51.23456789 * mm
-    app.controls["lift_arm"].slider.value = 51.23  # the page snaps its slider to a step: that is no move
-    assert app.design.lift_arm == 51.23456789 * mm
-
-
-def test_a_typed_number_may_lie_outside_the_slider(app):
-    knob = app.controls["relief_arm"]
-    knob.box.value = 96.5
-    assert app.design.relief_arm == 96.5 * mm
-    assert knob.slider.value <= knob.slider.max
-    knob.slider.value = 80.0
-    assert app.design.relief_arm == 80 * mm
-
-
-def test_a_menu_changes_the_law(app):
-    app.controls["motion_law"].menu.value = Poly345()
-    assert app.design.motion_law == Poly345()
-    assert app.design.replace(motion_law=Cycloidal()) == DoorHandleCam()
-
-
-@pytest.mark.parametrize("description", ["Save design", "Profile as CSV", "Profile as DXF"])
-def test_no_file_is_made_of_another_design_than_the_controls_show(app, description):
-    app.controls["relief_arm"].box.value = 20.0
-    assert downloaded(app, description) == {}
-    assert alert(app).startswith("Nothing is saved: this cannot be built: the relief roller has to rest")
-    app.controls["relief_arm"].box.value = 75.0
-    assert downloaded(app, description)["text"]
-
-
-@pytest.mark.parametrize(
-    ("name", "typed", "sentence"),
-    [
-        ("lift_arm", -3.0,
-         "the lift arm (pivot to roller centre) is -3 mm; it must be a finite number above 0 mm"),
-        ("lift_arm", np.nan,
-         "the lift arm (pivot to roller centre) is nan mm; it must be a finite number above 0 mm"),
-        ("lift_arm", np.inf,
-         "the lift arm (pivot to roller centre) is inf mm; it must be a finite number above 0 mm"),
-        ("roller_radius", 40.0,
-         "the roller of radius 40 mm comes within 33.59 mm of the cam axis; it must stay outside it"),
-        ("relief_arm", 20.0,
-         "the relief roller has to rest on the lift curve's base circle of 33.59 mm; an arm of 20 mm at 100 mm "
-         "reaches 80 to 120 mm"),
-    ],
-)  # fmt: skip
-def test_what_is_impossible_is_said_in_place_of_the_picture(app, name, typed, sentence):
-    app.controls["friction.coefficient"].box.value = 0.08
-    good, seen = app.design, []
-    app.on_change(seen.append)
-    app.controls[name].box.value = typed
-    assert alert(app) == f"This cannot be built: {sentence}."
-    assert app.picture.widget.layout.display == app.numbers.layout.display == "none"
-    assert app.design is good
-    assert seen == []
-    app.controls[name].box.value = {"lift_arm": 50.0, "roller_radius": 5.0, "relief_arm": 75.0}[name]
-    assert alert(app) == ""
-    assert app.picture.widget.layout.display == app.numbers.layout.display == ""
-    assert app.design == good
-
-
-def test_turning_the_mechanism_does_not_hide_that_the_sliders_are_impossible():
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], **SMALL)
-    app.controls["lift_arm"].box.value = -3.0
-    next(iter(app.positions.values())).slider.value = 90.0
-    assert alert(app).startswith("This cannot be built: the lift arm")
-    assert app.picture.widget.layout.display == "none"
-
-
-def test_reset_goes_back_to_the_start(app):
-    app.controls["lift_arm"].slider.value = 47.0
-    app.controls["motion_law"].menu.value = Poly345()
-    app.controls["relief_arm"].box.value = 20.0  # impossible
-    press(app, "Reset")
-    assert app.design == app.start == DoorHandleCam()
-    assert alert(app) == ""
-    assert app.controls["relief_arm"].box.value == app.controls["relief_arm"].slider.value == 75.0
-
-
-def test_a_loaded_design_moves_every_slider_and_calls_followers_once(app):
-    seen = []
-    app.on_change(seen.append)
-    wanted = DoorHandleCam(lift_arm=47.123456789 * mm, motion_law=Poly345(), lift_load=ArmLoad(torque=3.0))
-    app.load(wanted)
-    assert app.design is wanted
-    assert seen == [wanted]
-    assert app.controls["lift_arm"].value == 47.123456789 * mm
-    assert app.controls["lift_arm"].slider.value == pytest.approx(47.12)  # the step nearest to it
-    assert app.controls["motion_law"].menu.value == Poly345()
-    app.controls["friction.coefficient"].slider.value = 0.1
-    assert app.design == wanted.replace(friction=Friction(0.1))  # what has no slider is kept, and every digit
-
-
-def test_the_angle_shown_turns_the_mechanism_only():
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
-    pixels, analysis = app.picture.widget.data, app.analysis
-    (knob,) = app.positions.values()
-    assert knob.value == pytest.approx(75 * deg)
-    assert (knob.slider.min, knob.slider.max) == pytest.approx((0, 180))
-    knob.slider.value = 120.0
-    assert app.picture.widget.data != pixels
-    assert app.analysis is analysis
-
-
-def test_a_picture_is_blitted_at_once_and_redrawn_when_all_is_quiet(app, monkeypatch):
+def test_a_picture_is_blitted_at_once_and_redrawn_when_all_is_quiet(monkeypatch):
     monkeypatch.setattr(live, "SETTLE", 0.05)
-    app.controls["roller_radius"].slider.value = 6.0
-    app.controls["lift_arm"].slider.value = 44.0
-    assert app.picture.widget.mime == "image/jpeg"
-    size = Image.open(io.BytesIO(app.picture.widget.data)).size
+    picture = a_picture()
+    picture.show(DoorHandleCam(roller_radius=6 * mm).analyse())
+    picture.show(moved := DoorHandleCam(lift_arm=44 * mm).analyse())
+    assert picture.widget.mime == "image/jpeg"
+    frame = Image.open(io.BytesIO(picture.widget.data))
+    canvas = np.asarray(picture.figure.canvas.buffer_rgba())[..., :3]
+    assert np.abs(np.asarray(frame, float) - canvas).mean() < 3  # that frame, and not the one before
     deadline = time.monotonic() + 5
-    while app.picture.widget.mime != "image/png" and time.monotonic() < deadline:
+    while picture.widget.mime != "image/png" and time.monotonic() < deadline:
         time.sleep(0.01)
-    assert app.picture.widget.mime == "image/png"
-    assert Image.open(io.BytesIO(app.picture.widget.data)).size == size
-    x, y = app.picture.axes[0].get_ylim()
-    highest = np.abs(app.analysis.lift.pressure_angle / deg).max()
-    assert max(abs(x), abs(y)) >= highest  # the axes fit again
+    assert picture.widget.mime == "image/png"
+    assert Image.open(io.BytesIO(picture.widget.data)).size == frame.size
+    x, y = picture.axes[0].get_ylim()
+    assert max(abs(x), abs(y)) >= np.abs(moved.lift.pressure_angle / deg).max()  # the axes fit again
 
 
-def test_slow_moves_wait_longer_for_the_full_drawing_which_would_delay_them(app, monkeypatch):
-    at = [100.0]
+def test_slow_moves_wait_longer_for_the_full_drawing_which_would_delay_them(monkeypatch):
+    picture, at = a_picture(), [100.0]
     monkeypatch.setattr(live.time, "monotonic", lambda: at[0])
     waits = []
     for after in (10.0, 0.02, 0.4, 0.9, 1.1):
         at[0] += after
-        waits.append(app.picture._patience())
+        waits.append(picture._patience())
     assert_allclose(waits, [live.SETTLE, live.SETTLE + 0.04, live.SETTLE + 0.8, live.SETTLE + 1.8, live.SETTLE])
 
 
-def test_the_jpeg_of_a_move_is_the_canvas():
-    """A frame is encoded from the canvas's own memory; it must be that frame, and not the one before."""
-    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
-    app.controls["lift_arm"].slider.value = 46.0
-    shown = np.asarray(Image.open(io.BytesIO(app.picture.widget.data)), float)
-    canvas = np.asarray(app.picture.figure.canvas.buffer_rgba())[..., :3]
-    assert shown.shape == canvas.shape
-    assert np.abs(shown - canvas).mean() < 3
-    close(app)
+def test_the_picture_is_described_by_its_titles_and_numbers(monkeypatch):
+    picture = a_picture()
+    picture.said = lambda: "peak: 41 deg"
+    picture.describe()
+    assert picture.widget.description == "Pictures of the door handle\nPressure angle\npeak: 41 deg"
+
+
+def test_a_picture_that_moves_keeps_its_axes_true_to_scale_until_they_fit():
+    picture, cam = a_picture(partial(mechanism, turn=75 * deg), curvature), DoorHandleCam()
+
+    def axes():
+        return np.array([ax.transData.transform([(0, 0), (1, 0), (0, 1)]) for ax in picture.axes])
+
+    picture.show(cam.replace(roller_radius=33 * mm).analyse())
+    picture.settle()
+    large = axes()
+    picture.show(cam.analyse())
+    assert_allclose(axes(), large, rtol=1e-12)
+    picture.settle()
+    zero, across, up = axes()[0]
+    assert abs(axes()[0] - large[0]).max() > 1
+    assert across[0] - zero[0] == pytest.approx(up[1] - zero[1], rel=1e-9)
 
 
 def test_a_symbol_that_is_the_name_is_shown_once():
@@ -370,108 +257,7 @@ def test_a_symbol_that_is_the_name_is_shown_once():
     assert label_html("lift_arm", arm).endswith("data-name='lift arm, mm'><i>l</i><sub>1</sub>&ensp;lift arm</span>")
 
 
-def test_the_picture_is_described_by_its_titles_and_numbers(app, monkeypatch):
-    monkeypatch.setattr(live, "SETTLE", 0.02)
-    described, summary = threading.Event(), app.summary
-
-    def describe():
-        type(app.picture).describe(app.picture)
-        described.set()
-
-    monkeypatch.setattr(app.picture, "describe", describe)
-    app.controls["lift_arm"].slider.value = 47.0
-    assert described.wait(60)
-    assert app.picture.widget.description == f"Pictures of the DoorHandleCam\nPressure angle\n{summary()}"
-
-
-def test_a_measure_that_is_infinite_now_and_at_the_start_is_left_out():
-    never = Measure("never", "mm", lambda analysis: np.inf)
-    later = Measure(
-        "later", "mm", lambda analysis: np.inf if analysis.cam.lift_arm > 50 * mm else analysis.cam.lift_arm
-    )
-    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], measures=(never, later), **SMALL)
-    assert [m for m, _, _ in app.rows()] == [later]
-    app.controls["lift_arm"].slider.value = 52.0
-    assert [m for m, _, _ in app.rows()] == [later]
-    assert "never" not in app.numbers.value
-
-
-def test_without_a_kernel_the_mechanism_stands_in_four_positions():
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], **SMALL)
-    plain, still = (Image.open(io.BytesIO(data)).convert("RGB") for data in (app.picture.png(), app.still()))
-    assert still.width == plain.width
-    assert still.height > plain.height
-    below = np.asarray(still)[plain.height :]
-    four = np.array_split(np.asarray(below, int), 4, axis=1)
-    assert all((part.min(axis=-1) < 200).sum() > 100 for part in four)
-    assert all((a[:, : b.shape[1]] != b[:, : a.shape[1]]).any() for a, b in zip(four[1:], four, strict=False))
-    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
-    assert app.still() == app.picture.png()
-
-
-def test_the_picture_shows_the_numbers_of_the_analysis(app):
-    app.controls["lift_arm"].slider.value = 46.0
-    for name in ("lift", "relief"):
-        curve = getattr(app.analysis, name)
-        x, y = artist_of(app.picture.axes[0], name).get_data()
-        assert_allclose(x, curve.cam_angle / deg)
-        assert_allclose(y, curve.pressure_angle / deg)
-
-
-# ---------------------------------------------------------------- files
-
-
-def test_a_design_goes_to_a_file_and_back(app):
-    app.controls["lift_arm"].box.value = 48.75
-    app.controls["motion_law"].menu.value = Poly345()
-    saved, design = downloaded(app, "Save design"), app.design
-    assert (saved["name"], saved["mime"]) == ("DoorHandleCam.json", "application/json")
-    assert from_json(saved["text"]) == design
-    press(app, "Reset")
-    upload(app, "Load design", saved["text"])
-    assert app.design == design
-    assert alert(app) == ""
-
-
-def test_the_profile_that_is_downloaded_is_the_one_that_is_shown(app):
-    app.controls["lift_arm"].slider.value = 48.0
-    table = downloaded(app, "Profile as CSV")
-    assert (table["name"], table["mime"]) == ("DoorHandleCam.csv", "text/csv")
-    assert table["text"] == profile_csv(app.design.analyse())
-    drawing = downloaded(app, "Profile as DXF")
-    assert drawing["name"] == "DoorHandleCam.dxf"
-    assert "AcDbPolyline" in drawing["text"]
-
-
 FILE = to_json(DoorHandleCam())
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        (FILE[:99], "the file is damaged: it is no JSON at line"),
-        (FILE.replace("camkit/1", "camkit/9"), "the file follows the schema 'camkit/9'"),
-        (FILE.replace("75.0", "-75.0"), "the relief arm (pivot to roller centre) is -75 mm"),
-        (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
-        (FILE.replace("50.0", "9" * 400, 1), "the "),
-        ("[" * 100000, "the file is damaged"),
-        (
-            FILE.replace('"torque_table": []', '"torque_table": [[0, "a"]]'),
-            "the file says [[0, 'a']] for 'torque_table'; a list of pairs of numbers belongs there",
-        ),
-        (to_json(OscillatingRollerCam()), "the file holds a"),
-    ],
-    ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],
-)
-def test_a_file_that_cannot_be_used_is_refused_and_changes_nothing(app, text, sentence):
-    app.controls["lift_arm"].slider.value = 48.0
-    good, pixels = app.design, app.picture.widget.data
-    upload(app, "Load design", text)
-    assert alert(app).startswith(f"This file cannot be used: {sentence}")
-    assert app.design is good
-    assert app.controls["lift_arm"].box.value == 48.0
-    assert app.controls["relief_arm"].box.value == 75.0
-    assert app.picture.widget.data == pixels
 
 
 # ---------------------------------------------------------------- judgements
@@ -564,8 +350,8 @@ def test_a_search_finds_what_the_package_finds(finder, mode):
 
 def test_a_search_starts_from_the_design_in_the_sliders(finder):
     app = finder.explorer
-    app.controls["roller_radius"].slider.value = 4.0
-    app.controls["motion_law"].menu.value = Poly345()
+    move(app, "roller_radius", 4.0)
+    choose(app, "motion_law", Poly345())
     run(finder)
     assert finder.study.start == app.design
     assert finder.front[0].roller_radius == 4 * mm
@@ -719,7 +505,7 @@ def stopped(finder, monkeypatch):
 
 def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     """Also from a page that was opened anew: all is put back, and a sentence says what the search needed."""
-    typed = explore(DoorHandleCam(lift_start_angle=0.371234567890123), pressure_angle, free=SLIDERS, **SMALL).design
+    typed = explore(DoorHandleCam(lift_start_angle=0.371234567890123), pressure_angle, free=SLIDERS).design
     finder.explorer.load(typed)
     finder.bounds["relief_cam_angle"].free.value = False
     finder.bounds["lift_arm"].set((45.123456789 * mm, 54.987654321 * mm))
@@ -776,7 +562,7 @@ def test_what_was_typed_since_a_search_began_stays_when_it_is_resumed(finder, st
         "not from 41 to 55 mm; its own design, while yours stays in the sliders."
     )
     assert finder.explorer.design == typed
-    assert finder.explorer.controls["lift_arm"].box.value == 48.09
+    assert at(finder.explorer, "lift_arm") == 48.09
     assert (finder.criteria.judgements, finder.picker.rule.value) == (judged, "TOPSIS")
     assert finder.criteria.boxes[(0, 1)].value == "3"
     assert_array_equal(finder.found.x, nsga2(finder.found.study, 24, 40, 3).x)
@@ -809,7 +595,7 @@ def test_only_a_page_of_the_same_kind_offers_to_resume_a_search(finder, stopped)
     weighed = ahp_panel(PAPER_JUDGEMENTS)
     importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     same = {"space": EXPANDED_SPACE, "free": list(DOOR_HANDLE_SPACE), "criteria": weighed, "importance": importance}
-    other_start = explore(DoorHandleCam(friction=Friction(0.2)), pressure_angle, free=SLIDERS, **SMALL)
+    other_start = explore(DoorHandleCam(friction=Friction(0.2)), pressure_angle, free=SLIDERS)
     pages = {
         "problems": pareto_panel(an_explorer(), {"another": door_handle_study()}, **same),
         "judgements": pareto_panel(an_explorer(), STUDIES, **(same | {"importance": None})),
@@ -1310,9 +1096,9 @@ def test_a_judgement_changed_during_a_search_counts_when_it_ends(finder):
 
 
 def test_every_rule_chooses_its_winner(found):
-    for name, choose in CHOOSERS.items():
+    for name, chosen_by in CHOOSERS.items():
         found.picker.rule.value = name
-        assert found.winner == choose(found.front, found.importance.weights)
+        assert found.winner == chosen_by(found.front, found.importance.weights)
     found.picker.rule.value = "crowding distance"
     press(found, "Load the winner")
     index = most_isolated(found.front)
@@ -1328,9 +1114,7 @@ def test_a_selected_design_goes_into_the_sliders(found):
     found.select(2)
     assert app.design == found.front[2]
     assert found.picker.pick.value == 2
-    shown = app.controls["lift_arm"]
-    assert shown.value == found.front.x[2, 0]
-    assert shown.box.value == pytest.approx(found.front.x[2, 0] / mm, rel=1e-5)
+    assert at(app, "lift_arm") == pytest.approx(found.front.x[2, 0] / mm, rel=1e-14)
 
 
 def test_a_click_loads_the_nearest_point_of_the_front(found):
@@ -1351,7 +1135,7 @@ def test_the_mark_on_the_front_leaves_a_design_that_is_moved_away(found):
     found.select(3)
     mark = artist_of(found.picture.axes[0], "in the sliders")
     assert_allclose(np.ravel(mark.get_data()), shown_objectives(found.front)[:, 3])
-    found.explorer.controls["lift_arm"].slider.value = 61.0
+    move(found.explorer, "lift_arm", 61.0)
     assert np.size(mark.get_data()) == 0
 
 
@@ -1376,7 +1160,7 @@ def test_a_smaller_front_does_not_move_the_sliders(finder):
 
 
 def fresh():
-    app = explore(DoorHandleCam(), pressure_angle, free=SLIDERS, **SMALL)
+    app = explore(DoorHandleCam(), pressure_angle, free=SLIDERS)
     criteria = ahp_panel(Judgements(["pressure angle", "contact force", "cam torque"], [1, 1, 1]))
     importance = ahp_panel(Judgements(["effort", "least radius"], [1]))
     return pareto_panel(app, STUDIES, space=EXPANDED_SPACE, free=["lift_arm"], criteria=criteria, importance=importance)
@@ -1408,11 +1192,10 @@ def test_a_study_goes_to_a_file_and_back(finder, mode):
     assert other.bounds["relief_cam_angle"].value == pytest.approx(finder.bounds["relief_cam_angle"].value)
     assert [getattr(other, k).value for k in ("population", "generations", "seed")] == [40, 30, 9]
     assert_allclose(other.explorer.design.lift_arm, finder.explorer.design.lift_arm, rtol=1e-14)
-    assert other.explorer.controls["lift_arm"].value == other.explorer.design.lift_arm
     assert other.mode.value == mode  # or Optimise would go on with another problem
     assert other.picker.rule.value == "TOPSIS"
-    for name, control in other.explorer.controls.items():
-        assert control.value == value_of(other.explorer.design, name)
+    for path, quantity in quantities_of(other.explorer.design).items():
+        assert at(other.explorer, path) == in_unit(value_of(other.explorer.design, path), quantity.unit)
     assert_allclose(other.front.study.bounds, finder.study.bounds, rtol=1e-14)
 
 
@@ -1475,12 +1258,13 @@ def test_a_study_that_cannot_be_used_is_refused_and_changes_nothing(found, chang
 def test_every_panel_reads_without_a_kernel(found):
     for panel in (found.explorer, found.criteria, found.importance, found):
         bundle = panel._repr_mimebundle_()
+        bundle = bundle[0] if isinstance(bundle, tuple) else bundle
         still = Image.open(io.BytesIO(base64.b64decode(bundle["image/png"])))
         assert still.format == "PNG"
         assert still.size[0] > 300
         assert bundle["text/plain"] == panel.summary() != ""
         assert "application/vnd.jupyter.widget-view+json" in bundle
-        assert len(bundle["image/png"]) < 100_000
+        assert len(bundle["image/png"]) < 200_000
 
 
 def test_the_summaries_are_the_numbers(found):
@@ -1506,108 +1290,53 @@ def callbacks(panel):
     return waiting + sum(len(widget._msg_callbacks.callbacks) for widget in widgets)
 
 
-def test_a_picture_that_moves_keeps_its_axes_true_to_scale_until_they_fit():
-    app = explore(DoorHandleCam(), mechanism, curvature, free=["roller_radius"], turn=75 * deg, width=8, height=4)
-
-    def axes():
-        corners = [ax.transData.transform([(0, 0), (1, 0), (0, 1)]) for ax in app.picture.axes]
-        return np.array(corners)
-
-    app.controls["roller_radius"].box.text = "33"
-    app.picture.settle()
-    large = axes()
-    press(app, "Reset")
-    assert_allclose(axes(), large, rtol=1e-12)
-    app.picture.settle()
-    zero, across, up = axes()[0]
-    assert abs(axes()[0] - large[0]).max() > 1
-    assert across[0] - zero[0] == pytest.approx(up[1] - zero[1], rel=1e-9)
+# ---------------------------------------------------------------- try_everything
 
 
-def test_the_cam_angle_that_is_shown_stays_within_the_turn_and_reset_brings_it_back():
-    app = explore(DoorHandleCam(), mechanism, free=["lift_arm"], turn=75 * deg, **SMALL)
-    turn = app.positions["turn"]
-    turn.box.text = "500"
-    assert (turn.box.value, turn.slider.value, turn.value) == (180, 180, pytest.approx(180 * deg))
-    turn.box.text = "-20"
-    assert (turn.box.value, turn.slider.value, turn.value) == (0, 0, 0)
-    press(app, "Reset")
-    assert (turn.box.value, turn.slider.value, turn.value) == (75, 75, 75 * deg)
-    assert alert(app) == ""
+def test_a_picture_that_moves_leaves_nothing_behind():
+    picture, cams = a_picture(curvature), [DoorHandleCam(lift_arm=(44 + k / 5) * mm).analyse() for k in range(40)]
 
-
-def test_a_number_that_is_typed_while_nothing_can_be_built_is_said_to_be_taken(app):
-    app.controls["lift_arm"].box.text = "-3"
-    refused = (
-        "This cannot be built: the lift arm (pivot to roller centre) is -3 mm; it must be a finite number above 0 mm."
-    )
-    assert alert(app) == refused
-    app.controls["relief_arm"].box.text = "76"
-    assert alert(app) == f"What was typed is taken. {refused}"
-    app.controls["lift_arm"].box.text = "50"
-    assert (alert(app), app.design.relief_arm) == ("", 76 * mm)
-
-
-def test_a_thousand_moves_leave_nothing_behind():
-    app = explore(DoorHandleCam(), curvature, free=["lift_arm", "relief_arm"], **SMALL)
-    slider = app.controls["lift_arm"].slider
-
-    def move(times):
+    def show(times):
         for i in range(times):
-            slider.value = 44.0 + (i % 40) / 5
-        app.picture.settle()
+            picture.show(cams[i % 40])
+        picture.settle()
         gc.collect()
 
-    move(10)
-    before, threads, waiting = figures(), threading.active_count(), callbacks(app)
-    artists, widgets = sum(len(ax.get_children()) for ax in app.picture.axes), len(inside(app, w.Widget))
+    show(10)
+    before, threads = figures(), threading.active_count()
+    artists = sum(len(ax.get_children()) for ax in picture.axes)
     tracemalloc.start()
-    move(5)
+    show(5)
     start = tracemalloc.get_traced_memory()[0]
-    move(200)
+    show(200)
     grown = tracemalloc.get_traced_memory()[0] - start
     tracemalloc.stop()
-    move(800)
     assert figures() == before
     assert _pylab_helpers.Gcf.get_all_fig_managers() == []
-    assert sum(len(ax.get_children()) for ax in app.picture.axes) == artists
-    assert len(inside(app, w.Widget)) == widgets
-    assert callbacks(app) == waiting > 10
+    assert sum(len(ax.get_children()) for ax in picture.axes) == artists
     assert grown < 1_000_000  # less than one curve for each move
     time.sleep(0.05)
     assert threading.active_count() <= threads + 1
-    close(app)
 
 
-def test_a_panel_that_is_closed_takes_its_figure_with_it():
+def test_a_picture_that_goes_takes_its_figure_with_it():
     """Or every run of a notebook's cell would leave one behind."""
-    panel = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], **SMALL)
-    figure = weakref.ref(panel.picture.figure)
-    close(panel)
-    del panel
+    picture = a_picture()
+    figure = weakref.ref(picture.figure)
+    picture.widget.close()
+    del picture
     gc.collect()
     assert figure() is None
-
-
-# ---------------------------------------------------------------- try_everything
 
 
 def test_everything_can_be_tried(finder):
     app = finder.explorer
     run(finder)
     design = app.design
-    for panel in (app, finder.criteria, finder.importance, finder):
-        moved = int(try_everything(panel).split()[0])
-        controls = (
-            w.FloatSlider,
-            NumberBox,
-            w.Dropdown,
-            w.SelectionSlider,
-            w.Text,
-            w.Checkbox,
-            w.IntSlider,
-        )
-        assert moved == len(inside(panel, controls))
+    controls = (w.FloatSlider, NumberBox, w.Dropdown, w.SelectionSlider, w.Text, w.Checkbox, w.IntSlider)
+    assert try_everything(finder) == len(inside(finder, controls))
+    assert try_everything(finder.criteria) > try_everything(finder.importance) > 0
+    assert try_everything(app) == len(SLIDERS)
     assert app.design.replace(**{k: getattr(design, k) for k in DOOR_HANDLE_SPACE}) == design
 
 
@@ -1620,7 +1349,7 @@ def test_try_everything_bites_when_a_callback_raises():
 
     assert try_everything(app)
     app.on_change(broken)
-    with pytest.raises((RuntimeError, AssertionError), match="a broken callback"):
+    with pytest.raises(AssertionError, match="a broken callback"):
         try_everything(app)
     finder.importance.on_change(broken)
     with pytest.raises((RuntimeError, AssertionError), match="a broken callback"):
@@ -1636,10 +1365,10 @@ def test_try_everything_moves_bands_and_boxes_of_text_too():
     seen = []
     for control in (band, words):
         control.observe(lambda change: seen.append(change.new), "value")
-    assert try_everything(w.VBox([band])) == "1 control moved"
-    assert try_everything(w.VBox([w.HBox([words]), w.HTML("no control")])) == "1 control moved"
+    assert try_everything(w.VBox([band])) == 1
+    assert try_everything(w.VBox([w.HBox([words]), w.HTML("no control")])) == 1
     assert seen == [(5, 8), (2, 5), (2, 8), "", "1/7"]
-    assert try_everything(w.VBox()) == "0 controls moved"
+    assert try_everything(w.VBox()) == 0
 
 
 def test_try_everything_bites_when_a_control_does_not_come_back():
@@ -1647,16 +1376,3 @@ def test_try_everything_bites_when_a_control_does_not_come_back():
     sticky.observe(lambda change: setattr(sticky, "value", 7.0), "value")
     with pytest.raises(AssertionError, match="sticky did not come back"):
         try_everything(w.VBox([sticky]))
-
-
-def test_a_view_that_breaks_is_not_silent():
-    def view(analysis):
-        if analysis.cam.lift_arm > 51 * mm:
-            raise RuntimeError("a broken view")
-        return pressure_angle(analysis)
-
-    app = explore(DoorHandleCam(lift_arm=50.9999 * mm), view, free=["lift_arm"], **SMALL)
-    app.controls["lift_arm"].slider.value = 51.5
-    assert "the last one stays: the view view cannot be computed: RuntimeError: a broken view" in alert(app)
-    with pytest.raises(AssertionError, match="a broken view"):
-        try_everything(app)

@@ -10,8 +10,9 @@ import pytest
 from ipywidgets.widgets.widget import _instances
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
+from try_everything import try_everything
 
-from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore, try_everything
+from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore
 from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
 from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
@@ -211,7 +212,7 @@ class Source:
 
     def __init__(self, front, importance=None):
         self.front, self.importance, self.followers = front, importance, []
-        self.explorer = explore(Plate(), lambda analysis: Picture.of(Axes()), width=3, height=2)
+        self.explorer = explore(Plate(), lambda analysis: Picture.of(Axes()))
 
     def on_front(self, act):
         self.followers.append(act)
@@ -370,7 +371,7 @@ def test_one_to_four_objectives(k):
     assert len(panel.sureness) == (0 if k == 1 else 2)
     press(panel, "knee")
     assert source.explorer.design == source.front[panel.shown.winners["knee"]]
-    assert try_everything(panel) == ("1 control moved" if k == 1 else "2 controls moved")  # one design has no band
+    assert try_everything(panel) == (1 if k == 1 else 2)  # one design has no band
     assert panel.designs.bands == {}
 
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from try_everything import try_everything
 
-from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, edit_program, mm, try_everything
+from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, edit_program, mm
 
 PROGRAM = MotionProgram(
     (
@@ -105,5 +106,5 @@ def test_segments_are_added_and_removed(editor):
 
 
 def test_every_control_can_be_moved(editor):
-    assert try_everything(editor).endswith("controls moved")
+    assert try_everything(editor) > 3
     assert editor.program == PROGRAM

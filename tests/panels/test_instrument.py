@@ -1,28 +1,28 @@
 """The instrument in the kernel: what the page settles on becomes the design, and what it asks for is answered."""
 
+import gc
+import io
 import json
+import threading
+import tracemalloc
 
 import numpy as np
 import pytest
+from hand import ask, move
+from PIL import Image
 from stubborn import Stubborn
 
-from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointShaft, instrument, mm
+from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointShaft, explore, mm
 from camkit.cam import max_pressure_angle, min_profile_radius
+from camkit.files import to_json
 from camkit.motion import ShapedLaw
 from camkit.quantities import quantities_of, value_of
-from camkit.views import mechanism
-
-
-def settle(app, **changes):
-    """What the page does when a person lets go: all values in their order."""
-    names = {path.replace(".", "_"): path for path in quantities_of(app.design)}
-    moved = {names[name]: value for name, value in changes.items()}
-    app.values = [moved.get(path, value_of(app.design, path)) for path in quantities_of(app.design)]
+from camkit.views import mechanism, pressure_angle
 
 
 @pytest.fixture
 def app():
-    return instrument(TranslatingRollerCam(groove=False), mechanism, measures=[max_pressure_angle, min_profile_radius])
+    return explore(TranslatingRollerCam(groove=False), mechanism, measures=[max_pressure_angle, min_profile_radius])
 
 
 @pytest.fixture
@@ -32,15 +32,10 @@ def sent(app, monkeypatch):
     return messages
 
 
-def ask(app, **message):
-    """What comes from the page."""
-    app._handle_custom_msg(message, [])
-
-
 def test_what_the_page_settles_on_is_the_design(app):
     heard = []
     app.on_change(heard.append)
-    settle(app, base_radius=45 * mm)
+    move(app, "base_radius", 45)
     assert app.design.base_radius == 45 * mm
     assert heard == [app.design]
     assert app.analysis.cam is app.design
@@ -49,7 +44,7 @@ def test_what_the_page_settles_on_is_the_design(app):
 
 def test_what_cannot_be_built_leaves_the_last_design(app):
     before = app.design
-    settle(app, base_radius=-1.0)
+    move(app, "base_radius", -1000)
     assert app.design is before
     place = list(quantities_of(before)).index("base_radius")
     assert app.values[place] == -1.0  # the page goes on showing what was asked for, and says why it cannot be
@@ -84,7 +79,7 @@ def test_a_slider_of_its_own_is_linked_both_ways(app):
     slider = app.control("base_radius")
     slider.value = 42.0
     assert app.design.base_radius == 42 * mm
-    settle(app, base_radius=44 * mm)
+    move(app, "base_radius", 44)
     assert slider.value == 44.0
 
 
@@ -108,7 +103,7 @@ def test_files_are_what_they_say(app, sent):
 def test_a_file_is_opened_or_refused_in_a_sentence(app, sent):
     ask(app, file="json")
     saved = sent.pop()[1][0].decode()
-    settle(app, base_radius=45 * mm)
+    move(app, "base_radius", 45)
     ask(app, open=saved)
     assert app.design == app.start
     ask(app, open="{}")
@@ -126,14 +121,14 @@ def test_a_follower_that_fails_is_said_and_stops_no_other(app):
     heard = []
     app.on_change(lambda design: 1 / 0)
     app.on_change(heard.append)
-    settle(app, base_radius=45 * mm)
+    move(app, "base_radius", 45)
     assert heard == [app.design]
     assert app.message.startswith("What follows this panel cannot be shown everywhere: ")
 
 
 def test_what_does_not_record_the_kernel_computes(monkeypatch):
     highest = Measure("highest", "mm", lambda analysis: analysis.height[-1])
-    app, messages = instrument(Stubborn(), measures=[highest]), []
+    app, messages = explore(Stubborn(), measures=[highest]), []
     monkeypatch.setattr(type(app), "send", lambda self, content, buffers=(): messages.append((content, list(buffers))))
     assert app.program == b""
     ask(app, compute=[3 * mm], number=7)
@@ -148,9 +143,9 @@ def test_what_does_not_record_the_kernel_computes(monkeypatch):
 
 
 def test_pictures_that_do_not_record_follow(monkeypatch):
-    app, messages = instrument(UniversalJointShaft()), []
+    app, messages = explore(UniversalJointShaft()), []
     monkeypatch.setattr(type(app), "send", lambda self, content, buffers=(): messages.append((content, list(buffers))))
-    settle(app, length=3.0)
+    move(app, "length", 3000)
     content, _ = messages.pop()
     assert content["still"] == [p["name"] for p in app.structure["pictures"] if p["still"]]
     assert set(content["pictures"]) == {str(k) for k, p in enumerate(app.structure["pictures"]) if p["still"]}
@@ -159,6 +154,96 @@ def test_pictures_that_do_not_record_follow(monkeypatch):
 def test_the_state_is_plain(app):
     assert json.loads(json.dumps(app.structure))["name"] == "Translating roller cam"
     assert "image/png" in app._repr_mimebundle_()[0]
+
+
+def test_a_loaded_design_moves_every_slider_to_the_last_digit_and_calls_followers_once(app):
+    seen = []
+    app.on_change(seen.append)
+    wanted = app.design.replace(base_radius=47.123456789 * mm, roller_radius=6 * mm)
+    app.load(wanted)
+    assert app.design is wanted
+    assert seen == [wanted]
+    assert app.values == [value_of(wanted, path) for path in quantities_of(wanted)]
+    move(app, "roller_radius", 7)
+    assert app.design == wanted.replace(roller_radius=7 * mm)  # what does not move keeps every digit
+
+
+def test_a_measure_that_is_infinite_now_and_at_the_start_is_left_out():
+    never = Measure("never", "mm", lambda analysis: np.inf)
+    later = Measure("later", "mm", lambda analysis: np.where(analysis.cam.base_radius > 35 * mm, np.inf, 1.0))
+    app = explore(TranslatingRollerCam(), mechanism, measures=[never, later])
+    assert [m for m, _, _ in app.rows()] == [later]
+    move(app, "base_radius", 40)
+    assert [m for m, _, _ in app.rows()] == [later]
+    assert "never" not in app.summary()
+
+
+def test_without_a_kernel_the_mechanism_stands_in_four_positions(app):
+    plain, still = (Image.open(io.BytesIO(data)).convert("RGB") for data in (app.figure()._repr_png_(), app.still()))
+    assert still.width == plain.width
+    assert still.height > plain.height
+    below = np.asarray(still)[plain.height :]
+    four = np.array_split(np.asarray(below, int), 4, axis=1)
+    assert all((part.min(axis=-1) < 200).sum() > 100 for part in four)
+    assert all((a[:, : b.shape[1]] != b[:, : a.shape[1]]).any() for a, b in zip(four[1:], four, strict=False))
+    app = explore(TranslatingRollerCam(), pressure_angle)
+    assert app.still() == app.figure()._repr_png_()
+
+
+FILE = to_json(DoorHandleCam())
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (FILE[:99], "the file is damaged: it is no JSON at line"),
+        (FILE.replace("camkit/1", "camkit/9"), "the file follows the schema 'camkit/9'"),
+        (FILE.replace("75.0", "-75.0"), "the relief arm (pivot to roller centre) is -75 mm"),
+        (FILE.replace("75.0", "20.0"), "the relief roller has to rest on the lift curve's base circle"),
+        (FILE.replace("50.0", "9" * 400, 1), "the "),
+        ("[" * 100000, "the file is damaged"),
+        (
+            FILE.replace('"torque_table": []', '"torque_table": [[0, "a"]]'),
+            "the file says [[0, 'a']] for 'torque_table'; a list of pairs of numbers belongs there",
+        ),
+        (to_json(TranslatingRollerCam()), "the file holds a"),
+    ],
+    ids=["cut short", "schema", "negative", "impossible", "huge", "deep", "table", "other kind"],
+)
+def test_a_file_that_cannot_be_used_is_refused_and_changes_nothing(text, sentence):
+    app = explore(DoorHandleCam(), pressure_angle)
+    move(app, "lift_arm", 48)
+    good, values, structure = app.design, app.values, app.structure
+    ask(app, open=text)
+    assert app.message.startswith(f"This file cannot be used: {sentence}")
+    assert app.design is good
+    assert (app.values, app.structure) == (values, structure)
+
+
+def test_a_thousand_moves_leave_nothing_behind(app):
+    def show(times):
+        for i in range(times):
+            move(app, "base_radius", 30 + (i % 40) / 5)
+        gc.collect()
+
+    show(10)
+    threads, waiting = threading.active_count(), callbacks(app)
+    tracemalloc.start()
+    show(5)
+    start = tracemalloc.get_traced_memory()[0]
+    show(200)
+    grown = tracemalloc.get_traced_memory()[0] - start
+    tracemalloc.stop()
+    show(800)
+    assert callbacks(app) == waiting > 3
+    assert grown < 100_000  # less than one curve for each move
+    assert threading.active_count() == threads
+
+
+def callbacks(app):
+    """How many functions wait for a change or a message."""
+    waiting = sum(len(acts) for kinds in app._trait_notifiers.values() for acts in kinds.values())
+    return waiting + len(app._msg_callbacks.callbacks)
 
 
 @pytest.mark.parametrize(
@@ -206,7 +291,7 @@ def test_a_free_quantity_that_a_law_takes_away_comes_back():
     shaped = cam.replace(
         motion=cam.motion.replace(segments=(rise.replace(law=ShapedLaw(c=(0.1, 0.0, 0.0, 0.0))), *others))
     )
-    app = instrument(shaped, mechanism, free=["motion.rise.law", "motion.rise.law.c0"], measures=[])
+    app = explore(shaped, mechanism, free=["motion.rise.law", "motion.rise.law.c0"], measures=[])
     app.design = cam
     assert not any(q["free"] for q in app.structure["quantities"])
     assert len(app.values) == len(app.structure["quantities"])
@@ -223,25 +308,25 @@ def test_a_slider_of_its_own_makes_room_for_a_design_beyond_its_ends(app):
 
 
 def test_what_cannot_be_built_is_not_saved_as_the_last_design(app, sent):
-    settle(app, base_radius=-1.0)
+    move(app, "base_radius", -1000)
     ask(app, file="json")
     assert not sent
     assert "must be" in app.message
 
 
 def test_two_that_follow_each_other_come_to_rest(app):
-    other = instrument(app.design, mechanism, measures=[max_pressure_angle])
+    other = explore(app.design, mechanism, measures=[max_pressure_angle])
     app.on_change(other.load)
     other.on_change(app.load)
-    settle(app, base_radius=45 * mm)
+    move(app, "base_radius", 45)
     assert other.design == app.design
-    settle(other, base_radius=48 * mm)
+    move(other, "base_radius", 48)
     assert app.design.base_radius == 48 * mm
     assert app.values == other.values
 
 
 def test_a_limit_is_shown_though_its_measure_is_not_listed():
-    app = instrument(TranslatingRollerCam(), mechanism, measures=[], at_most={max_pressure_angle: np.float64(1)})
+    app = explore(TranslatingRollerCam(), mechanism, measures=[], at_most={max_pressure_angle: np.float64(1)})
     assert [m["limit"] for m in app.structure["measures"]] == [1.0]
 
 
@@ -249,7 +334,7 @@ def test_a_mechanism_of_plain_numbers_is_computed_by_the_kernel():
     rounded = Measure(
         "rounded", "mm", lambda analysis: round(analysis.cam.x, 6) * {True: 1}[analysis.cam.x.is_integer() < 2]
     )
-    app = instrument(Stubborn(), measures=[rounded])
+    app = explore(Stubborn(), measures=[rounded])
     assert app.program == b""
     assert app.rows()[0][1] == 1 * mm
 
@@ -257,7 +342,7 @@ def test_a_mechanism_of_plain_numbers_is_computed_by_the_kernel():
 def test_a_measure_that_fails_is_said_in_a_sentence_at_once():
     broken = Measure("broken", "mm", lambda analysis: None + analysis.height[-1])
     with pytest.raises(ValueError, match="the broken cannot be computed: TypeError"):
-        instrument(Stubborn(), measures=[broken])
+        explore(Stubborn(), measures=[broken])
 
 
 def no_view(analysis):
@@ -266,12 +351,12 @@ def no_view(analysis):
 
 def test_a_view_that_fails_is_said_in_a_sentence_at_once():
     with pytest.raises(ValueError, match="the view no view cannot be computed: TypeError"):
-        instrument(TranslatingRollerCam(), no_view)
+        explore(TranslatingRollerCam(), no_view)
 
 
 def test_a_measure_may_have_a_limit_on_both_sides():
     limits = {"at_most": {max_pressure_angle: 0.5}, "at_least": {max_pressure_angle: 0.1}}
-    app = instrument(TranslatingRollerCam(), mechanism, measures=[max_pressure_angle, min_profile_radius], **limits)
+    app = explore(TranslatingRollerCam(), mechanism, measures=[max_pressure_angle, min_profile_radius], **limits)
     rows = [(m["name"], m.get("limit"), m.get("sense")) for m in app.structure["measures"]]
     name = max_pressure_angle.name
     assert rows == [(name, 0.5, 1), (min_profile_radius.name, None, None), (name, 0.1, -1)]
@@ -279,7 +364,7 @@ def test_a_measure_may_have_a_limit_on_both_sides():
 
 
 def test_a_page_that_is_saved_begins_with_the_design_as_it_is_now(app, tmp_path):
-    settle(app, base_radius=45 * mm)
+    move(app, "base_radius", 45)
     app.to_html(tmp_path / "cam.html")
     text = (tmp_path / "cam.html").read_text(encoding="utf-8")
     structure = json.loads(text.partition('id="structure">')[2].partition("</script>")[0])

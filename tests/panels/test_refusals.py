@@ -9,6 +9,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
+from hand import sliders
 
 from camkit import (
     RSSR,
@@ -445,4 +446,4 @@ def test_bad_input_is_refused_in_words(bad):
 
 def test_free_paths_may_come_in_an_array():
     arms = explore(CAM, pressure_angle, free=np.array(["lift_arm", "relief_arm"]))
-    assert list(arms.controls) == ["lift_arm", "relief_arm"]
+    assert sliders(arms) == ["lift_arm", "relief_arm"]

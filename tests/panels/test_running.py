@@ -20,8 +20,6 @@ from camkit.search.protocol import search
 from camkit.units import deg, mm
 from camkit.views.picture import Axes, Picture
 
-VIEW = {"width": 3.0, "height": 2.0}
-
 
 def slow(analysis):
     if threading.current_thread() is not threading.main_thread():
@@ -62,7 +60,7 @@ def _nothing_goes_on():
 
 
 def an_explorer(**changes):
-    return explore(CamLever(**changes), view, **VIEW)
+    return explore(CamLever(**changes), view)
 
 
 def underway(panel):

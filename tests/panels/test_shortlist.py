@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 import ipywidgets as w
 import numpy as np
 import pytest
+from hand import move
 from numpy.testing import assert_allclose
 from PIL import Image
 
@@ -194,7 +195,7 @@ def test_measures_are_shown_against_the_first():
 
 @pytest.fixture
 def panel():
-    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], measures=CURVE_TABLE[:4], width=4, height=2.6)
+    app = explore(DoorHandleCam(), pressure_angle, free=["lift_arm"], measures=CURVE_TABLE[:4])
     return shortlist(app, STUDY)
 
 
@@ -284,9 +285,7 @@ def test_an_empty_tray_shows_and_saves_nothing_but_words(panel):
 
 
 def test_designs_without_a_profile_are_compared_in_numbers():
-    app = explore(
-        UniversalJointShaft(), lambda analysis: Picture.of(Axes()), free=["outer_diameter"], width=3, height=2
-    )
+    app = explore(UniversalJointShaft(), lambda analysis: Picture.of(Axes()), free=["outer_diameter"])
     panel = shortlist(app, shaft_study())
     press(panel, "Keep this design")
     app.load(UniversalJointShaft(outer_diameter=120 * mm))
@@ -306,7 +305,7 @@ def test_a_measure_that_fails_for_one_design_keeps_the_others():
     kept = shortlist(app, Study(app.design, ["base_radius"], [radius]))
     kept.keep()
     before = kept.summary()
-    app.controls["base_radius"].box.text = "35"
+    move(app, "base_radius", 35)
     kept.keep()
     assert "This design is not kept: the radius cannot be computed: KeyError: False." in kept.banner.value
     assert (list(kept.designs), kept.summary()) == (["A"], before)

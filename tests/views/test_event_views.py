@@ -5,6 +5,7 @@ import io
 
 import numpy as np
 import pytest
+from hand import move
 from numpy.testing import assert_allclose, assert_array_equal
 
 from camkit import explore, nsga2, picture, profile_csv
@@ -16,6 +17,7 @@ from camkit.machines.valve_measures import VALVE_MEASURES, min_radius, valve_fro
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
 from camkit.papers.sketches import flat_face_sketch
 from camkit.papers.valve_cam import known_front
+from camkit.render.picture import turn_range
 from camkit.units import deg, mm, rpm
 from camkit.views.defaults import default_views
 from camkit.views.event import (
@@ -200,13 +202,11 @@ def test_the_sketch_is_made_from_the_cam():
 # --- the panel and its tables -----------------------------------------------------------------------------------------
 
 
-def test_the_turn_slider_covers_a_whole_turn():
-    app = explore(ValveCam(), cam_and_follower, free=["half_angle"], turn=0.0, width=4, height=4)
-    slider = app.positions["turn"].slider
-    assert_allclose((slider.min, slider.max), (-118, 242))
-    app.controls["half_angle"].box.value = 70
-    assert_allclose((slider.min, slider.max), (-110, 250))
-    app.picture.settle()
+def test_the_turn_of_the_page_covers_a_whole_turn():
+    app = explore(ValveCam(), cam_and_follower, free=["half_angle"], turn=0.0)
+    assert turn_range(app.analysis)[1:] == pytest.approx((-118 * deg, 242 * deg), abs=0.5 * deg)
+    move(app, "half_angle", 70)
+    assert turn_range(app.analysis)[1:] == pytest.approx((-110 * deg, 250 * deg), abs=0.5 * deg)
 
 
 def rows(text):

@@ -89,8 +89,8 @@ class FrontChoice:
 class FrontPicker:
     """A menu of rules, a slider over the designs of a front, and a button for the winner.
 
-    ``choice`` is what they show.  What is picked goes into the sliders of an `Explorer`: ``design(i)``, by default the
-    front's own.  ``importance`` judges the objectives; ``judged()`` is called when another rule is asked for.
+    ``choice`` is what they show.  What is picked goes into the sliders of an `Instrument`: ``design(i)``, by default
+    the front's own.  ``importance`` judges the objectives; ``judged()`` is called when another rule is asked for.
     """
 
     def __init__(

@@ -51,8 +51,7 @@ class Panel(w.VBox):
         self._followers: list[Callable[..., object]] = []
         super().__init__([PanelStyle(layout=w.Layout(display="none")), *children])
         self.add_class("camkit-panel")
-        if self.picture.said is str:  # else the picture is another panel's
-            self.picture.said = self.summary
+        self.picture.said = self.summary
 
     def on_change(self, act: Callable[..., object]) -> None:
         """Call ``act`` after every change of what is shown: with the new design or program, if that is what it is."""

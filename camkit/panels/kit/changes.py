@@ -1,0 +1,27 @@
+"""A design with other values, as a panel gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...quantities import Analysable, D, Paths, quantities_of, unremarked, with_quantities
+
+
+def changed(design: D, values: Mapping[str, object]) -> D:
+    """``design`` with other values by path, as a panel gives them."""
+    with unremarked():  # a panel's numbers have their units
+        return with_quantities(design, values)
+
+
+def numbers_of(design: Analysable) -> dict[str, float]:
+    """The value of every quantity by path, SI."""
+    paths = quantities_of(design)
+    return dict(zip(paths, map(float, Paths(design, paths).values(design)), strict=True))
+
+
+def alike(one: Analysable, other: Analysable) -> bool:
+    """Whether designs differ in their quantities alone, so that one recording is for both."""
+    try:
+        return bool(changed(one, numbers_of(other)) == other)
+    except ValueError:  # another make, or an array in it
+        return False

@@ -1,0 +1,45 @@
+"""The files of a design that a page saves and opens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from ...files import designs, profiles
+from ...render.picture import Still, saved
+
+
+class Saved(Protocol):
+    """A panel whose design is saved, with what follows from it."""
+
+    design: Any
+    analysis: Any
+
+    def html(self) -> str:
+        """The page that computes without Python."""
+
+    def figure(self) -> Still:
+        """The views of the design."""
+
+
+FILES: dict[str, Callable[[Saved], bytes]] = {
+    "json": lambda app: designs.to_json(app.design).encode(),
+    "html": lambda app: app.html().encode(),
+    "svg": lambda app: saved(app.figure(), "svg"),
+    "pdf": lambda app: saved(app.figure(), "pdf"),
+    "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
+    "dxf": lambda app: profiles.profile_dxf(app.analysis).encode(),
+}
+"""What a page can save of a design, by the ending of the file's name."""
+OF_PROFILES = ("csv", "dxf")
+"""Of these, what only a design with a profile has."""
+
+
+def files_of(analysis: object) -> list[str]:
+    """What can be saved of a design with this analysis."""
+    return [kind for kind in FILES if kind not in OF_PROFILES or hasattr(analysis, "profile")]
+
+
+def remarked(found: designs.Read) -> str:
+    """What a panel says of a file that it has loaded; nothing if there is nothing to remark."""
+    return f"The file is loaded, but {'; and '.join(found.remarks)}." if found.remarks else ""

@@ -1,0 +1,132 @@
+"""`try_everything`: move every slider, box and menu of a panel, so that a callback that fails is seen."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+import ipywidgets as w
+from hand import at, choose, move, sliders
+
+from camkit.panels import Instrument
+from camkit.panels.kit import parts
+from camkit.panels.kit.banner import Banner
+from camkit.panels.kit.inputs import Check, Input, Menu, Number, Span, Typed, Whole
+from camkit.panels.kit.number import NumberBox
+from camkit.panels.kit.sheet import Sheet
+from camkit.quantities import choices_of, quantities_of, value_of
+
+KINDS = (
+    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, NumberBox, w.FloatText, w.BoundedIntText, w.Text,
+    w.Dropdown, w.SelectionSlider, w.Checkbox, Input,
+)  # fmt: skip
+"""What is moved; a button is not, for what it does may not be undone."""
+
+
+def _other_inputs(control):
+    """Values that what stands on a sheet can take besides its own."""
+    if isinstance(control, Menu):
+        return [value for value in control.values if value != control.value]
+    if isinstance(control, Check):
+        return [not control.value]
+    if isinstance(control, Typed):
+        return ["" if control.value else "1"]
+    if isinstance(control, Span):
+        return _narrower(control)
+    if isinstance(control, Number):
+        return [control.value + (control.declared.high - control.declared.low) / 100 * control.declared.factor]
+    if isinstance(control, Whole) and control.value == control.max:
+        return [control.value - 1]
+    return [control.value + 1]
+
+
+def _others(control):
+    """Values that a control can take besides its own: a step up for a number, every option for a menu."""
+    if isinstance(control, Input):
+        return _other_inputs(control)
+    if isinstance(control, (w.Dropdown, w.SelectionSlider)):
+        return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
+    if isinstance(control, w.Checkbox):
+        return [not control.value]
+    if isinstance(control, w.Text):
+        return ["" if control.value else "1"]
+    if isinstance(control, w.FloatRangeSlider):
+        return _narrower(control)
+    step, top = control.step or 1, getattr(control, "max", None)
+    up = round(control.value + step, 9)
+    return [up if top is None or up <= top else round(control.value - step, 9)]
+
+
+def _narrower(band):
+    """The band without its lower, then without its upper half."""
+    low, high = band.value
+    middle = (low + high) / 2
+    return [(middle, high), (low, middle)]
+
+
+def try_everything(panel):
+    """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
+
+    Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
+    measure, a view or what follows it could not be computed.
+    """
+    controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
+    count = len(controls) + sum(_try_page(app) for app in _inside(panel) if isinstance(app, Instrument))
+    with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
+        for held in _inside(panel):
+            if isinstance(held, Sheet):
+                quiet.enter_context(held.held())
+            elif isinstance(held, w.Widget):
+                quiet.enter_context(held.hold_sync())
+        for control in controls:
+            before = control.value
+            for value in [*_others(control), before]:
+                _give(control, value)
+                _refuse_failure(panel)
+            assert control.value == before, f"{control.description or type(control).__name__} did not come back"
+    return count
+
+
+def _try_page(app):
+    """Every slider and menu that the page has."""
+    before, paths = app.design, sliders(app)
+    for path in paths:
+        if path in quantities_of(app.design):
+            declared, shown = quantities_of(app.design)[path], at(app, path)
+            for value in (shown + (declared.high - declared.low) / 100, shown):
+                move(app, path, value)
+                _refuse_failure(app)
+        else:
+            own = value_of(app.design, path)
+            for option in (*choices_of(app.design)[path].named, own):
+                choose(app, path, option)
+                _refuse_failure(app)
+        app.load(before)
+    assert app.design == before
+    return len(paths)
+
+
+def _give(control, value):
+    """Another value, as a person gives it."""
+    if isinstance(control, Number):
+        control.take({"value": value})
+    else:
+        control.value = value
+
+
+SAYS = {parts.Banner: "text", Banner: "value", Instrument: "message"}
+"""What tells a person in a sentence, and where it stands."""
+
+
+def _refuse_failure(panel):
+    """``AssertionError`` if the panel says that a measure or a view raised an error of Python."""
+    for part in _inside(panel):
+        said = next((getattr(part, name) for kind, name in SAYS.items() if isinstance(part, kind)), "")
+        assert "cannot be computed:" not in said, said
+        assert "The page computes" not in said, said
+
+
+def _inside(box):
+    """Every widget inside ``box``, and every part of a sheet."""
+    if isinstance(box, Sheet):
+        return [box, *box.top.inside()]
+    return [box, *(c for child in getattr(box, "children", ()) for c in _inside(child))]
