@@ -38,6 +38,7 @@ from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import alike, changed, numbers_of
 from .kit.design_files import FILES, files_of, remarked
+from .kit.keeper import Keeper
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
 
 AGREED = 1e-9
@@ -61,6 +62,8 @@ class Instrument(anywidget.AnyWidget):
     message = traitlets.Unicode().tag(sync=True)
     tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
     """What stands beside the curves, by its title: sheets."""
+    page = traitlets.Dict().tag(sync=True)
+    """How the page was left beside its design: where it stands, what Undo goes back to, what is pinned."""
     design: Any = traitlets.Any()
 
     def __init__(
@@ -90,6 +93,8 @@ class Instrument(anywidget.AnyWidget):
         self._now: list[float] = []
         super().__init__(design=design)
         self._first = self._now
+        self._keeper = Keeper(self)
+        self.observe(lambda _: self._keeper.keep(), "page")
         self._send_structure()
         self.observe(self._settled, "values")
         self.observe(self._shown, "design")
@@ -256,6 +261,8 @@ class Instrument(anywidget.AnyWidget):
                 self._send_file(message["file"])
             elif "open" in message:
                 self.load_json(message["open"])
+            elif "session" in message:
+                self._keeper.answer(message["session"])
             elif "compute" in message:
                 self._compute(message)
         except Exception as error:  # a page must always be answered

@@ -30,6 +30,7 @@ MODULES = tuple(
         "pointer",
         "tabs",
         "panel",
+        "session",
     ]
 )
 """What every page is made of, each on those before it."""

@@ -40,7 +40,7 @@ class Kept:
 
     def text(self) -> str:
         """What the page says; ``ValueError`` if it is no text or too long."""
-        with open(self.page, encoding="utf-8", opener=_open_no_link) as file:
+        with open(self.page, encoding="utf-8", opener=open_no_link) as file:
             text = file.read(LONGEST + 1)
         if len(text) > LONGEST:
             raise ValueError(f"the file {self.page.name} is longer than a page")
@@ -49,7 +49,7 @@ class Kept:
     def begin(self, text: str) -> None:
         """Keep another search from now on."""
         self.checkpoint.unlink(missing_ok=True)
-        with open(self.page, "w", encoding="utf-8", opener=_open_no_link) as file:
+        with open(self.page, "w", encoding="utf-8", opener=open_no_link) as file:
             file.write(text)
 
     def release(self) -> None:
@@ -68,7 +68,17 @@ class Kept:
         self.release()
 
 
-def _open_no_link(path: str, flags: int) -> int:
+def make_folder(folder: Path) -> Path:
+    """Make the folder that git does not see, if it is not there; ``OSError`` for one that nothing can be kept in."""
+    with suppress(FileExistsError):
+        folder.mkdir()
+    check_folder(folder)
+    with suppress(FileExistsError), (folder / ".gitignore").open("x", encoding="utf-8") as ignored:
+        ignored.write("*\n")
+    return folder
+
+
+def open_no_link(path: str, flags: int) -> int:
     """As ``open`` does it, but neither through a link nor waiting for somebody at the other end of a pipe."""
     return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
 
@@ -78,13 +88,7 @@ def keep(name: str, text: str) -> Kept:
 
     Raises ``OSError``, with the reason, where nothing can be kept, or while the very same search runs.
     """
-    folder = _folder()
-    with suppress(FileExistsError):
-        folder.mkdir()
-    _check(folder)
-    with suppress(FileExistsError), (folder / ".gitignore").open("x", encoding="utf-8") as ignored:
-        ignored.write("*\n")
-    kept = Kept(folder / f"{name}.json")
+    kept = Kept(make_folder(_folder()) / f"{name}.json")
     try:
         kept.begin(text)
     except OSError:
@@ -97,7 +101,7 @@ def pending(kind: str) -> Kept | None:
     """The latest search whose name begins with ``kind``, that did not end and that nobody runs."""
     with suppress(OSError):
         folder = _folder()
-        _check(folder)
+        check_folder(folder)
         _sweep(folder)
         for checkpoint in sorted(folder.glob(f"{kind}-*.search"), key=_written, reverse=True):
             kept = _held(checkpoint.with_suffix(".json"))
@@ -119,7 +123,7 @@ def _own_folder() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory(prefix="camkit-", ignore_cleanup_errors=True)
 
 
-def _check(folder: Path) -> None:
+def check_folder(folder: Path) -> None:
     """``OSError`` for a folder that is none, leads elsewhere, or is somebody else's."""
     about = folder.lstat()
     if folder.resolve() != folder.parent.resolve() / folder.name:

@@ -16,9 +16,11 @@ export function filesOf(kinds, host) {
   if (!host) return [];
   const opened = async () => { if (file.files[0]) host.open(await file.files[0].text()); file.value = ""; };
   const file = make("input", { type: "file", accept: ".json", hidden: true, onchange: opened });
-  const save = make("select", { "aria-label": "Export", onchange: () => { if (save.value) host.file(save.value); save.value = ""; } },
+  const save = make("select", { "aria-label": "Export", "data-asks": true, onchange: () => { if (save.value) host.file(save.value); save.value = ""; } },
     make("option", { value: "" }, "Export"), ...kinds.map((kind) => make("option", { value: kind }, FILES[kind])));
-  return [button("Open", "Open a saved design", () => file.click()), file, save];
+  const open = button("Open", "Open a saved design", () => file.click());
+  open.setAttribute("data-asks", "");
+  return [open, file, save];
 }
 
 /** A button for the whole screen, where there is one to be had. @param {HTMLElement} root */

@@ -172,8 +172,11 @@ export class Panel {
     if (key === "y" || event.shiftKey) this._redo(); else this._undo();
   }
 
-  _pin() {
-    this.ghost = this.ghost ? null : this.outputs && { values: this.values.slice(), outputs: this.outputs };
+  _pin() { this.pin(this.ghost ? null : this.outputs && { values: this.values.slice(), outputs: this.outputs }); }
+
+  /** Compare with a design from now on, or with none. @param {any} ghost its values and outputs */
+  pin(ghost) {
+    this.ghost = ghost;
     this.pinning.textContent = this.ghost ? "Unpin" : "Pin to compare";
     this.ask(true);
   }

@@ -42,7 +42,7 @@ export class Quantities {
 function menuOf({ path, name, options, chosen }, choose) {
   if (!choose) return make("div", { class: "camkit-choice" }, make("span", {}, name), make("b", {}, chosen));
   const offered = options.includes(chosen) ? options : [chosen, ...options];
-  const menu = make("select", { "aria-label": name, onchange: () => { choose(path, menu.value); menu.value = chosen; } },
+  const menu = make("select", { "aria-label": name, "data-asks": true, onchange: () => { choose(path, menu.value); menu.value = chosen; } },
     ...offered.map((option) => make("option", { value: option, selected: option === chosen }, option)));
   return make("label", { class: "camkit-choice" }, make("span", {}, name), menu);
 }

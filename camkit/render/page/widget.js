@@ -3,6 +3,7 @@ import { programOf } from "./engine.js";
 import { Panel } from "./panel.js";
 import { Docks } from "./docks.js";
 import { download } from "./files.js";
+import { Session, alone, known, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineOf(model) {
@@ -33,7 +34,8 @@ function asking(model) {
   return { run: (/** @type {Float64Array} */ values) => new Promise((answered) => { ask({ values: [...values], answered }); }) };
 }
 
-const GONE = "The kernel has ended: this page computes on by itself; run the cell again to send designs to a new one.";
+const TRUST = "The page is saved: a browser runs it; inside JupyterLab it stands still until you press Trust HTML above it.";
+const SAID = 20_000; // how long that stays, ms
 
 /** @param {{model: any, el: HTMLElement}} host */
 async function render({ model, el }) {
@@ -53,8 +55,10 @@ async function render({ model, el }) {
     if (of === panel) docks.show(panel, found);
   };
   let begun = 0;
-  const begin = async () => {
-    const number = ++begun, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
+  /** @type {Promise<void>} */ let ready;
+  const begin = () => (ready = starting());
+  const starting = async () => {
+    const number = ++begun, first = !panel, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
     if (number < begun) return; // structure and program come together
     const shown = panel?.tabs.shown?.name;
     panel?.end();
@@ -63,10 +67,18 @@ async function render({ model, el }) {
     if (shown) panel.showTab(shown);
     panel.say(model.get("message"));
     moved(); // the design may have moved since the structure was made
+    if (first) void stand(panel, model.get("page"));
+    if (!known(model)) left();
   };
+  const left = () => { if (panel) alone(panel, model.get("program").byteLength > 0); };
   const moved = () => {
     const values = model.get("values"), shown = panel?.values ?? [];
     if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
+  };
+  const saved = (/** @type {string} */ name) => {
+    if (!name.endsWith(".html")) return;
+    panel.say(TRUST);
+    setTimeout(() => { if (panel.note.textContent === TRUST) panel.say(""); }, SAID);
   };
   const heard = {
     "change:structure": begin, // and with it the program, which may be the same
@@ -75,14 +87,18 @@ async function render({ model, el }) {
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); } // not in every view
+      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); saved(message.file); } // not in every view
+      if (message.offer !== undefined) session.offer(message.offer);
+      if (message.stand) void ready.then(() => stand(panel, message.stand));
       if (message.still) panel?.redraw(message.pictures, arrays(buffers));
     },
-    "comm_live_update": () => panel?.say(GONE), // it happens once more after the beginning: at the end
+    "comm_live_update": left, // it happens once more after the beginning: at the end
   };
+  const session = new Session(root, model, () => panel);
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
   await begin();
-  return () => { panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
+  session.ask();
+  return () => { session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
 export default { render };

@@ -1,0 +1,82 @@
+// What a page remembers beside its design: where it stands, what Undo goes back to, what is pinned; and what its kernel
+// offers of earlier.  A kernel that has ended leaves no control behind that does nothing.
+import { make } from "./controls.js";
+
+const QUIET = 400; // ms of rest after which the kernel hears how the page was left
+
+/** How a panel stands, its design left out: plain numbers. @param {any} panel */
+export function standOf(panel) {
+  const { values, history, ghost, tabs } = panel, plain = (/** @type {Float64Array[]} */ steps) => steps.map((step) => [...step]);
+  return {
+    at: [...values.slice(history.count)], tab: tabs.shown?.name ?? "", pinned: ghost ? [...ghost.values] : null,
+    past: plain(history.past), future: plain(history.future),
+  };
+}
+
+/** Stand as a page was left; what does not belong to this design is left out. @param {any} panel @param {any} left */
+export async function stand(panel, left) {
+  const { history, values: { length } } = panel, { count } = history;
+  const numbers = (/** @type {any} */ list, /** @type {number} */ wanted) =>
+    Array.isArray(list) && list.length === wanted && list.every(Number.isFinite);
+  const steps = (/** @type {any} */ list) => (Array.isArray(list) ? list : [])
+    .filter((values) => numbers(values, length)).map((values) => Float64Array.from(values));
+  const past = steps(left.past), future = steps(left.future);
+  if (past.length + future.length) Object.assign(history, { past, future });
+  if (numbers(left.at, length - count)) panel.put([...panel.values.slice(0, count), ...left.at]);
+  history.now = panel.values.slice();
+  if (typeof left.tab === "string") panel.showTab(left.tab);
+  if (!numbers(left.pinned, length) || panel.ghost) return;
+  const values = Float64Array.from(left.pinned), outputs = await panel.engine.run(values);
+  if (!panel.ended && !panel.ghost && !outputs.sentence) panel.pin({ values, outputs });
+}
+
+/** Tells the kernel how a page was left, from a person's first touch on; `panel()` is the panel that is shown now. */
+export class Session {
+  /** @param {HTMLElement} root @param {any} model @param {() => any} panel */
+  constructor(root, model, panel) {
+    Object.assign(this, { root, model, panel, told: "", leaving: new AbortController() });
+    const { signal } = this.leaving, touched = (/** @type {Event} */ event) => { if (event.isTrusted) this.touched = true; };
+    for (const kind of ["pointerdown", "keydown", "input", "change"]) root.addEventListener(kind, touched, { signal, capture: true });
+    const later = () => { clearTimeout(this.timer); if (this.touched) this.timer = setTimeout(() => this._tell(), QUIET); };
+    root.addEventListener("camkit-shown", later, { signal });
+    this.line = make("div", { class: "camkit-offer", role: "status", hidden: true });
+    root.before(this.line);
+  }
+
+  /** Ask the kernel what it has kept. */
+  ask() { this.model.send({ session: { hello: true } }); }
+
+  /** The page is not looked at any more. */
+  end() { clearTimeout(this.timer); this.leaving.abort(); this.line.remove(); }
+
+  /** @param {string} sentence what could be gone on with, or nothing */
+  offer(sentence) {
+    const answer = (/** @type {boolean} */ yes) => { this.touched = true; this.model.send({ session: { continue: yes } }); };
+    const button = (/** @type {string} */ words, /** @type {boolean} */ yes) => make("button", { type: "button", onclick: () => answer(yes) }, words);
+    this.line.replaceChildren(...(sentence ? [make("span", {}, sentence), button("Continue", true), button("No", false)] : []));
+    this.line.hidden = !sentence;
+  }
+
+  _tell() {
+    const panel = this.panel();
+    if (!panel || panel.ended) return;
+    const left = standOf(panel), words = JSON.stringify([panel.structure.choices, [...panel.values], left]);
+    if (words === this.told) return;
+    this.told = words;
+    this.model.set("page", { ...left, number: (this.model.get("page").number ?? 0) + 1 }); // the design may be another one
+    this.model.save_changes();
+  }
+}
+
+/** Whether a kernel knows the model: one that a notebook was saved with is known to none. @param {any} model */
+export const known = (model) => model.get("layout")?.comm_live !== false;
+
+/** What only a kernel can do. */
+const ASKS = "[data-asks], .camkit-sheet :is(input, select, button, textarea)";
+
+/** Leave alone what only a kernel can do, and say so. @param {any} panel @param {boolean} computes whether the page itself does */
+export function alone(panel, computes) {
+  for (const control of panel.root.querySelectorAll(computes ? ASKS : "input, select, button")) control.disabled = true;
+  panel.say(computes ? "No kernel knows this page: it computes by itself; run the cell again for menus, files and searches."
+    : "No kernel knows this page, and one computes this design: run the cell again to go on.");
+}
