@@ -47,12 +47,12 @@ lab: $(VENV)/.lab
 	@echo "Opening notebooks/00_start_here.ipynb in JupyterLab in your browser; Ctrl-C here, twice, ends it."
 	$(LAB_SETTINGS) $(BIN)/jupyter lab $(AS_ROOT) $(LAB) notebooks/00_start_here.ipynb
 
-# Read "Publishing" in README.md before naming another HOST.  The limits are in notebooks/voila.json.
+# The pages' templates are in .jupyter/voila.  Read "Publishing" in README.md before naming another HOST.  The limits are in notebooks/voila.json.
 HOST := 127.0.0.1
 
 app: $(VENV)/.app
-	@echo "Opening the list of notebooks in your browser; a page appears when its notebook has run. Ctrl-C here ends it."
-	$(BIN)/voila notebooks --Voila.ip=$(HOST) --Voila.config_file_paths=notebooks
+	@echo "Opening the notebooks as cards in your browser; a page fills while its notebook runs. Ctrl-C here ends it."
+	JUPYTER_PATH="$(CURDIR)/.jupyter$${JUPYTER_PATH:+:$$JUPYTER_PATH}" $(BIN)/voila notebooks --Voila.ip=$(HOST) --Voila.config_file_paths=notebooks
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
@@ -86,6 +86,7 @@ notebooks: $(VENV)/.test
 	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=kernelspec \
 	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=language_info \
 	    notebooks/*.ipynb
+	$(BIN)/python .jupyter/cards.py notebooks
 
 # After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out.
 constraints: $(VENV)/.test

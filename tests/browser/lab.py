@@ -41,7 +41,7 @@ CHROMIUM_FLAGS = [
     "--no-sandbox",
 ]
 
-# What `make lab` gives its server.
+# What `make lab` and `make app` give their servers.
 SETTINGS = Path(__file__).parents[2] / ".jupyter"
 
 
@@ -137,6 +137,7 @@ def voila_server(folder: Path, source: Path, *options: str) -> Iterator[str]:
     published = ("--Voila.ip=127.0.0.1", "--Voila.config_file_paths=notebooks", "--no-browser", f"--port={port}")
     command = [sys.executable, "-m", "voila", "notebooks", *published, *options]
     environment = os.environ | isolation(folder) | {"PYTHONPATH": str(source), "OPENBLAS_NUM_THREADS": "1"}
+    environment["JUPYTER_PATH"] = str(SETTINGS)
     with (folder / "server.log").open("w") as log:
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
     address = f"http://127.0.0.1:{port}"

@@ -1,5 +1,6 @@
 """The live notebooks as pages without code, served by Voilà: `make app`."""
 
+import re
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -37,11 +38,37 @@ def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterat
         @cache
         def page_of(name: str) -> Page:
             page = context.new_page()
-            page.goto(f"{address}/voila/render/{name}", wait_until="commit", timeout=120_000)
+            page.goto(f"{address}/voila/render/{name}" if name else address, wait_until="commit", timeout=120_000)
             return page
 
         yield page_of
         context.close()
+
+
+def test_the_first_page_has_a_card_for_each_notebook(opened: Callable[[str], Page]) -> None:
+    page = opened("")
+    names = sorted(path.name for path in (REPOSITORY / "notebooks").glob("*.ipynb"))[1:]
+    expect(page.locator("li")).to_have_count(len(names) + 1)  # and the one of this test, which has no picture
+    for card, name in zip(page.locator("li").all(), names, strict=False):
+        assert card.locator("a").get_attribute("href").endswith(f"/render/{name}")
+        assert card.locator("p").inner_text()
+        expect(card.locator("img")).to_have_js_property("complete", True)
+        assert card.locator("img").evaluate("image => image.naturalWidth") > 100
+    screenshot(page, REPOSITORY / ".browser" / "cards.png")
+
+
+def test_a_page_says_what_is_loading_and_asks_nothing_from_outside(opened: Callable[[str], Page]) -> None:
+    address = opened("").url
+    page, asked = opened("").context.new_page(), []
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(f"{address.rstrip('/')}/voila/render/{OTHERS[1]}", wait_until="commit")
+    loading = page.locator("#loading")
+    expect(loading).to_contain_text("How large does a cam have to be?")
+    expect(loading.locator("#loading_text")).to_have_text(re.compile("Python is starting|This page is read"))
+    assert loading.locator("img").get_attribute("src") == "/voila/files/images/cards/05_cam_size.png"
+    expect(page.locator(".camkit-page canvas").first).to_be_visible(timeout=120_000)
+    assert not [url for url in asked if not url.startswith((address, "data:", "blob:"))]
+    page.close()
 
 
 @pytest.mark.parametrize("name", [DOOR_HANDLE, *OTHERS])

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from voila.tornado.execution_request_handler import ExecutionRequestHandler
 
 from camkit.panels.kit import search_files
 from camkit.panels.kit.published import PublishedKernels
@@ -32,7 +33,9 @@ def test_pages_are_shown_to_this_machine_unless_told_otherwise(arguments, host):
 def test_the_limits_of_published_pages_are_known_by_these_names():
     limits = json.loads((REPOSITORY / "notebooks" / "voila.json").read_text())
     name = PublishedKernels.__name__
-    assert limits["VoilaConfiguration"] == {"multi_kernel_manager_class": f"{PublishedKernels.__module__}.{name}"}
+    pages = limits["VoilaConfiguration"]
+    assert pages.pop("multi_kernel_manager_class") == f"{PublishedKernels.__module__}.{name}"
+    assert pages == {"template": "camkit", "progressive_rendering": True}  # pictures appear while a notebook runs
     kernels = PublishedKernels(**limits[name])
     assert {key: getattr(kernels, key) for key in limits[name]} == limits[name]
     assert kernels.most > 0
@@ -64,6 +67,19 @@ def test_a_page_that_never_opens_gives_its_place_back():
             await kernels.shutdown_all(now=True)
 
     asyncio.run(visits())
+
+
+def test_the_notebook_of_a_page_that_never_opened_is_forgotten():
+    """Voila keeps it for a page that asks for it; a crawler's does not."""
+
+    async def visit():
+        kernels = PublishedKernels()
+        kernel_id = await kernels.start_kernel()
+        ExecutionRequestHandler._execution_data[kernel_id] = {"nb": "a notebook"}
+        await kernels.shutdown_kernel(kernel_id, now=True)
+        assert kernel_id not in ExecutionRequestHandler._execution_data
+
+    asyncio.run(visit())
 
 
 def test_a_published_page_keeps_its_searches_to_itself(tmp_path, monkeypatch):

@@ -13,6 +13,7 @@ from jupyter_server.services.kernels.kernelmanager import AsyncMappingKernelMana
 from tornado.ioloop import IOLoop
 from tornado.web import HTTPError
 from traitlets import Integer
+from voila.tornado.execution_request_handler import ExecutionRequestHandler
 
 
 class PublishedKernels(AsyncMappingKernelManager):
@@ -38,6 +39,11 @@ class PublishedKernels(AsyncMappingKernelManager):
             self._starting -= 1
         self._look_later(self._end_if_never_opened, kernel_id)
         return kernel_id
+
+    async def shutdown_kernel(self, kernel_id: str, *how: Any, **more: Any) -> None:  # type: ignore[override]
+        """End a kernel, and forget the notebook that Voila keeps for its page, which may never ask for it."""
+        await super().shutdown_kernel(kernel_id, *how, **more)
+        ExecutionRequestHandler._execution_data.pop(kernel_id, None)
 
     def notify_disconnect(self, kernel_id: str) -> None:
         """A page was closed, or its line is broken: it has a while to come back."""
