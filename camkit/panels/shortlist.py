@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from functools import partial
 
-import ipywidgets as w
-
 from ..decision import SideBySide, side_by_side
+from ..decision.summary import NOT_MET, Line
 from ..quantities import Analysable, Measure
 from ..quantities.kinds import refuse_arguments
-from ..render.draw import colour
 from ..study.study import Study
 from ..views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid
 from .instrument import Instrument
-from .kit.banner import Banner
-from .kit.controls import Download, bar_html, tables_html
-from .kit.layout import button, wrapped
-from .kit.panel import IMPOSSIBLE, Panel, reason
-from .kit.picture import LivePicture
+from .kit.drawn import LivePicture
+from .kit.inputs import Download
+from .kit.parts import Banner, Button, Group, Table, Words, bold, row
+from .kit.sheet import IMPOSSIBLE, Panel, reason
 
 TITLE = "Designs side by side"
 MOST_MEASURES = 12
@@ -37,19 +34,20 @@ class Shortlist(Panel):
         self.explorer, self.study = explorer, study
         self.designs: dict[str, Analysable] = {}
         self._analyses: dict[str, object] = {}
-        self.banner, self.numbers, self._places = Banner(), w.HTML(), w.VBox()
+        self.banner, self.numbers, self._places = Banner(), Table(), row()
         views = (profiles_overlaid, measures_overlaid) if self._has_profile(explorer.analysis) else (measures_overlaid,)
         every = _measures(explorer, study)
         for measure in every:  # refuses a study of another mechanism
             measure.one(explorer.analysis)
         self._measures = every[:MOST_MEASURES]
         self.picture = LivePicture(views, "Kept designs", width=12.6, height=4.8)
-        keep = button("Keep this design", self.keep, "plus", button_style="primary")
+        self.picture.pixels = 240
+        keep = Button("Keep this design", self.keep, primary=True)
         files = [
             Download("Save as Markdown", "designs.md", "text/markdown", self.markdown),
             Download("Save as HTML", "designs.html", "text/html", self.html),
         ]
-        super().__init__([wrapped(keep, *files), self.banner, self._places, self.picture.widget, self.numbers])
+        super().__init__(row(keep, *files), self.banner, self._places, self.picture, self.numbers)
         self._show()
 
     @staticmethod
@@ -103,19 +101,20 @@ class Shortlist(Panel):
         return self.table.page(TITLE, self.picture.png() if self.designs else b"")
 
     def _show(self) -> None:
-        for row in self._places.children:
-            _close(row)
-        self._places.children = [self._row(place) for place in self.designs]
-        self.picture.widget.layout.display = "" if self.designs else "none"
-        self.picture.show(Kept(self._analyses, self._measures))
-        self.numbers.value = tables_html(self.table.html()) if self.designs else ""
+        with self.held():
+            self._places.children = tuple(self._row(place) for place in self.designs)
+            self.picture.visible = self.numbers.visible = bool(self.designs)
+            self.picture.show(Kept(self._analyses, self._measures))
+            if self.designs:
+                table = self.table
+                self.numbers.put(("", *table.names, "limit"), [_cells(line) for line in table.lines])
 
-    def _row(self, place: str) -> w.HBox:
+    def _row(self, place: str) -> Group:
         """The letter of a kept design in its colour, and what can be done with it."""
-        load = button("Load", partial(self.load, place), "upload", tooltip=f"put design {place} into the sliders")
-        drop = button("Remove", partial(self.drop, place), "times", tooltip=f"keep design {place} no longer")
-        letter = bar_html(colour("series", PLACES.index(place)), 18, f"design {place}")
-        return w.HBox([w.HTML(letter, layout=w.Layout(width="110px")), load, drop])
+        load = Button("Load", partial(self.load, place), tooltip=f"put design {place} into the sliders")
+        drop = Button("Remove", partial(self.drop, place), tooltip=f"keep design {place} no longer")
+        letter = Words(value=[{"words": f"design {place}", "series": PLACES.index(place)}])
+        return row(letter, load, drop)
 
     def summary(self) -> str:
         """The table as Markdown."""
@@ -128,9 +127,12 @@ def _measures(explorer: Instrument, study: Study | None) -> tuple[Measure, ...]:
     return tuple(dict.fromkeys(m if m.sign > 0 else -m for m in (*told, *explorer.measures)))
 
 
-def _close(row: w.HBox) -> None:
-    for widget in (*row.children, row):
-        widget.close()
+def _cells(line: Line) -> list[object]:
+    """A line of the table: the best ones bold, and which miss a limit."""
+    cells = [bold(text) if best else text for text, best in zip(line.texts, line.best, strict=True)]
+    missed = {"words": NOT_MET, "look": "missed"}
+    told = [[cell, " ", missed] if no else cell for cell, no in zip(cells, line.missed, strict=True)]
+    return [line.name, *told, line.limit]
 
 
 def shortlist(explorer: Instrument, study: Study | None = None) -> Shortlist:

@@ -61,6 +61,6 @@ def measures_overlaid(kept: Kept) -> Picture:
         title="Measures against the first design",
         xlabel="difference  [%]",
         ylim=(0.4 - len(measures), 0.6),
-        yticks={float(y): fill(m.name, 34) for y, m in zip(height, measures, strict=True)},
+        yticks={float(y): fill(m.name, 24) for y, m in zip(height, measures, strict=True)},
     )
     return Picture.of(axes, marks)

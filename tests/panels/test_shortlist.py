@@ -2,15 +2,14 @@
 
 import base64
 import io
-import re
 from html.parser import HTMLParser
 
-import ipywidgets as w
 import numpy as np
 import pytest
 from hand import move
 from numpy.testing import assert_allclose
 from PIL import Image
+from sheets import alert, do, parts, press
 
 from camkit import (
     DoorHandleCam,
@@ -26,7 +25,8 @@ from camkit.decision import side_by_side
 from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import CURVE_TABLE, stroke_radius
 from camkit.motion import Poly345
-from camkit.panels.kit.controls import Download
+from camkit.panels.kit.inputs import Download
+from camkit.panels.kit.parts import Button, bold, plain
 from camkit.panels.shortlist import shortlist
 from camkit.render.picture import draw, layout
 from camkit.units import mm
@@ -199,29 +199,24 @@ def panel():
     return shortlist(app, STUDY)
 
 
-def inside(box, kind):
-    children = getattr(box, "children", ())
-    return [c for c in children if isinstance(c, kind)] + [x for c in children for x in inside(c, kind)]
-
-
-def press(panel, words, which=0):
-    [b for b in inside(panel, w.Button) if b.description == words][which].click()
-
-
-def alert(panel):
-    return re.sub("<.*?>", "", panel.banner.value)
-
-
 def keep(panel, arm):
     panel.explorer.load(DoorHandleCam(lift_arm=arm * mm))
     press(panel, "Keep this design")
 
 
 def downloaded(panel, words):
-    button, sent = next(d for d in inside(panel, Download) if d.description == words), []
+    button, sent = next(part for part in parts(panel, Download) if part.description == words), []
     button.send = sent.append
-    button._handle_custom_msg({"wanted": True}, [])
+    do(panel, button)
     return sent[0]
+
+
+def cells(table):
+    """The words of the table that the page shows."""
+    yield ["", *table.names, "limit"]
+    for line in table.lines:
+        told = zip(line.texts, line.missed, strict=True)
+        yield [line.name, *(f"{text} not met" if missed else text for text, missed in told), line.limit]
 
 
 def test_five_designs_are_kept_and_a_sixth_is_refused_in_a_sentence(panel):
@@ -235,7 +230,8 @@ def test_five_designs_are_kept_and_a_sixth_is_refused_in_a_sentence(panel):
         "This design is not kept: 5 designs are kept already, as many as the tray holds; remove one to make room."
     )
     assert [design.lift_arm for design in panel.designs.values()] == [arm * mm for arm in (46, 47, 48, 49, 50)]
-    press(panel, "Remove", 1)
+    parts(panel, Button)[6].click()  # Remove of the second design
+    assert list(panel.designs) == ["A", "C", "D", "E"]
     keep(panel, 51)
     assert {place: round(design.lift_arm / mm) for place, design in panel.designs.items()} == dict(
         zip("ABCDE", (46, 51, 48, 49, 50), strict=True)
@@ -272,16 +268,20 @@ def test_the_files_are_the_table_and_the_picture(panel):
     assert table.html() in file["text"]
     image = Image.open(io.BytesIO(base64.b64decode(page.images[0]["src"].partition(",")[2])))
     assert image.size == (1260, 480)
-    assert table.html() in panel.numbers.value
+    assert panel.numbers.text == "\n".join("  ".join(row) for row in cells(table))
+    best = {
+        (name, k) for name, *row, _ in panel.numbers.rows for k, cell in enumerate(row) if cell == bold(plain(cell))
+    }
+    assert best == {(line.name, k) for line in table.lines for k in np.flatnonzero(line.best)} != set()
 
 
 def test_an_empty_tray_shows_and_saves_nothing_but_words(panel):
-    assert panel.picture.widget.layout.display == "none"
+    assert not panel.picture.visible
     assert "<img" not in downloaded(panel, "Save as HTML")["text"]
     keep(panel, 46)
-    assert panel.picture.widget.layout.display == ""
+    assert panel.picture.visible
     press(panel, "Remove")
-    assert panel.picture.widget.layout.display == "none"
+    assert not panel.picture.visible
 
 
 def test_designs_without_a_profile_are_compared_in_numbers():
@@ -307,5 +307,5 @@ def test_a_measure_that_fails_for_one_design_keeps_the_others():
     before = kept.summary()
     move(app, "base_radius", 35)
     kept.keep()
-    assert "This design is not kept: the radius cannot be computed: KeyError: False." in kept.banner.value
+    assert "This design is not kept: the radius cannot be computed: KeyError: False." in kept.banner.text
     assert (list(kept.designs), kept.summary()) == (["A"], before)
