@@ -7,15 +7,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Protocol, runtime_checkable
 
-import ipywidgets as w
 import numpy as np
 
 from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, attribute, html, joined, table
-from ..render.draw import colour
-from ..render.picture import below
+from ..quantities.types import Array
+from ..render.picture import below, picture
 from ..search.front import Front
 from ..views.decision import (
     MARKS,
@@ -29,13 +27,12 @@ from ..views.decision import (
 from ..views.front import Judged
 from ..views.parallel import Designs
 from .instrument import Instrument
-from .kit.banner import Banner
-from .kit.controls import bar_html, small_html, tables_html
+from .kit.drawn import LivePicture
 from .kit.front_picker import objective_texts, place_on
-from .kit.layout import button, menu, wrapped
-from .kit.panel import Panel
-from .kit.picture import LivePicture
+from .kit.inputs import Menu, Span
+from .kit.parts import Banner, Button, Group, Table, Words, row
 from .kit.quiet import Quiet
+from .kit.sheet import Panel
 
 NO_FRONT = "There is no front to choose from yet: run a search."
 HINT = "Drag along an axis to keep a band of it; click into the band to drop it; click a line to load its design."
@@ -71,45 +68,42 @@ class ChoosePanel(Panel):
         self.source, self.measures = source, measures
         self.shown: ShownDecision | None = None
         self._key: object = None
-        self._columns: Any = None
         self._said: Judgements | None = None
-        self._held: tuple[int, float] | None = None
-        self._quiet = Quiet()
-        self._drawing = threading.RLock()  # a search reports from a thread of its own
-        self.banner, self.numbers, self._verdict, self.count = Banner(), w.HTML(), w.HTML(), w.HTML()
-        self._brushed, self._judged = w.Box(), w.Box()
-        self._make_pictures()
-        self._make_controls()
-        children = [self.numbers, self._loads, self._brushed, self._brush, self._judged, self._verdict]
-        self._body = w.VBox(children)
-        super().__init__([self.banner, self._body])
+        self._brush_from: tuple[int, float] | None = None
+        self._quiet, self._drawing = Quiet(), threading.RLock()  # a search reports from a thread of its own
+        self.banner, self.numbers, self._verdict, self.count = Banner(), Table(), Words(), Words(role="status")
+        self.picture = LivePicture((brushed_designs,), "Designs of the front")
+        self.points = LivePicture((front_winners,), "Winners on the front")
+        self.map = LivePicture((winners_by_weight, judgement_bars), "Winners by weight")
+        self.picture.on_pointer(self.pointed)
+        self.map.on_click(self.map_clicked)
+        self.picture.pixels = self.points.pixels = self.map.pixels = 240
+        loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS))
+        designs = Group(self.points, self.picture, look="beside")
+        self._decided = Group(self.numbers, loads, designs, self._brush(), self.map, self._verdict)
+        super().__init__(self.banner, self._decided)
         self.take_up()
         source.on_front(self.take_up)
         source.explorer.on_change(lambda _: self._select())
         if source.importance:
             source.importance.on_change(self.take_up)
 
-    def _make_controls(self) -> None:
-        buttons = [self._load_button(rule) for rule in MARKS]
-        self._loads = wrapped(w.HTML("load the winner by"), *buttons)
-        self.axis = menu([], "keep of the", "330px")
-        self.band = w.FloatRangeSlider(
-            readout_format=".4g", continuous_update=True, layout=w.Layout(flex="1 1 260px", max_width="420px")
-        )
+    def _brush(self) -> Group:
+        """What narrows the front down to a band, with the keys too."""
+        self.axis, self.band = Menu([], "keep of the"), Span()
         self._quiet.hear(self.axis, lambda _: self._show_band())
         self._quiet.hear(self.band, lambda band: self.keep(self.axis.value, band))
-        clear = button("Keep all", lambda: self._brush_with({}), "undo", tooltip="drop every band")
-        row = wrapped(self.axis, self.band, clear, self.count)
-        self._brush = w.VBox([w.HTML(small_html(HINT)), row])
+        clear = Button("Keep all", lambda: self._brush_with({}), tooltip="drop every band")
+        return Group(row(self.count, Words(value=[HINT], look="hint")), row(self.axis, self.band, clear))
 
-    def _load_button(self, rule: str) -> w.Button:
-        return button(rule, lambda: self.source.select(self.shown.winners[rule]) if self.shown else None, "star")
+    def _load_button(self, rule: str) -> Button:
+        return Button(rule, lambda: self.source.select(self.shown.winners[rule]) if self.shown else None)
 
     def take_up(self) -> None:
         """Show the source's front and the judgements as they are now."""
-        with self._drawing:
+        with self._drawing, self.held():
             front = self.source.front
-            self._body.layout.display = "" if len(front) else "none"
+            self._decided.visible = bool(len(front))
             self.banner.show_message("" if len(front) else f"{NO_FRONT} {front.message}".strip())
             if not len(front):
                 self.shown = None
@@ -131,30 +125,14 @@ class ChoosePanel(Panel):
         return panel.judgements if fits else None
 
     def _keep_bands(self, fresh: ShownDecision) -> None:
-        """Take up another decision; bands stay if it has the same columns, pictures if it has the same objectives."""
-        same = self.shown is not None and self.shown.designs.columns == fresh.designs.columns
-        bands = self.shown.designs.bands if same and self.shown else {}
+        """Take up another decision; bands stay if it has the same columns."""
+        columns = fresh.designs.columns
+        bands = self.designs.bands if self.shown and self.designs.columns == columns else {}
         self.shown = replace(fresh, designs=replace(fresh.designs, bands=bands, selected=self._selected(fresh)))
-        if self._columns not in (None, fresh.designs.columns):  # else there are no others or they are drawn already
-            self._make_pictures()
-        self._columns = fresh.designs.columns
-        if [label for label, _ in self.axis.options] != (labels := [c.name for c in fresh.designs.columns]):
+        named = [(column.name, j) for j, column in enumerate(columns)]
+        if list(self.axis.options) != named:
             with self._quiet:
-                self.axis.options = [(label, j) for j, label in enumerate(labels)]
-                self.axis.index = 0
-
-    def _make_pictures(self) -> None:
-        """Figures whose axes are to be named after the columns and objectives of the next decision."""
-        old = (*self._brushed.children, *self._judged.children)
-        brushed = LivePicture((brushed_designs, front_winners), "Designs of the front", width=12.6, height=4.5)
-        judged = LivePicture((winners_by_weight, judgement_bars), "Winners by weight", width=12.6, height=4.4)
-        brushed.widget.on_pointer(self.pointed)
-        judged.widget.on_click(self.map_clicked)
-        brushed.said = self.summary
-        self.pictures, self.picture = [brushed, judged], brushed
-        self._brushed.children, self._judged.children = (brushed.widget,), (judged.widget,)
-        for widget in old:
-            widget.close()
+                self.axis.offer(named, 0)
 
     def _selected(self, shown: ShownDecision) -> int | None:
         """The front's design that is in the sliders, if one is."""
@@ -162,17 +140,22 @@ class ChoosePanel(Panel):
 
     def _select(self) -> None:
         """Mark the design in the sliders, if that changes anything."""
-        with self._drawing:
+        with self._drawing, self.held():
             if self.shown and (selected := self._selected(self.shown)) != self.shown.designs.selected:
                 self.shown = replace(self.shown, designs=replace(self.shown.designs, selected=selected))
-                self.pictures[0].show(self.shown)
+                self._draw()
+
+    def _draw(self) -> None:
+        """The designs, as they are kept and marked."""
+        for each in (self.picture, self.points):
+            each.show(self.shown)
 
     def _show(self) -> None:
         assert self.shown
-        for picture in self.pictures:
-            picture.show(self.shown)
-        self.numbers.value = self._table_html()
-        self._verdict.value = joined(self.sureness, "<br>")
+        self._draw()
+        self.map.show(self.shown)
+        self.numbers.put(*self._table())
+        self._verdict.say(*self.sureness)
         self._show_band()
 
     # ------------------------------------------------------------ bands
@@ -184,10 +167,10 @@ class ChoosePanel(Panel):
         return self.shown.designs
 
     def _brush_with(self, bands: dict[int, tuple[float, float]]) -> None:
-        with self._drawing:
+        with self._drawing, self.held():
             if self.shown:
                 self.shown = replace(self.shown, designs=replace(self.designs, bands=bands))
-                self.pictures[0].show(self.shown)
+                self._draw()
                 self._show_band()
 
     def keep(self, column: int, band: tuple[float, float]) -> None:
@@ -201,27 +184,29 @@ class ChoosePanel(Panel):
         """Slider and count say what the bands keep."""
         designs, j = self.designs, self.axis.value
         low, high = map(float, designs.ends[:, j])
-        with self._quiet, self.band.hold_trait_notifications():
-            self.band.min, self.band.max, self.band.step = low, high, (high - low) / 100 or 1.0
-            self.band.value = designs.bands.get(j, (low, high))
-        self.band.disabled = high <= low
         column = designs.columns[j]
-        name = f"{column.name}, {column.unit}" if column.unit else column.name
-        count = f"{designs.kept.sum()} of {len(designs.kept)} designs kept"
-        self.count.value = html("<span {}>&ensp;{}</span>", attribute("data-name", name), count)
+        with self._quiet, self.held(), self.band.hold_trait_notifications():
+            self.band.description = f"{column.name}, {column.unit}" if column.unit else column.name
+            self.band.min, self.band.max, self.band.disabled = low, high, high <= low
+            self.band.value = designs.bands.get(j, (low, high))
+        self.count.say(f"{designs.kept.sum()} of {len(designs.kept)} designs kept")
 
-    def pointed(self, kind: str, x: float, y: float) -> None:
+    def pointed(self, view: int, kind: str, at: Array, pixel: Array) -> None:
         """Drag a band, drop it or load a design."""
-        at, height = self.pictures[0].in_data(x, y)
-        column = int(np.clip(round(at), 0, len(self.designs.columns) - 1))
-        inside = -0.45 < at < len(self.designs.columns) - 0.55 and -0.15 < height < 1.2
+        if view or not self.shown:
+            return
+        across, height = map(float, at)
+        column = int(np.clip(round(across), 0, len(self.designs.columns) - 1))
+        inside = -0.45 < across < len(self.designs.columns) - 0.55 and -0.15 < height < 1.2
         if kind == "press":
-            self._held = (column, self.designs.value(column, height)) if inside and abs(at - column) < 0.3 else None
-        elif kind == "drag" and self._held:
-            held, start = self._held
-            self.keep(held, tuple(sorted((start, self.designs.value(held, height)))))  # type: ignore[arg-type]
+            near = inside and abs(across - column) < 0.3
+            self._brush_from = (column, self.designs.value(column, height)) if near else None
+        elif kind == "drag" and self._brush_from:
+            held, start = self._brush_from
+            low, high = sorted((start, self.designs.value(held, height)))
+            self.keep(held, (low, high))
         elif kind == "click" and inside:
-            self._click(column, at, height)
+            self._click(column, across, height)
 
     def _click(self, column: int, at: float, height: float) -> None:
         low, high = self.designs.bands.get(column, (np.inf, -np.inf))
@@ -230,30 +215,29 @@ class ChoosePanel(Panel):
         elif (design := self.designs.nearest(at, height)) is not None:
             self.source.select(design)
 
-    def map_clicked(self, x: float, y: float) -> None:
+    def map_clicked(self, view: int, at: Array, pixel: Array) -> None:
         """Load the winner at the weights under the pointer."""
-        assert self.shown
-        design = self.shown.winner_at(*self.pictures[1].in_data(x, y))
+        design = self.shown.winner_at(*map(float, at)) if self.shown and view == 0 else None
         if design is not None:
             self.source.select(design)
 
     # ------------------------------------------------------------ words
 
-    def _table_html(self) -> Html:
-        """The winners side by side."""
+    def _table(self) -> tuple[Sequence[object], list[Sequence[object]]]:
+        """The winners side by side: the head and the rows."""
         assert self.shown
         front = self.shown.front
         declared = front.study.declared
         goals, free = front.study.minimise, front.study.free
         names = [*(m.name for m in goals), *(label(n, declared[n]) for n in free)]
         head = ("winner by", "design", *names, "share of all weightings won")
-        rows = []
+        rows: list[Sequence[object]] = []
         for rule, i in self.shown.winners.items():
             values = [m.text(m.sign * f) for m, f in zip(goals, front.f[i], strict=True)]
             values += [declared[n].text(float(f"{x:.5g}")) for n, x in zip(free, front.x[i], strict=True)]
             share = f"{100 * self.shown.maps[rule].shares.get(i, 0):.0f} %" if rule in self.shown.maps else "all"
-            rows.append((bar_html(colour("series", self.shown.index[i]), 11, rule), i, *values, share))
-        return tables_html(table(head, rows))
+            rows.append(({"words": rule, "series": self.shown.index[i]}, i, *values, share))
+        return head, rows
 
     @property
     def sureness(self) -> list[str]:
@@ -285,8 +269,11 @@ class ChoosePanel(Panel):
         return f"design {design}, {', '.join(objective_texts(front.study, front.f[design]))}"
 
     def still(self) -> bytes:
-        """Both pictures, one below the other; without a front there is nothing to see."""
-        return below(*(picture.png() for picture in self.pictures if self.shown))
+        """All four views, two below two; without a front there is nothing to see."""
+        rows = (brushed_designs, front_winners), (winners_by_weight, judgement_bars)
+        return below(
+            *(picture(self.shown, *views, width=12.6, height=4.5)._repr_png_() for views in rows if self.shown)
+        )
 
 
 def _numbers_of(front: Judged) -> tuple[object, ...]:

@@ -161,11 +161,11 @@ def winners_by_weight(shown: ShownDecision) -> Picture:
     return views.get(len(shown.front.study.minimise), _weight_shares)(shown)
 
 
-def _bar(key: str, low: ArrayLike, high: ArrayLike, y: float, half: float, **style: Unpack[MarkStyle]) -> Polygon:
+def _bar(key: str, low: ArrayLike, high: ArrayLike, y: ArrayLike, half: float, **style: Unpack[MarkStyle]) -> Polygon:
     """An upright rectangle over each stretch from ``low`` to ``high``."""
-    low, high = np.broadcast_arrays(np.atleast_1d(low), high)
-    x, heights = np.stack([low, high, high, low], axis=-1), np.array([y - half, y - half, y + half, y + half])
-    return Polygon(key, *joined(np.stack([x, np.broadcast_to(heights, x.shape)], axis=-1)), **style)
+    low, high, y = np.broadcast_arrays(np.atleast_1d(low), high, y)
+    x, heights = np.stack([low, high, high, low], axis=-1), np.stack([y - half, y - half, y + half, y + half], axis=-1)
+    return Polygon(key, *joined(np.stack([x, heights], axis=-1)), **style)
 
 
 def _look(shown: ShownDecision, design: int) -> MarkStyle:
@@ -220,7 +220,7 @@ def _runs(where: np.ndarray) -> np.ndarray:
 
 CORNERS = np.array([[0.5, np.sqrt(3) / 2], [0.0, 0.0], [1.0, 0.0]])
 """Where all weight is on the first, second, third objective."""
-APART = 1.62
+APART = 1.75
 """From one triangle to the next."""
 ANCHORS = (("bottom", 0.05), ("top", -0.05), ("top", -0.05))
 """Where the names of the corners stand."""
@@ -240,23 +240,26 @@ def _weight_triangles(shown: ShownDecision) -> Picture:
         marks.append(Line(f"{rule} edge", *(_closed(CORNERS) + away).T))
         x, y = triangle(shown.weights) + away
         marks.append(Points(f"{rule} now", x, y, size=10, fill="paper"))
-        marks.append(Text(f"{rule} name", 0.5 + away[0], -0.3, f"by {rule}", anchor="top", size=11.5))
+        marks.append(Text(f"{rule} name", 0.5 + away[0], -0.36, f"by {rule}", anchor="top", size=11.5))
         for name, (x, y), (anchor, shift) in zip(shown.names, CORNERS + away, ANCHORS, strict=True):
-            marks.append(Text(f"{rule} {name}", x, y + shift, _wrapped(name, 20), anchor=anchor, size=9.5))
+            marks.append(Text(f"{rule} {name}", x, y + shift, _wrapped(name, 15), anchor=anchor, size=9.5))
     width = (-0.36, 1.36 + APART * (len(shown.maps) - 1))
-    return Picture.of(Axes(title=TITLE, equal=True, bare=True, xlim=width, ylim=(-0.42, 1.1)), marks)
+    return Picture.of(Axes(title=TITLE, equal=True, bare=True, xlim=width, ylim=(-0.5, 1.22)), marks)
 
 
 def _cells(shown: ShownDecision, rule: str, chart: WinnerMap, away: np.ndarray) -> list[Mark]:
-    """A cell around each weighting in its winner's colour, what is outside the triangle hidden, and numbers."""
+    """Each weighting in its winner's colour, row by row, what is outside the triangle hidden, and numbers."""
     marks: list[Mark] = []
     step = 1 / (np.sqrt(8 * len(chart.weights) + 1) - 3) * 2
-    turns = np.deg2rad(np.arange(30, 390, 60))
-    cell = step / np.sqrt(3) * np.column_stack([np.cos(turns), np.sin(turns)])
     points = triangle(chart.weights) + away
+    order = np.lexsort((chart.weights[:, 2], chart.weights[:, 0]))  # upwards, and each row from left to right
+    (x, y), winners = points[order].T, chart.winners[order]
+    begins = np.r_[True, (np.diff(winners) != 0) | (np.diff(chart.weights[order, 0]) > 0)]
+    first, last = np.flatnonzero(begins), np.flatnonzero(np.r_[begins[1:], True])
     for design in chart.shares:
-        cells = points[chart.winners == design][:, None] + cell
-        marks.append(Polygon(f"{rule} {design}", *joined(cells), **_look(shown, design)))
+        mine = winners[first] == design
+        low, high = x[first[mine]] - step / 2, x[last[mine]] + step / 2
+        marks.append(_bar(f"{rule} {design}", low, high, y[first[mine]], step * np.sqrt(3) / 4, **_look(shown, design)))
     middle = CORNERS.mean(axis=0)
     outside = middle + (1 + 4 * step) * (CORNERS - middle)
     rim = np.concatenate([_closed(outside), [[np.nan, np.nan]], _closed(CORNERS)[::-1]]) + away

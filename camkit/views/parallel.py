@@ -71,7 +71,7 @@ class Designs:
         return int(np.argmin(np.where(self.kept, abs(along - y), np.inf)))
 
 
-LETTERS = 105
+LETTERS = 84
 """So many letters have room beside each other above the axes."""
 BAND = 0.11
 """Half of a band's width, where the axes are 1 apart."""
@@ -81,8 +81,9 @@ def parallel_coordinates(shown: Designs) -> Picture:
     """A line for each design; what is outside a band is pale, winners stand out, the design in the sliders is dark."""
     heights, kept = shown.height(shown.values), shown.kept
     chosen = [] if shown.selected is None else [shown.selected]
+    room = max(column.label(_letters(shown)).count("\n") for column in shown.columns)
     return Picture.of(
-        Axes(bare=True, xlim=(-0.45, len(shown.columns) - 0.55), ylim=(-0.13, 1.44)),
+        Axes(bare=True, xlim=(-0.45, len(shown.columns) - 0.55), ylim=(-0.13, 1.24 + 0.1 * room)),
         Line("left out", *_lines(heights[~kept]), role="ghost", stroke="thin", opacity=0.5),
         Line("kept", *_lines(heights[kept]), role="position", stroke="thin", opacity=0.45),
         [mark for j in range(len(shown.columns)) for mark in _axis(shown, j)],
@@ -101,10 +102,15 @@ def _lines(heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.tile(across, p), np.column_stack([heights, np.full(p, np.nan)]).ravel()
 
 
+def _letters(shown: Designs) -> int:
+    """So many stand in a line above an axis."""
+    return LETTERS // len(shown.columns)
+
+
 def _axis(shown: Designs, j: int) -> list[Mark]:
     """An upright axis with its name, its ends and its band."""
     low, high = shown.ends[:, j]
-    label = shown.columns[j].label(LETTERS // len(shown.columns))
+    label = shown.columns[j].label(_letters(shown))
     marks: list[Mark] = [
         Line(f"axis {j}", [j, j], [0, 1], role="guide"),
         Text(f"name {j}", j, 1.13, label, anchor="bottom", size=9.5),
