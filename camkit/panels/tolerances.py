@@ -5,27 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
-import ipywidgets as w
 import numpy as np
 
 from ..quantities import Quantity, value_of, words
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, table
 from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
 from ..views.picture import Picture, View
 from ..views.tolerances import cloud, deviation, sobol_bars
 from .instrument import Instrument
-from .kit.banner import Banner
-from .kit.controls import NumberRow, tables_html
+from .kit.drawn import LivePicture
+from .kit.inputs import Menu, Number
 from .kit.latest_only import Debounced
-from .kit.layout import button, menu
-from .kit.panel import IMPOSSIBLE, Panel
-from .kit.picture import SETTLE, LivePicture
+from .kit.parts import Banner, Button, Group, Part, Table, Words, row
+from .kit.sheet import IMPOSSIBLE, Panel
 
 MOVING, SETTLED = 64, 512
 """How many parts are made while a slider moves, and when all is quiet."""
+QUIET = 0.25
+"""Seconds after the last move until all is quiet."""
+HINT = "Plus and minus; a normal spread has them at three standard deviations."
+HEADS = ("measure", "as drawn", "2.5 % are below", "2.5 % are above", "miss the limit")
 WIDEST = 5
 """How many times the general tolerance a slider offers."""
 
@@ -59,33 +60,33 @@ class TolerancePanel(Panel):
         self._front = front
         first = general_tolerances(study) if half_widths is None else dict(half_widths)
         self.tolerances = Tolerances(study.replace(start=explorer.design), first, parts=SETTLED)
-        self.banner, self.numbers = Banner(), w.HTML()
+        self.banner, self.numbers = Banner(), Table()
         self.knobs = {name: self._knob(name, half) for name, half in first.items()}
         self._first = first
-        self.spread = menu(SPREADS, "spread", "210px", "52px")
+        self.spread = Menu(SPREADS, "spread")
         self.spread.observe(lambda _: self._moved(), "value")
-        self._later = Debounced(self._make_many, SETTLE)
+        self._later = Debounced(self._make_many, QUIET)
         views: tuple[View, ...] = (self._cloud, sobol_bars, *map(deviation, curves))
         self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
-        super().__init__([self._body()])
+        self.picture.pixels = 220
+        super().__init__(*self._body(), heading="Tolerances")
         self._show(self.tolerances)
         explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
         if follow := getattr(front, "on_front", None):
             follow(self._later.ask)
 
-    def _knob(self, name: str, half: float) -> NumberRow:
+    def _knob(self, name: str, half: float) -> Number:
         nominal = self.tolerances.declared[name]
         widest = WIDEST * (half or general_tolerance(nominal, value_of(self.explorer.design, name))) / nominal.factor
         meaning = f"half width of the tolerance of the {words(name)}"
         declared = Quantity(nominal.symbol, half / nominal.factor, 0, widest, nominal.unit, meaning, at_least=0)
-        return NumberRow(name, declared, half, self._moved, self.banner.show_message)
+        return Number(name, declared, half, self._moved, self.banner.show_message)
 
-    def _body(self) -> w.Widget:
-        grid = w.Box([knob.row for knob in self.knobs.values()])
-        grid.add_class("camkit-grid")
-        back = button("Reset", self.reset, "undo", tooltip="back to the first tolerances")
-        heading = w.HTML("<b>Tolerances</b>&ensp;plus and minus; a normal spread has them at three standard deviations")
-        return w.VBox([heading, grid, w.HBox([self.spread, back]), self.banner, self.picture.widget, self.numbers])
+    def _body(self) -> tuple[Part, ...]:
+        knobs = Group(*self.knobs.values(), look="grid")
+        reset = Button("Reset", self.reset, tooltip="back to the first tolerances")
+        settings = row(self.spread, reset, Words(value=[HINT], look="hint"))
+        return knobs, settings, self.banner, self.picture, self.numbers
 
     def _cloud(self, tolerances: Tolerances) -> Picture:
         front = self._front.front if isinstance(self._front, HasFront) else self._front
@@ -98,9 +99,10 @@ class TolerancePanel(Panel):
 
     def reset(self) -> None:
         """Back to the first tolerances."""
-        for name, knob in self.knobs.items():
-            knob.set(self._first[name])
-        self._moved()
+        with self.held():
+            for name, knob in self.knobs.items():
+                knob.set(self._first[name])
+            self._moved()
 
     def _moved(self) -> None:
         """Few parts at once, many when all is quiet."""
@@ -130,14 +132,15 @@ class TolerancePanel(Panel):
     def _show(self, made: Tolerances | None) -> None:
         if made is None:
             return
-        try:
-            self.picture.show(made)
-        except IMPOSSIBLE as refusal:
-            self.refuse_picture(f"This cannot be made: {refusal}.")
-            return
-        self.tolerances = made
-        self.numbers.value = self._table_html()
-        self.refuse_picture("")
+        with self.held():
+            try:
+                self.picture.show(made)
+            except IMPOSSIBLE as refusal:
+                self.refuse_picture(f"This cannot be made: {refusal}.")
+                return
+            self.tolerances = made
+            self.numbers.put(HEADS, self._rows())
+            self.refuse_picture("")
 
     def _rows(self) -> list[tuple[str, str, str, str, str]]:
         """Every measure in words: its name, as drawn, where 2.5 % are below and above, which share misses a limit."""
@@ -149,10 +152,6 @@ class TolerancePanel(Panel):
             told = f"{100 * max(missed):.1f} %" if missed else ""
             rows.append((measure.name, measure.text(drawn), measure.text(low), measure.text(high), told))
         return rows
-
-    def _table_html(self) -> Html:
-        heads = ("measure", "as drawn", "2.5 % are below", "2.5 % are above", "miss the limit")
-        return tables_html(table(heads, self._rows()))
 
     def summary(self) -> str:
         """The tolerances, the yield, and what the parts' measures lie between."""
