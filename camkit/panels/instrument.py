@@ -220,10 +220,13 @@ class Instrument(anywidget.AnyWidget):
         return changed(self.design, dict(zip(paths, values, strict=True)))
 
     def _try(self, make: Callable[[], Analysable]) -> None:
+        before = self.design
         try:
             self.design = make()
         except Exception as error:
-            if not isinstance(error, ValueError) or isinstance(error, np.linalg.LinAlgError):
+            if self.design is not before:  # what is linked to it refuses
+                self.message = f"What follows this panel cannot be shown everywhere: {reason(error)}."
+            elif not isinstance(error, ValueError) or isinstance(error, np.linalg.LinAlgError):
                 self._go_back(error)  # else the page says it in the same words
 
     def _go_back(self, error: Exception) -> None:

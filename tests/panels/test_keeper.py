@@ -12,7 +12,7 @@ from uuid import uuid4
 import pytest
 import traitlets
 
-from camkit import DoorHandleCam, TranslatingRollerCam, mm
+from camkit import DoorHandleCam, Measure, TranslatingRollerCam, mm
 from camkit.cam import max_pressure_angle, min_profile_radius
 from camkit.panels import explore
 from camkit.panels.kit import kept_designs, running
@@ -298,3 +298,25 @@ def test_instruments_of_one_page_share_a_design():
     assert other.design.base_radius == 52 * mm
     with pytest.raises(ValueError, match="the design is"):
         traitlets.link((one, "design"), (explore(DoorHandleCam()), "design"))
+
+
+def test_what_a_linked_instrument_cannot_show_is_said():
+    """One of them has a measure that is not defined everywhere; the other goes on, and says so."""
+
+    def known(analysis):
+        if analysis.cam.base_radius > 50 * mm:
+            raise ValueError("the table of known cams ends at 50 mm")
+        return analysis.cam.base_radius
+
+    cam = TranslatingRollerCam(groove=False, base_radius=40 * mm)
+    one = explore(cam, mechanism, measures=[max_pressure_angle])
+    other = explore(cam, mechanism, measures=[Measure("known", "mm", known)])
+    traitlets.link((one, "design"), (other, "design"))
+    leave(one, 60 * mm)
+    assert one.design.base_radius == 60 * mm
+    assert other.design.base_radius == 40 * mm
+    assert one.message.startswith("What follows this panel cannot be shown everywhere: ")
+    assert "the table of known cams ends at 50 mm" in one.message
+    leave(one, 45 * mm)
+    assert other.design is one.design
+    assert one.message == ""
