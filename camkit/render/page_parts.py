@@ -11,27 +11,9 @@ from ..program.page import MACHINE
 from .draw import ROLES, STROKES, colour
 
 PAGE = Path(__file__).with_name("page")
-MODULES = tuple(
-    [
-        "numbers",
-        "picture",
-        "controls",
-        "files",
-        "parts",
-        "sheet",
-        "docks",
-        "engine",
-        "bar",
-        "history",
-        "measures",
-        "verdict",
-        "quantities",
-        "positions",
-        "pointer",
-        "tabs",
-        "panel",
-        "session",
-    ]
+MODULES = (
+    *("numbers", "units", "marks", "scales", "picture", "controls", "files", "parts", "sheet", "docks", "engine"),
+    *("bar", "history", "measures", "verdict", "quantities", "positions", "pointer", "tabs", "panel", "session"),
 )
 """What every page is made of, each on those before it."""
 STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))

@@ -22,41 +22,63 @@ export function stepOf(low, high) {
 
 /** One number: name, symbol, slider, box, unit.  `value` is in SI; `moved(value, settled)` is called for what a person does. */
 export class Row {
-  /** @param {{name: string, symbol: string, unit: string, factor: number, low: number, high: number, meaning: string, value: number, group?: string, written?: string}} declared
-   * @param {any} units @param {(value: number, settled: boolean) => void} moved */
+  /** @param {{name: string, symbol: string, unit: string, factor: number, low: number, high: number, meaning: string,
+   *   value: number, group?: string, written?: string}} declared
+   * @param {{known: any, of(unit: string): import("./units.js").Shown}} units
+   * @param {(value: number, settled: boolean) => void} moved */
   constructor(declared, units, moved) {
     Object.assign(this, { declared, units, moved, value: declared.value });
-    const { name, symbol, unit, low, high, meaning, group } = declared, said = unit ? `${name}, ${unit}` : name;
+    const { name, symbol, factor, low, high, meaning, group } = declared;
     const inGroup = group && name.startsWith(`${group} `) ? name.slice(group.length + 1) : name;
-    this.slider = make("input", { type: "range", min: low, max: high, step: stepOf(low, high), "aria-label": said });
-    this.box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-label": `${said}, number` });
+    this.slider = make("input", { type: "range" });
+    this.box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
+    this.after = make("span", { class: "camkit-unit" });
     this.refusal = make("div", { class: "camkit-refusal", role: "alert" });
-    const label = make("label", { title: meaning && meaning !== name ? `${name}: ${meaning}` : name }, inGroup, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
+    const title = meaning && meaning !== name ? `${name}: ${meaning}` : name;
+    const label = make("label", { title }, inGroup, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
     this.element = make("div", { class: "camkit-row" }, label,
-      make("span", { class: "camkit-box" }, this.box, make("span", { class: "camkit-unit" }, pretty(unit))), this.slider, this.refusal);
-    this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * declared.factor, false));
+      make("span", { class: "camkit-box" }, this.box, this.after), this.slider, this.refusal);
+    this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * this.factor, false));
     this.slider.addEventListener("change", () => moved(this.value, true));
     this.box.addEventListener("change", () => this._typed());
-    this.box.addEventListener("keydown", (event) => { if (event.key === "Escape") this.show(this.value); else if (event.key === "Enter") this._typed(); }); // JupyterLab takes what Enter does to a field
-    this.show(declared.value);
+    this.box.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") this.show(this.value);
+      else if (event.key === "Enter") this._typed(); // JupyterLab takes what Enter does to a field
+    });
+    this.between(low * factor, high * factor);
+  }
+
+  /** Numbers in the units that are shown. */
+  measure() {
+    const { name, unit } = this.declared, shown = this.units.of(unit), said = shown.unit ? `${name}, ${shown.unit}` : name;
+    Object.assign(this, { unit: shown.unit, factor: this.declared.factor / shown.ratio });
+    const [low, high] = [this.low, this.high].map((end) => Number(format(end / this.factor, ".12g"))), step = stepOf(low, high);
+    const round = shown.ratio !== 1; // then the ends are not; steps go from one to the other
+    this.slider.min = String(round ? +(Math.ceil(low / step - 1e-9) * step).toPrecision(12) : low);
+    this.slider.max = String(high);
+    this.slider.step = String(step);
+    this.slider.setAttribute("aria-label", said);
+    this.box.setAttribute("aria-label", `${said}, number`);
+    this.after.textContent = pretty(shown.unit);
+    this.show(this.value);
   }
 
   /** Stand at a value. @param {number} value */
   show(value) {
     this.value = value;
-    const read = value / this.declared.factor;
+    const read = value / this.factor;
     this.slider.value = String(read);
     this.written = this.box.value = format(read, this.declared.written ?? ".6g");
-    this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.declared.unit)}`.trim());
+    this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.unit)}`.trim());
     this.box.style.width = `${Math.max(this.box.value.length, 2) + 0.6}ch`;
     this.refuse("");
   }
 
   /** Other ends of the slider, in SI. @param {number} low @param {number} high */
   between(low, high) {
-    const [a, b] = [low / this.declared.factor, high / this.declared.factor];
-    Object.assign(this.declared, { low: a, high: b });
-    this.slider.min = String(a); this.slider.max = String(b); this.slider.step = String(stepOf(a, b));
+    if (low === this.low && high === this.high) return;
+    Object.assign(this, { low, high });
+    this.measure();
   }
 
   /** Say why a text was not taken, or nothing. @param {string} sentence */
@@ -71,8 +93,8 @@ export class Row {
   /** Take what is in the box, unless it is what was written there: that may have fewer digits than the value. */
   _typed() {
     if (this.box.value === this.written) { this.refuse(""); return; }
-    const read = parse(this.box.value, this.declared.unit, this.units);
-    const value = read.value * this.declared.factor;
+    const read = parse(this.box.value, this.unit, this.units.known);
+    const value = read.value * this.factor;
     if (read.error) this.refuse(read.error);
     else if (!Number.isFinite(value)) this.refuse(`'${this.box.value}' is too large for a computer`);
     else this._take(value, true);

@@ -1,5 +1,5 @@
 // Measures of a design: their numbers, how they are written, and whether limits are kept.
-import { found } from "./picture.js";
+import { found } from "./marks.js";
 import { format, letters, pretty } from "./numbers.js";
 import { make } from "./controls.js";
 
@@ -12,8 +12,11 @@ export const numberOf = (measure, outputs) => {
   return typeof value === "number" ? value : value[0];
 };
 
-/** A number of a measure as it is read. @param {any} m @param {number} value */
-export const told = (m, value) => `${format(value / m.factor, "measure")} ${pretty(m.unit)}`.trim();
+/** A number of a measure as it is read. @param {any} m @param {number} value @param {import("./units.js").Units} units */
+export function told(m, value, units) {
+  const { unit, ratio } = units.of(m.unit);
+  return `${format((value / m.factor) * ratio, "measure")} ${pretty(unit)}`.trim();
+}
 
 /** Each measure against its limit, and against another design. @param {any} structure @param {ArrayLike<number>[]} outputs
  * @param {ArrayLike<number>[]} before @returns {Judged[]} */
@@ -24,13 +27,14 @@ export const judged = (structure, outputs, before) => structure.measures.map((/*
   return { m, now, then, change, kept, miss: Number.isNaN(miss) ? 1e300 : miss };
 });
 
-/** The measures as rows. @param {Judged[]} rows @param {string} before how the other design is called */
-export function tableOf(rows, before) {
+/** The measures as rows. @param {Judged[]} rows @param {string} before how the other design is called
+ * @param {import("./units.js").Units} units */
+export function tableOf(rows, before, units) {
   const cell = (/** @type {string} */ words) => make("td", {}, words);
   const head = make("tr", {}, ...["measure", "now", before, "change"].map((words) => make("th", { scope: "col" }, words)));
   const lines = rows.filter((row) => Number.isFinite(row.now)).map(({ m, now, then, change, kept }) =>
     make("tr", { class: kept ? "" : "camkit-bad" }, ...[
-      letters(m.name), told(m, now), told(m, then), Number.isFinite(change) ? `${format(change, "+.1f")} %` : "",
+      letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(change, "+.1f")} %` : "",
     ].map(cell)));
   return make("table", {}, head, ...lines);
 }

@@ -165,7 +165,7 @@ const lowered = (text) => [...text].map((c) => ({ "⁻": "-", "·": "." })[c] ??
 const raised = (text) => [...text].map((c) => ({ "-": "⁻", ".": "·", "+": "" })[c] ?? SUPERSCRIPTS[c]).join("");
 
 // SI factor and dimension of a product of powers, such as mm^2, N m/rad or J/(kg m); also as `pretty` writes them.
-function unitOf(unit, units) {
+export function unitOf(unit, units) {
   const [above, ...rest] = unit.replace(RAISED, (power) => `^${lowered(power)}`).split("/");
   const below = rest.join("/"), inBrackets = /^\((.*)\)$/.exec(below);
   const first = unit === "" || above.trim() === "1" ? [] : powers(above, units);

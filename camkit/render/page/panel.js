@@ -9,6 +9,7 @@ import { listen } from "./pointer.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
 import { Tabs } from "./tabs.js";
+import { Units } from "./units.js";
 import { Verdict } from "./verdict.js";
 
 const NARROW = 60; // letters: below it everything stands in one column
@@ -56,7 +57,7 @@ export class Panel {
 
   /** What is shown, in user units: of each picture its window and marks; measures; the sentence of a refusal. */
   shown() {
-    const pictures = this.charts.map((/** @type {Chart} */ chart) => chart.list);
+    const pictures = this.charts.map((/** @type {Chart} */ chart) => chart.shown());
     return { pictures, measures: this.numbers, sentence: this.sentence, values: [...this.values] };
   }
 
@@ -82,7 +83,16 @@ export class Panel {
   showTab(name) { this.tabs.show(name); }
 
   /** A text with the numbers of what is shown. @param {any} text */
-  words = (text) => (typeof text === "string" ? text : fill(text, this.outputs));
+  words = (text) => this.units.words(typeof text === "string" ? text : fill(text, this.outputs));
+
+  /** Show every number in a system of units, by its name. @param {string} name */
+  use(name) {
+    this.units.use(name);
+    for (const row of this.rows) row.measure();
+    for (const chart of this.charts) chart.window = null; // its ends are round numbers
+    this.chosen.value = this.units.name;
+    this.ask(true);
+  }
 
   /** Whether the mechanism is turning. */
   get playing() { return this.positions.playing; }
@@ -110,9 +120,10 @@ export class Panel {
   _build() {
     const { structure, host, root } = this;
     const moved = (/** @type {number} */ k, /** @type {number} */ value, /** @type {boolean} */ settled) => this._moved(k, value, settled);
-    this.quantities = new Quantities(structure, moved,
+    this.units = new Units(structure);
+    this.quantities = new Quantities(structure, this.units, moved,
       host && ((path, option) => host.choose(path, option)));
-    this.positions = new Positions(structure, this.values, moved, (settled) => this.ask(settled));
+    this.positions = new Positions(structure, this.units, this.values, moved, (settled) => this.ask(settled));
     this.rows = [...this.quantities.rows, ...this.positions.rows];
     this.verdict = new Verdict();
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
@@ -144,9 +155,11 @@ export class Panel {
       this.put(this.inputs);
       this.history.settle(this.values);
     });
+    this.chosen = make("select", { "aria-label": "units", onchange: () => this.use(this.chosen.value) },
+      ...this.units.names.map((name) => make("option", { value: name }, name)));
     return make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1" }, structure.name),
       this.undoing, this.redoing, reset, this.pinning, make("span", { class: "camkit-space" }),
-      ...filesOf(structure.files, this.host), ...screenOf(this.root));
+      this.chosen, ...filesOf(structure.files, this.host), ...screenOf(this.root));
   }
 
   /** @param {number} k @param {number} value @param {boolean} settled */
@@ -236,10 +249,11 @@ export class Panel {
     if (!refused) this.outputs = outputs;
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
-    const { words, dark, playing } = this, em = this.letter / 13;
+    const { words, dark, playing, units } = this, em = this.letter / 13;
     this.root.classList.toggle("camkit-dark", dark);
     for (const chart of this.charts) {
-      const how = { dark, settled: settled && !playing, words, ghost: (this.looked ?? this.ghost)?.outputs, cursor: this._cursorOf(chart) };
+      const pinned = (this.looked ?? this.ghost)?.outputs, cursor = this._cursorOf(chart);
+      const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor };
       Object.assign(chart, { compact: chart.canvas.clientHeight < 190 * em, em });
       chart.draw(chart.own ?? this.outputs, how);
       if (settled && chart.list) this._describe(chart);
@@ -251,7 +265,8 @@ export class Panel {
   /** The text in place of a picture; a curve over the turn is a slider, whose values are those of the curves.
    * @param {Chart} chart */
   _describe(chart) {
-    const { canvas, how: { cursor }, ends } = chart, text = chart.describe(), near = (/** @type {number} */ v) => format(v, ".4g");
+    const { canvas, how: { cursor }, ends } = chart, text = chart.describe();
+    const near = (/** @type {number} */ v) => format(v * chart.per.x, ".4g");
     const of = cursor === undefined ? { role: "img", "aria-label": text } : {
       role: "slider", "aria-label": chart.heading.title, "aria-valuetext": `at ${near(cursor)}; ${text}`,
       "aria-valuenow": near(cursor), "aria-valuemin": near(ends.x.low), "aria-valuemax": near(ends.x.high),
@@ -264,9 +279,10 @@ export class Panel {
 
   /** The sentence over the last good picture. @param {string} sentence */
   _refuse(sentence) {
-    if (sentence === this.sentence) return;
+    const said = sentence && `This cannot be built: ${this.units.words(sentence)}.`;
+    if (this.over.textContent === said) return;
     this.sentence = sentence;
-    this.over.textContent = sentence && `This cannot be built: ${sentence}.`;
+    this.over.textContent = said;
     this.over.hidden = !sentence;
     this.root.classList.toggle("camkit-refused", Boolean(sentence));
     this.rows.forEach((row, k) => row.element.classList.toggle("camkit-guilty", Boolean(sentence) && k === this.last));
@@ -276,8 +292,8 @@ export class Panel {
   _tell(outputs, settled) {
     this.first ??= outputs;
     const rows = judged(this.structure, outputs, this.ghost?.outputs ?? this.first);
-    this.numbers = rows.map(({ m, now }) => ({ name: m.name, value: now, text: told(m, now) }));
-    this.verdict.tell(rows, this.words(this.structure.trouble), settled);
-    if (!this.table.hidden) this.table.replaceChildren(tableOf(rows, this.ghost ? "pinned" : "start"));
+    this.numbers = rows.map(({ m, now }) => ({ name: m.name, value: now, text: told(m, now, this.units) }));
+    this.verdict.tell(rows, this.words(this.structure.trouble), settled, this.units);
+    if (!this.table.hidden) this.table.replaceChildren(tableOf(rows, this.ghost ? "pinned" : "start", this.units));
   }
 }

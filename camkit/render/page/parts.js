@@ -1,6 +1,7 @@
 // What stands on a sheet: an element for each kind of part.  Controls are native elements, every text is a text node.
 import { Row, make } from "./controls.js";
 import { format, parse, pretty } from "./numbers.js";
+import { asDeclared } from "./units.js";
 
 /**
  * @typedef {Record<string, any> & {id: number, kind: string}} State what a part shows
@@ -68,7 +69,7 @@ export const PARTS = {
   },
 
   number(state, { say, units }) {
-    const row = new Row({ ...state.declared, value: state.value }, units, (value, settled) => say({ value, settled }));
+    const row = new Row({ ...state.declared, value: state.value }, asDeclared(units), (value, settled) => say({ value, settled }));
     return { element: row.element, show({ value, declared, disabled }) {
       row.between(declared.low * declared.factor, declared.high * declared.factor);
       row.show(value);

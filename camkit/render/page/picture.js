@@ -1,58 +1,13 @@
 // Draws pictures as data on a canvas: axes, and marks with roles.  It knows neither cams nor their numbers.
 import { format, pretty } from "./numbers.js";
+import { DRAW, FORMS, LETTERS, POINT, READABLE, REACH, circle, found, many, one, real, stroke, trace } from "./marks.js";
+import { degreeTicks, scale, ticks } from "./scales.js";
 
 /**
- * @typedef {{at: number}} Output an array that the program gives, by its number
- * @typedef {Record<string, any> & {key: string, kind: string, role: string}} Mark
- * @typedef {{name: string, still: string, axes: Record<string, any>, marks: Mark[]}} Picture
- * @typedef {{low: number, high: number, log: boolean}} Ends
+ * @typedef {import("./marks.js").Mark} Mark
+ * @typedef {import("./marks.js").Picture} Picture
+ * @typedef {import("./marks.js").Ends} Ends
  */
-
-const LETTERS = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
-const POINT = 96 / 72; // CSS pixels
-
-/** What a value of a picture is: itself, or what the program gives. @param {any} value @param {ArrayLike<number>[]} outputs */
-export const found = (value, outputs) => (value !== null && typeof value === "object" && "at" in value ? outputs[value.at] : value);
-/** @param {any} value @param {ArrayLike<number>[]} outputs */
-const one = (value, outputs) => { const v = found(value, outputs); return typeof v === "object" && v !== null ? v[0] : v; };
-/** @param {any} value @param {ArrayLike<number>[]} outputs @returns {ArrayLike<number>} */
-const many = (value, outputs) => { const v = found(value, outputs); return typeof v === "number" ? [v] : v; };
-const real = Number.isFinite;
-/** Letters whose colour as a line would be too pale to read on white. @type {Record<string, string>} */
-const READABLE = { guide: "#5b6875", pitch: "#5b6875", trouble: "#b03a00", limit: "#b03a00" };
-
-/** Round numbers from one end to the other, about `count` of them. @param {number} low @param {number} high @param {number} count */
-export function ticks(low, high, count) {
-  const rough = (high - low) / Math.max(count, 1), power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
-  const marks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) marks.push(+(k * step).toPrecision(12));
-  return marks;
-}
-
-/** Ticks of an angle in degrees, if it goes round: 0, 90, 180 ... @param {number} low @param {number} high @param {number} count */
-function degreeTicks(low, high, count) {
-  const step = [15, 30, 45, 60, 90, 180].find((s) => (high - low) / s <= count + 1) ?? 360;
-  const marks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9; k++) marks.push(k * step);
-  return marks;
-}
-
-/** Places of a scale: from numbers to pixels and back. @param {Ends} ends @param {number} from @param {number} to */
-function scale(ends, from, to) {
-  const f = ends.log ? Math.log10 : Number, low = f(ends.low), span = f(ends.high) - low || 1;
-  /** @param {number} value */
-  const place = (value) => from + ((to - from) * (f(value) - low)) / span;
-  /** @param {number} pixel */
-  place.back = (pixel) => { const v = low + ((pixel - from) * span) / (to - from); return ends.log ? 10 ** v : v; };
-  return place;
-}
-
-/** Where each coordinate of a mark may reach, as names of its fields. @type {Record<string, [string[], string[]]>} */
-const REACH = {
-  line: [["x"], ["y"]], points: [["x"], ["y"]], polygon: [["x"], ["y"]], area: [["x"], ["low", "high"]],
-  circle: [["x"], ["y"]], text: [[], []], band: [[], []],
-};
 
 /** One picture on its canvas. */
 export class Chart {
@@ -67,7 +22,8 @@ export class Chart {
   }
 
   /** Draw what the program gave. @param {ArrayLike<number>[]} outputs
-   * @param {{dark: boolean, cursor?: number, ghost?: ArrayLike<number>[], settled?: boolean, words: (text: any) => string}} how */
+   * @param {{dark: boolean, cursor?: number, ghost?: ArrayLike<number>[], settled?: boolean, words: (text: any) => string,
+   *   units?: {of(unit: string): import("./units.js").Shown}}} how */
   draw(outputs, how) {
     this.outputs = outputs;
     const ratio = globalThis.devicePixelRatio || 1, { clientWidth: width, clientHeight: height } = this.canvas;
@@ -80,7 +36,7 @@ export class Chart {
     this.pen.clearRect(0, 0, width, height);
     this.how = how;
     const { axes } = this.picture, [title, xlabel, ylabel] = [axes.title, axes.xlabel, axes.ylabel].map(how.words);
-    this.axes = { ...axes, title, xlabel, ylabel };
+    this.axes = { ...axes, title, xlabel: this._measured(xlabel, "x"), ylabel: this._measured(ylabel, "y") };
     const marks = [...this.picture.marks].map((mark) => ({ mark, height: one(mark.height, outputs) }));
     marks.sort((a, b) => a.height - b.height);
     this.window = this._window(outputs, Boolean(how.settled));
@@ -92,6 +48,29 @@ export class Chart {
     for (const { mark } of marks) this._mark(mark, outputs);
     this._cursor();
     this._title(width);
+  }
+
+  /** How many of the units that are shown one of the picture's own is. */
+  per = { x: 1, y: 1 };
+
+  /** The name of an axis in the unit that is shown. @param {string} words @param {"x"|"y"} name */
+  _measured(words, name) {
+    const own = UNIT.exec(words)?.[1], shown = own && this.how.units?.of(own);
+    this.per[name] = shown ? shown.ratio : 1;
+    return shown ? words.replace(UNIT, `[${pretty(shown.unit)}]`) : axisName(words);
+  }
+
+  /** What was drawn last, in the units that are shown. */
+  shown() {
+    const { x, y } = this.per, { list } = this;
+    if (!list || (x === 1 && y === 1)) return list;
+    /** @type {Record<string, number>} */ const by = { x, y, radius: x, low: y, high: y };
+    const times = (/** @type {any} */ value, /** @type {number} */ ratio) =>
+      (ratio === 1 ? value : typeof value === "number" ? value * ratio : Array.from(value, (/** @type {number} */ v) => v * ratio));
+    const ends = (/** @type {Ends} */ { low, high, log }, /** @type {number} */ ratio) => ({ low: low * ratio, high: high * ratio, log });
+    const marks = list.marks.map((/** @type {any} */ mark) => Object.fromEntries(Object.entries(mark).map(([part, value]) =>
+      [part, part in by ? times(value, mark.along === "y" ? x : by[part]) : value])));
+    return { ...list, window: { x: ends(list.window.x, x), y: ends(list.window.y, y) }, marks };
   }
 
   /** The colour of a role. @param {string} role @param {number} [index] */
@@ -133,14 +112,16 @@ export class Chart {
       const asked = found(axes[`${name}lim`], outputs) ?? [null, null], log = axes.log.includes(name);
       let [low, high] = reach[name];
       if (!(low <= high)) [low, high] = log ? [0.1, 1] : [0, 1];
-      const margin = log ? 0 : (axes.equal || (name === "x" && scattered) ? 0.04 : name === "x" ? 0 : 0.06) * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
+      const free = axes.equal || (name === "x" && scattered) ? 0.04 : name === "x" ? 0 : 0.06;
+      const margin = log ? 0 : free * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
       const fit = { low: low - margin, high: high + margin, log };
       const before = this.window?.[name], span = before ? before.high - before.low : 0;
       const alike = before && !log && high - low > (settled ? 0.6 : 0.25) * span && high - low < 4 * span;
       if (alike && low >= before.low && high <= before.high) Object.assign(fit, { low: before.low, high: before.high });
       else if (alike && !settled) Object.assign(fit, { low: Math.min(before.low, fit.low), high: Math.max(before.high, fit.high) });
       else if (!log && !axes.equal && name === "y" && fit.high > fit.low) {
-        const marks = ticks(fit.low, fit.high, 8), step = marks.length > 1 ? marks[1] - marks[0] : fit.high - fit.low;
+        const per = this.per.y, marks = ticks(fit.low * per, fit.high * per, 8); // round as they are shown
+        const step = marks.length > 1 ? (marks[1] - marks[0]) / per : fit.high - fit.low;
         fit.low = Math.floor(fit.low / step + 1e-9) * step; fit.high = Math.ceil(fit.high / step - 1e-9) * step;
       }
       const [a, b] = [one(asked[0], outputs), one(asked[1], outputs)];
@@ -157,13 +138,16 @@ export class Chart {
     const bare = axes.bare, named = !small && axes.xlabel && !axes.equal, { em } = this;
     this.heading = this._heading(width);
     this.letters(10.5);
-    const ticked = Object.values(axes.yticks ?? {}).flatMap((words) => this.how.words(words).split("\n").map((line) => this.pen.measureText(line).width));
-    const box = { left: bare ? 6 : axes.yticks ? Math.min(10 + Math.max(0, ...ticked), 0.45 * width) : 44 * em, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - (bare ? 6 : (named ? 34 : 18) * em) };
+    const names = Object.values(axes.yticks ?? {}).flatMap((words) => this.how.words(words).split("\n"));
+    const ticked = Math.max(0, ...names.map((line) => this.pen.measureText(line).width)), below = bare ? 6 : (named ? 34 : 18) * em;
+    const left = bare ? 6 : axes.yticks ? Math.min(10 + ticked, 0.45 * width) : 44 * em;
+    const box = { left, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - below };
     let ends = { x, y };
     if (axes.equal) {
       const across = box.right - box.left, up = box.bottom - box.top;
       const unit = Math.max((x.high - x.low) / across, (y.high - y.low) / up) || 1;
-      const middle = (/** @type {Ends} */ e, /** @type {number} */ span) => ({ low: (e.low + e.high - span) / 2, high: (e.low + e.high + span) / 2, log: false });
+      const middle = (/** @type {Ends} */ { low, high }, /** @type {number} */ span) =>
+        ({ low: (low + high - span) / 2, high: (low + high + span) / 2, log: false });
       ends = { x: middle(x, unit * across), y: middle(y, unit * up) };
     }
     Object.assign(this, { box, ends, x: scale(ends.x, box.left, box.right), y: scale(ends.y, box.bottom, box.top) });
@@ -179,12 +163,13 @@ export class Chart {
     const marks = (name) => {
       const given = axes[`${name}ticks`];
       if (given) return Object.entries(given).map(([at, words]) => [Number(at), this.how.words(words)]);
-      const { low, high, log } = ends[name], long = name === "x" ? box.right - box.left : box.bottom - box.top;
+      const ratio = this.per[name], { log } = ends[name], [low, high] = [ends[name].low * ratio, ends[name].high * ratio];
+      const long = name === "x" ? box.right - box.left : box.bottom - box.top;
       const apart = axes.equal ? Math.max(60 * em, (box.right - box.left) / 10, (box.bottom - box.top) / 10) : 60 * em;
       const room = axes.equal || name === "x" ? long / apart : Math.min(long / (34 * em), 4.5);
-      if (log) return ticks(Math.log10(low), Math.log10(high), Math.min(room, 6)).map((p) => [10 ** p, short(10 ** p)]);
-      const degrees = name === "x" && /\[deg\]/.test(axes.xlabel) && high - low > 60;
-      return (degrees ? degreeTicks(low, high, room) : ticks(low, high, room)).map((v) => [v, short(v)]);
+      if (log) return ticks(Math.log10(low), Math.log10(high), Math.min(room, 6)).map((p) => [10 ** p / ratio, short(10 ** p)]);
+      const degrees = name === "x" && /\[°\]/.test(axes.xlabel) && high - low > 60;
+      return (degrees ? degreeTicks(low, high, room) : ticks(low, high, room)).map((v) => [v / ratio, short(v)]);
     };
     pen.textBaseline = "top"; pen.textAlign = "center";
     for (const [at, words] of marks("x")) {
@@ -206,7 +191,7 @@ export class Chart {
     }
     if (!this.compact && axes.xlabel && !axes.equal) {
       pen.textAlign = "right"; pen.textBaseline = "bottom";
-      pen.fillText(axisName(axes.xlabel), box.right, box.bottom + 33 * em);
+      pen.fillText(axes.xlabel, box.right, box.bottom + 33 * em);
     }
   }
 
@@ -219,8 +204,9 @@ export class Chart {
       const name = axisName(this.how.words(mark.label)), valued = values.has(mark);
       if (name ? !this._there(mark) : !valued || values.size > 1) continue;
       if (labels.has(name) && (labels.get(name).valued || !valued)) continue;
-      const words = `${name} ${valued ? format(values.get(mark), ".4g") : ""}`.trim();
-      labels.set(name, { words, valued, tint: this.colour(mark.role, one(mark.index, this.outputs)), form: mark.kind === "points" ? mark.mark : undefined });
+      const words = `${name} ${valued ? format(values.get(mark) * this.per.y, ".4g") : ""}`.trim();
+      const tint = this.colour(mark.role, one(mark.index, this.outputs)), form = mark.kind === "points" ? mark.mark : undefined;
+      labels.set(name, { words, valued, tint, form });
     }
     return [...labels.values()];
   }
@@ -232,8 +218,8 @@ export class Chart {
 
   /** Where title and names stand, in rows as wide as the canvas. @param {number} width */
   _heading(width) {
-    const { pen, axes } = this, unit = /\[(.*)\]\s*$/.exec(axes.ylabel);
-    const title = axes.equal || axes.bare || !unit ? axes.title : `${axes.title}  [${pretty(unit[1])}]`;
+    const { pen, axes } = this, unit = UNIT.exec(axes.ylabel);
+    const title = axes.equal || axes.bare || !unit ? axes.title : `${axes.title}  [${unit[1]}]`;
     this.letters(12, 600);
     let at = pen.measureText(title).width + 16, row = 0;
     this.letters(11);
@@ -293,7 +279,7 @@ export class Chart {
       if (style.cap) line.cap = style.cap;
     }
     pen.save();
-    if (mark.kind !== "text") { pen.beginPath(); pen.rect(this.box.left - 1, this.box.top - 3, this.box.right - this.box.left + 2, this.box.bottom - this.box.top + 6); pen.clip(); }
+    if (mark.kind !== "text") this._clip(1, 3);
     pen.globalAlpha = one(mark.opacity, outputs);
     pen.strokeStyle = pen.fillStyle = tint;
     pen.lineWidth = line.width; pen.lineCap = /** @type {CanvasLineCap} */ (line.cap); pen.lineJoin = "round";
@@ -303,14 +289,23 @@ export class Chart {
     this.list.marks.push({ key: mark.key, kind: mark.kind, role: mark.role, ...drawn });
   }
 
+  /** Draw inside the axes only, and so far around them. @param {number} across @param {number} up */
+  _clip(across, up) {
+    const { pen, box: { left, right, top, bottom } } = this;
+    pen.beginPath();
+    pen.rect(left - across, top - up, right - left + 2 * across, bottom - top + 2 * up);
+    pen.clip();
+  }
+
   /** A mark of the pinned design, pale. @param {Mark} mark @param {ArrayLike<number>[]} outputs */
   _ghost(mark, outputs) {
     if (!["line", "polygon", "circle"].includes(mark.kind) || mark.role === "limit") return;
     const pen = this.pen;
     pen.save();
-    pen.beginPath(); pen.rect(this.box.left, this.box.top, this.box.right - this.box.left, this.box.bottom - this.box.top); pen.clip();
+    this._clip(0, 0);
     pen.strokeStyle = this.colour("guide"); pen.lineWidth = 1; pen.setLineDash([4, 3]); pen.globalAlpha = 0.8;
-    if (mark.kind === "circle") circle(this, mark, outputs); else trace(this, many(mark.x, outputs), many(mark.y, outputs), Boolean(mark.steps));
+    if (mark.kind === "circle") circle(this, mark, outputs);
+    else trace(this, many(mark.x, outputs), many(mark.y, outputs), Boolean(mark.steps));
     pen.stroke();
     pen.restore();
   }
@@ -344,7 +339,8 @@ export class Chart {
   describe() {
     const { axes } = this, { x } = this.ends, near = (/** @type {number} */ v) => format(v, ".3g");
     const names = this.heading.names.map(({ words }) => words), said = this.list.marks.map((/** @type {any} */ m) => m.words);
-    const across = axes.bare || axes.xticks ? [] : [`${axisName(axes.xlabel) || "x"} from ${near(x.low)} to ${near(x.high)}`];
+    const reach = `${axes.xlabel || "x"} from ${near(x.low * this.per.x)} to ${near(x.high * this.per.x)}`;
+    const across = axes.bare || axes.xticks ? [] : [reach];
     return [this.heading.title, ...names, ...said.filter(Boolean), ...across].join("; ");
   }
 
@@ -382,17 +378,14 @@ export class Chart {
 /** Numbers beside an axis. @param {number} value */
 const short = (value) => String(+value.toPrecision(6)).replace("-", "\u2212");
 
+/** The unit in an axis's name. */
+const UNIT = /\[(.*?)\]/;
+
 /** The name of an axis with its unit as it is printed. @param {string} words */
-const axisName = (words) => words.replace(/\[(.*?)\]/, (_, unit) => `[${pretty(unit)}]`);
+const axisName = (words) => words.replace(UNIT, (_, unit) => `[${pretty(unit)}]`);
 
-/** @param {CanvasRenderingContext2D} pen @param {string} tint @param {number[][]} points */
-function stroke(pen, tint, points) {
-  pen.strokeStyle = tint; pen.beginPath();
-  points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  pen.stroke();
-}
-
-/** What a curve is at a place between its points, which may go either way. @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} at */
+/** What a curve is at a place between its points, which may go either way.
+ * @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} at */
 function between(x, y, at) {
   for (let i = 1; i < x.length; i++) {
     const [a, b] = [x[i - 1], x[i]];
@@ -404,111 +397,3 @@ function between(x, y, at) {
   return NaN;
 }
 
-/** A path through points; what is no number parts it. @param {Chart} chart @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {boolean} [steps] */
-function trace(chart, x, y, steps = false) {
-  const { pen } = chart, n = Math.max(x.length, y.length);
-  pen.beginPath();
-  for (let i = 0, down = false, last = 0; i < n; i++) {
-    const p = chart.x(x.length === 1 ? x[0] : x[i]), q = chart.y(y.length === 1 ? y[0] : y[i]);
-    if (!real(p) || !real(q)) { down = false; continue; }
-    if (down && steps) pen.lineTo(p, last);
-    if (down) pen.lineTo(p, q); else pen.moveTo(p, q);
-    down = true; last = q;
-  }
-}
-
-/** @param {Chart} chart @param {Mark} mark @param {ArrayLike<number>[]} outputs */
-function circle(chart, mark, outputs) {
-  const [x, y, r] = ["x", "y", "radius"].map((name) => one(mark[name], outputs));
-  const px = chart.x(x), py = chart.y(y), pr = Math.abs(chart.x(x + r) - px);
-  chart.pen.beginPath();
-  if (real(px) && real(py) && real(pr)) chart.pen.arc(px, py, Math.max(pr, 1.5), 0, 2 * Math.PI);
-  return { x: [x], y: [y], radius: r };
-}
-
-/** Forms of points around 0, their size 2. @type {Record<string, (pen: CanvasRenderingContext2D, r: number) => void>} */
-const FORMS = {
-  dot: (pen, r) => pen.arc(0, 0, r, 0, 7),
-  plus: (pen, r) => { pen.moveTo(-r, 0); pen.lineTo(r, 0); pen.moveTo(0, -r); pen.lineTo(0, r); },
-  cross: (pen, r) => { pen.moveTo(-r, -r); pen.lineTo(r, r); pen.moveTo(-r, r); pen.lineTo(r, -r); },
-  square: (pen, r) => pen.rect(-r, -r, 2 * r, 2 * r),
-  diamond: (pen, r) => { pen.moveTo(0, -1.3 * r); pen.lineTo(r, 0); pen.lineTo(0, 1.3 * r); pen.lineTo(-r, 0); pen.closePath(); },
-  triangle: (pen, r) => { pen.moveTo(0, -r); pen.lineTo(r, r); pen.lineTo(-r, r); pen.closePath(); },
-  star: (pen, r) => {
-    for (let k = 0; k < 10; k++) pen.lineTo((k % 2 ? 0.45 : 1.2) * r * Math.sin((k * Math.PI) / 5), -(k % 2 ? 0.45 : 1.2) * r * Math.cos((k * Math.PI) / 5));
-    pen.closePath();
-  },
-};
-
-/** How each kind of mark is drawn; what it gives stands in the display list, in user units.
- * @type {Record<string, (chart: Chart, mark: Mark, outputs: ArrayLike<number>[], tint: string) => object>} */
-const DRAW = {
-  line(chart, mark, outputs) {
-    const x = many(mark.x, outputs), y = many(mark.y, outputs);
-    trace(chart, x, y, Boolean(mark.steps));
-    chart.pen.stroke();
-    return { x, y };
-  },
-  polygon(chart, mark, outputs) {
-    const x = many(mark.x, outputs), y = many(mark.y, outputs);
-    trace(chart, x, y);
-    chart.pen.fill("evenodd");
-    if (mark.edged) { chart.pen.closePath(); chart.pen.stroke(); }
-    return { x, y };
-  },
-  area(chart, mark, outputs) {
-    const [x, low, high] = ["x", "low", "high"].map((name) => many(mark[name], outputs));
-    trace(chart, [...Array.from(x), ...Array.from(x).reverse()], [...Array.from(low), ...Array.from(high).reverse()]);
-    chart.pen.fill();
-    return { x, low, high };
-  },
-  band(chart, mark, outputs) {
-    const { pen, box } = chart, [low, high] = [one(mark.low, outputs), one(mark.high, outputs)];
-    const along = mark.along === "x" ? chart.y : chart.x, [a, b] = [along(low), along(high)].sort((p, q) => p - q);
-    pen.beginPath();
-    if (mark.along === "x") pen.rect(box.left, a, box.right - box.left, b - a); else pen.rect(a, box.top, b - a, box.bottom - box.top);
-    pen.fill(); pen.globalAlpha = 1; pen.stroke();
-    return { low, high };
-  },
-  points(chart, mark, outputs, tint) {
-    const { pen } = chart, x = many(mark.x, outputs), y = many(mark.y, outputs), r = (one(mark.size, outputs) / 2) * POINT * 0.9;
-    const open = ["plus", "cross"].includes(mark.mark);
-    pen.lineWidth = mark.size > 6 ? 2 : 1.4; pen.setLineDash([]);
-    for (let i = 0; i < Math.max(x.length, y.length); i++) {
-      const [p, q] = [chart.x(x[x.length === 1 ? 0 : i]), chart.y(y[y.length === 1 ? 0 : i])];
-      if (!real(p) || !real(q)) continue;
-      pen.save(); pen.translate(p, q); pen.beginPath(); FORMS[mark.mark](pen, r);
-      pen.fillStyle = mark.fill === "paper" ? chart.colour("paper") : tint;
-      if (!open && mark.fill !== "none") pen.fill();
-      if (open || mark.fill !== "full") pen.stroke();
-      pen.restore();
-    }
-    return { x, y };
-  },
-  circle(chart, mark, outputs) {
-    const drawn = circle(chart, mark, outputs);
-    chart.pen.stroke();
-    return drawn;
-  },
-  text(chart, mark, outputs, tint) {
-    const { pen } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
-    const [p, q] = [chart.x(x), chart.y(y)], at = mark.anchor.split(" "), size = mark.size * 1.1 * chart.em;
-    if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
-    const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
-    const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
-    pen.font = `${mark.bold ? 600 : 400} ${size}px ${LETTERS}`;
-    pen.textAlign = /** @type {CanvasTextAlign} */ (across); pen.textBaseline = /** @type {CanvasTextBaseline} */ (upright);
-    const lines = words.split("\n"), wide = Math.max(...lines.map((line) => pen.measureText(line).width)), tall = lines.length * size * 1.25;
-    if (mark.boxed || mark.framed) {
-      const left = across === "left" ? p : across === "right" ? p - wide : p - wide / 2;
-      const top = upright === "top" ? q : upright === "bottom" ? q - tall : q - tall / 2;
-      pen.globalAlpha = 0.85; pen.fillStyle = chart.colour("paper"); pen.fillRect(left - 3, top - 1, wide + 6, tall + 2);
-      if (mark.framed) { pen.lineWidth = 1; pen.strokeRect(left - 3, top - 1, wide + 6, tall + 2); }
-      pen.globalAlpha = 1;
-    }
-    pen.fillStyle = mark.framed ? chart.colour("ink") : READABLE[mark.role] ? chart.ink(mark.role) : tint;
-    const first = q - (upright === "top" ? 0 : upright === "bottom" ? tall - size * 1.25 : (tall - size * 1.25) / 2);
-    lines.forEach((line, k) => pen.fillText(line, p, first + k * size * 1.25));
-    return { x: [x], y: [y], words };
-  },
-};

@@ -49,10 +49,11 @@ export function listen(panel, chart) {
 function hover(panel, chart, px, py, event) {
   const { tip, root } = panel, { axes } = chart.picture, curve = !axes.equal && !axes.bare;
   if (!panel.outputs || !chart.inside(px, py)) { tip.hidden = true; return; }
-  const x = chart.x.back(px), y = chart.y.back(py), round = (/** @type {number} */ v) => format(v, ".4g");
+  const { per } = chart, x = chart.x.back(px), y = chart.y.back(py);
+  const round = (/** @type {number} */ v, /** @type {number} */ ratio) => format(v * ratio, ".4g");
   const named = (/** @type {any} */ mark) => chart.how.words(mark.label) || chart.axes.title;
-  const rows = curve ? chart.valuesAt(x).map(({ mark, value }) => `${named(mark)} ${round(value)}`) : [];
-  tip.textContent = curve ? [`at ${round(x)}`, ...rows].join("\n") : axes.bare ? "" : `x ${round(x)}, y ${round(y)}`;
+  const rows = curve ? chart.valuesAt(x).map(({ mark, value }) => `${named(mark)} ${round(value, per.y)}`) : [];
+  tip.textContent = curve ? [`at ${round(x, per.x)}`, ...rows].join("\n") : axes.bare ? "" : `x ${round(x, per.x)}, y ${round(y, per.y)}`;
   tip.hidden = !tip.textContent;
   const box = root.getBoundingClientRect();
   tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - 150)}px`;

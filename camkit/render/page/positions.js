@@ -1,5 +1,5 @@
 // Where a mechanism stands, and from where it is seen: a row for each angle, Play, and one cursor for the curves.
-import { found } from "./picture.js";
+import { found } from "./marks.js";
 import { Row, make } from "./controls.js";
 
 export const DEGREE = Math.PI / 180;
@@ -7,14 +7,15 @@ const TURN = 6; // seconds for a whole turn
 
 export class Positions {
   /** `values` are those of the panel: of quantities and, from `begin` on, of positions.
-   * @param {any} structure @param {Float64Array} values @param {(k: number, value: number, settled: boolean) => void} moved
+   * @param {any} structure @param {import("./units.js").Units} units @param {Float64Array} values
+   * @param {(k: number, value: number, settled: boolean) => void} moved
    * @param {(settled?: boolean) => void} ask */
-  constructor(structure, values, moved, ask) {
+  constructor(structure, units, values, moved, ask) {
     const begin = structure.quantities.length;
     Object.assign(this, { structure, values, begin, moved, ask, playing: false, range: [0, 2 * Math.PI] });
     this.rows = structure.positions.map((/** @type {any} */ { label, value }, /** @type {number} */ k) => new Row(
       { name: label, symbol: label, unit: "deg", factor: DEGREE, low: -180, high: 180, meaning: "", value, written: ".4g" },
-      structure.units, (value, settled) => moved(begin + k, value, settled)));
+      units, (value, settled) => moved(begin + k, value, settled)));
     this.turn = this._named("turn");
     this.button = make("button", { type: "button", title: "Play", "aria-label": "Play", onclick: () => this.play() }, "\u25B6");
     this.element = make("div", { class: "camkit-play", hidden: !this.rows.length },
@@ -45,8 +46,8 @@ export class Positions {
 
   /** Stand at a value of a position, within its range. @param {number} k @param {number} value */
   stand(k, value) {
-    const row = this.rows[k], { low, high } = row.declared;
-    row.show(Math.min(Math.max(value, low * DEGREE), high * DEGREE));
+    const row = this.rows[k];
+    row.show(Math.min(Math.max(value, row.low), row.high));
     this.moved(this.begin + k, row.value, false);
   }
 

@@ -4,12 +4,13 @@ import { Row, folded, make } from "./controls.js";
 const MANY = 8; // from here on there is a box to find one
 
 export class Quantities {
-  /** @param {any} structure @param {(k: number, value: number, settled: boolean) => void} moved
+  /** @param {any} structure @param {import("./units.js").Units} units
+   * @param {(k: number, value: number, settled: boolean) => void} moved
    * @param {((path: string, option: string) => void) | null} choose what takes a choice, if anything does */
-  constructor(structure, moved, choose) {
+  constructor(structure, units, moved, choose) {
     this.declared = structure.quantities;
     this.rows = this.declared.map((/** @type {any} */ quantity, /** @type {number} */ k) =>
-      new Row({ ...quantity }, structure.units, (value, settled) => moved(k, value, settled)));
+      new Row({ ...quantity }, units, (value, settled) => moved(k, value, settled)));
     this.choices = structure.choices.map((/** @type {any} */ choice) => menuOf(choice, choose));
     const free = this.rows.map((/** @type {Row} */ row, /** @type {number} */ k) => [this.declared[k].group, row]);
     this.groups = folded(free.filter((/** @type {any} */ _, /** @type {number} */ k) => this.declared[k].free));

@@ -13,13 +13,16 @@ export class Verdict {
     this.elements = [this.trouble, this.chips, this.said];
   }
 
-  /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled */
-  tell(rows, trouble, settled) {
+  /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled
+   * @param {import("./units.js").Units} units */
+  tell(rows, trouble, settled, units) {
     const limited = rows.filter(({ m }) => m.limit !== undefined).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
     if (settled) this._say(limited, trouble);
-    const chips = [...limited.map(chipOf), ...others.map(({ m, now }) => ["", `${letters(m.name)} `, "b", told(m, now)])];
+    const chips = [
+      ...limited.map((row) => chipOf(row, units)),
+      ...others.map(({ m, now }) => ["", `${letters(m.name)} `, "b", told(m, now, units)])];
     const written = JSON.stringify([trouble, chips]);
     if (this.written === written) return; // else the page would be laid out anew in every frame
     this.written = written;
@@ -37,9 +40,9 @@ export class Verdict {
   }
 }
 
-/** Kind, words and limit. @param {import("./measures.js").Judged} row */
-function chipOf({ m, now, kept }) {
-  const shown = Number.isNaN(now) ? "cannot be computed" : told(m, now);
-  const limit = `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit)}`;
+/** Kind, words and limit. @param {import("./measures.js").Judged} row @param {import("./units.js").Units} units */
+function chipOf({ m, now, kept }, units) {
+  const shown = Number.isNaN(now) ? "cannot be computed" : told(m, now, units);
+  const limit = `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit, units)}`;
   return [kept ? "camkit-ok" : "camkit-bad", `${letters(m.name)} ${shown} `, "small", limit];
 }

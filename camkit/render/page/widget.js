@@ -60,11 +60,11 @@ async function render({ model, el }) {
   const starting = async () => {
     const number = ++begun, first = !panel, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
     if (number < begun) return; // structure and program come together
-    const shown = panel?.tabs.shown?.name;
-    panel?.end();
+    const before = panel;
+    before?.end();
     panel = el.camkit = new Panel(root, structure, engine, host);
     await dock();
-    if (shown) panel.showTab(shown);
+    if (before) { panel.use(before.units.name); panel.showTab(before.tabs.shown?.name); }
     panel.say(model.get("message"));
     moved(); // the design may have moved since the structure was made
     if (first) void stand(panel, model.get("page"));

@@ -1,0 +1,148 @@
+// The marks of a picture, drawn on a canvas in the units of its axes.
+
+/**
+ * @typedef {{at: number}} Output an array that the program gives, by its number
+ * @typedef {Record<string, any> & {key: string, kind: string, role: string}} Mark
+ * @typedef {{name: string, still: string, axes: Record<string, any>, marks: Mark[]}} Picture
+ * @typedef {{low: number, high: number, log: boolean}} Ends
+ */
+
+export const LETTERS = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
+export const POINT = 96 / 72; // CSS pixels
+
+/** What a value of a picture is: itself, or what the program gives. @param {any} value @param {ArrayLike<number>[]} outputs */
+export const found = (value, outputs) => (value !== null && typeof value === "object" && "at" in value ? outputs[value.at] : value);
+/** @param {any} value @param {ArrayLike<number>[]} outputs */
+export const one = (value, outputs) => { const v = found(value, outputs); return typeof v === "object" && v !== null ? v[0] : v; };
+/** @param {any} value @param {ArrayLike<number>[]} outputs @returns {ArrayLike<number>} */
+export const many = (value, outputs) => { const v = found(value, outputs); return typeof v === "number" ? [v] : v; };
+export const real = Number.isFinite;
+/** Letters whose colour as a line would be too pale to read on white. @type {Record<string, string>} */
+export const READABLE = { guide: "#5b6875", pitch: "#5b6875", trouble: "#b03a00", limit: "#b03a00" };
+
+/** Where each coordinate of a mark may reach, as names of its fields. @type {Record<string, [string[], string[]]>} */
+export const REACH = {
+  line: [["x"], ["y"]], points: [["x"], ["y"]], polygon: [["x"], ["y"]], area: [["x"], ["low", "high"]],
+  circle: [["x"], ["y"]], text: [[], []], band: [[], []],
+};
+
+/** @param {CanvasRenderingContext2D} pen @param {string} tint @param {number[][]} points */
+export function stroke(pen, tint, points) {
+  pen.strokeStyle = tint; pen.beginPath();
+  points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+  pen.stroke();
+}
+
+/** A path through points; what is no number parts it.
+ * @param {Chart} chart @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {boolean} [steps] */
+export function trace(chart, x, y, steps = false) {
+  const { pen } = chart, n = Math.max(x.length, y.length);
+  pen.beginPath();
+  for (let i = 0, down = false, last = 0; i < n; i++) {
+    const p = chart.x(x.length === 1 ? x[0] : x[i]), q = chart.y(y.length === 1 ? y[0] : y[i]);
+    if (!real(p) || !real(q)) { down = false; continue; }
+    if (down && steps) pen.lineTo(p, last);
+    if (down) pen.lineTo(p, q); else pen.moveTo(p, q);
+    down = true; last = q;
+  }
+}
+
+/** @param {Chart} chart @param {Mark} mark @param {ArrayLike<number>[]} outputs */
+export function circle(chart, mark, outputs) {
+  const [x, y, r] = ["x", "y", "radius"].map((name) => one(mark[name], outputs));
+  const px = chart.x(x), py = chart.y(y), pr = Math.abs(chart.x(x + r) - px);
+  chart.pen.beginPath();
+  if (real(px) && real(py) && real(pr)) chart.pen.arc(px, py, Math.max(pr, 1.5), 0, 2 * Math.PI);
+  return { x: [x], y: [y], radius: r };
+}
+
+/** Forms of points around 0, their size 2. @type {Record<string, (pen: CanvasRenderingContext2D, r: number) => void>} */
+export const FORMS = {
+  dot: (pen, r) => pen.arc(0, 0, r, 0, 7),
+  plus: (pen, r) => { pen.moveTo(-r, 0); pen.lineTo(r, 0); pen.moveTo(0, -r); pen.lineTo(0, r); },
+  cross: (pen, r) => { pen.moveTo(-r, -r); pen.lineTo(r, r); pen.moveTo(-r, r); pen.lineTo(r, -r); },
+  square: (pen, r) => pen.rect(-r, -r, 2 * r, 2 * r),
+  diamond: (pen, r) => { pen.moveTo(0, -1.3 * r); pen.lineTo(r, 0); pen.lineTo(0, 1.3 * r); pen.lineTo(-r, 0); pen.closePath(); },
+  triangle: (pen, r) => { pen.moveTo(0, -r); pen.lineTo(r, r); pen.lineTo(-r, r); pen.closePath(); },
+  star: (pen, r) => {
+    for (let k = 0; k < 10; k++) {
+      const far = (k % 2 ? 0.45 : 1.2) * r, angle = (k * Math.PI) / 5;
+      pen.lineTo(far * Math.sin(angle), -far * Math.cos(angle));
+    }
+    pen.closePath();
+  },
+};
+
+/** How each kind of mark is drawn; what it gives stands in the display list, in user units.
+ * @type {Record<string, (chart: Chart, mark: Mark, outputs: ArrayLike<number>[], tint: string) => object>} */
+export const DRAW = {
+  line(chart, mark, outputs) {
+    const x = many(mark.x, outputs), y = many(mark.y, outputs);
+    trace(chart, x, y, Boolean(mark.steps));
+    chart.pen.stroke();
+    return { x, y };
+  },
+  polygon(chart, mark, outputs) {
+    const x = many(mark.x, outputs), y = many(mark.y, outputs);
+    trace(chart, x, y);
+    chart.pen.fill("evenodd");
+    if (mark.edged) { chart.pen.closePath(); chart.pen.stroke(); }
+    return { x, y };
+  },
+  area(chart, mark, outputs) {
+    const [x, low, high] = ["x", "low", "high"].map((name) => many(mark[name], outputs));
+    trace(chart, [...Array.from(x), ...Array.from(x).reverse()], [...Array.from(low), ...Array.from(high).reverse()]);
+    chart.pen.fill();
+    return { x, low, high };
+  },
+  band(chart, mark, outputs) {
+    const { pen, box } = chart, [low, high] = [one(mark.low, outputs), one(mark.high, outputs)];
+    const along = mark.along === "x" ? chart.y : chart.x, [a, b] = [along(low), along(high)].sort((p, q) => p - q);
+    pen.beginPath();
+    if (mark.along === "x") pen.rect(box.left, a, box.right - box.left, b - a); else pen.rect(a, box.top, b - a, box.bottom - box.top);
+    pen.fill(); pen.globalAlpha = 1; pen.stroke();
+    return { low, high, along: mark.along };
+  },
+  points(chart, mark, outputs, tint) {
+    const { pen } = chart, x = many(mark.x, outputs), y = many(mark.y, outputs), r = (one(mark.size, outputs) / 2) * POINT * 0.9;
+    const open = ["plus", "cross"].includes(mark.mark);
+    pen.lineWidth = mark.size > 6 ? 2 : 1.4; pen.setLineDash([]);
+    for (let i = 0; i < Math.max(x.length, y.length); i++) {
+      const [p, q] = [chart.x(x[x.length === 1 ? 0 : i]), chart.y(y[y.length === 1 ? 0 : i])];
+      if (!real(p) || !real(q)) continue;
+      pen.save(); pen.translate(p, q); pen.beginPath(); FORMS[mark.mark](pen, r);
+      pen.fillStyle = mark.fill === "paper" ? chart.colour("paper") : tint;
+      if (!open && mark.fill !== "none") pen.fill();
+      if (open || mark.fill !== "full") pen.stroke();
+      pen.restore();
+    }
+    return { x, y };
+  },
+  circle(chart, mark, outputs) {
+    const drawn = circle(chart, mark, outputs);
+    chart.pen.stroke();
+    return drawn;
+  },
+  text(chart, mark, outputs, tint) {
+    const { pen } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
+    const [p, q] = [chart.x(x), chart.y(y)], at = mark.anchor.split(" "), size = mark.size * 1.1 * chart.em;
+    if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
+    const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
+    const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
+    pen.font = `${mark.bold ? 600 : 400} ${size}px ${LETTERS}`;
+    pen.textAlign = /** @type {CanvasTextAlign} */ (across); pen.textBaseline = /** @type {CanvasTextBaseline} */ (upright);
+    const lines = words.split("\n"), wide = Math.max(...lines.map((line) => pen.measureText(line).width));
+    const tall = lines.length * size * 1.25;
+    if (mark.boxed || mark.framed) {
+      const left = across === "left" ? p : across === "right" ? p - wide : p - wide / 2;
+      const top = upright === "top" ? q : upright === "bottom" ? q - tall : q - tall / 2;
+      pen.globalAlpha = 0.85; pen.fillStyle = chart.colour("paper"); pen.fillRect(left - 3, top - 1, wide + 6, tall + 2);
+      if (mark.framed) { pen.lineWidth = 1; pen.strokeRect(left - 3, top - 1, wide + 6, tall + 2); }
+      pen.globalAlpha = 1;
+    }
+    pen.fillStyle = mark.framed ? chart.colour("ink") : READABLE[mark.role] ? chart.ink(mark.role) : tint;
+    const first = q - (upright === "top" ? 0 : upright === "bottom" ? tall - size * 1.25 : (tall - size * 1.25) / 2);
+    lines.forEach((line, k) => pen.fillText(line, p, first + k * size * 1.25));
+    return { x: [x], y: [y], words };
+  },
+};

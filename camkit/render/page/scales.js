@@ -1,0 +1,30 @@
+// The scales of a picture: round numbers along them, and places.
+
+/** @typedef {import("./marks.js").Ends} Ends */
+
+/** Round numbers from one end to the other, about `count` of them. @param {number} low @param {number} high @param {number} count */
+export function ticks(low, high, count) {
+  const rough = (high - low) / Math.max(count, 1), power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
+  const marks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) marks.push(+(k * step).toPrecision(12));
+  return marks;
+}
+
+/** Ticks of an angle in degrees, if it goes round: 0, 90, 180 ... @param {number} low @param {number} high @param {number} count */
+export function degreeTicks(low, high, count) {
+  const step = [15, 30, 45, 60, 90, 180].find((s) => (high - low) / s <= count + 1) ?? 360;
+  const marks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9; k++) marks.push(k * step);
+  return marks;
+}
+
+/** Places of a scale: from numbers to pixels and back. @param {Ends} ends @param {number} from @param {number} to */
+export function scale(ends, from, to) {
+  const f = ends.log ? Math.log10 : Number, low = f(ends.low), span = f(ends.high) - low || 1;
+  /** @param {number} value */
+  const place = (value) => from + ((to - from) * (f(value) - low)) / span;
+  /** @param {number} pixel */
+  place.back = (pixel) => { const v = low + ((pixel - from) * span) / (to - from); return ends.log ? 10 ** v : v; };
+  return place;
+}

@@ -1,0 +1,91 @@
+// The units that a page shows numbers in: those of the declarations, or others that a person chooses.
+import { format, unitOf } from "./numbers.js";
+
+/** By the name of a system: what it puts in the place of other units. @type {Record<string, Record<string, string>>} */
+const SYSTEMS = {};
+const METRIC = { in: "mm", inch: "mm", ft: "m", lbf: "N", lb: "kg", psi: "MPa", hp: "kW" };
+const IMPERIAL = {
+  mm: "inch", cm: "inch", m: "ft", N: "lbf", kN: "lbf", kg: "lb", g: "lb", Pa: "psi", MPa: "psi", GPa: "psi", W: "hp", kW: "hp",
+};
+for (const [lengths, other] of [["mm", METRIC], ["inch", IMPERIAL]]) {
+  const force = lengths === "mm" ? "N" : "lbf";
+  SYSTEMS[`${lengths}, deg, ${force}`] = { ...other, rad: "deg" };
+  SYSTEMS[`${lengths}, rad, ${force}`] = { ...other, deg: "rad" };
+}
+const NAME = /[A-Za-zµμ%°]+/g;
+const NUMBER = String.raw`[-\u2212]?\d+(?:\.\d+)?(?:e[+-]\d+)?`;
+const JOINED = String.raw`(?:,? (?:and|to|or|x|\u00D7) |, )`; // numbers that have one unit, as in 3 to 4 mm
+
+/** @typedef {{unit: string, ratio: number}} Shown a unit, and how many of it one of the declared ones is */
+
+/** Every unit as it is declared. @param {any} known the factors and dimensions of units */
+export const asDeclared = (known) => ({ known, of: (/** @type {string} */ unit) => ({ unit, ratio: 1 }) });
+
+export class Units {
+  /** @param {any} structure */
+  constructor(structure) {
+    this.known = structure.units;
+    const used = [...structure.quantities, ...structure.measures].map((/** @type {any} */ one) => one.unit);
+    /** The system of the declarations. */
+    this.own = named(used);
+    this.names = [this.own, ...Object.keys(SYSTEMS).filter((name) => name !== this.own)];
+    /** What in a text is a number with a unit. */
+    const units = [...new Set(used.filter(Boolean)), "\u00B0"].sort(longer).map(quoted).join("|");
+    this.said = RegExp(`(?<![\\w.])(${NUMBER}(?:${JOINED}${NUMBER})*) ?(${units})(?![\\w/^])`, "g");
+    this.use(this.own);
+  }
+
+  /** Show numbers in a system, by its name. @param {string} name */
+  use(name) {
+    if (!this.names.includes(name)) return;
+    this.name = name;
+    /** @type {Record<string, string>} */ this.others = name === this.own ? {} : SYSTEMS[name];
+    /** @type {Map<string, Shown>} */ this.found = new Map();
+  }
+
+  /** In which unit numbers of a unit are shown. @param {string} unit @returns {Shown} */
+  of(unit) {
+    let shown = this.found.get(unit);
+    if (!shown) this.found.set(unit, shown = this._of(unit));
+    return shown;
+  }
+
+  /** @param {string} unit @returns {Shown} */
+  _of(unit) {
+    const [, tens, own] = /^(10\^[+-]?\d+ )?(.*)$/.exec(unit); // of an axis
+    const other = own.replace(NAME, (name) => this.others[name] ?? name);
+    if (other === own) return { unit, ratio: 1 };
+    try {
+      return { unit: (tens ?? "") + other, ratio: unitOf(own, this.known)[0] / unitOf(other, this.known)[0] };
+    } catch {
+      return { unit, ratio: 1 }; // a word that stands where units stand
+    }
+  }
+
+  /** A text, its numbers with a unit in the units that are shown. @param {string} text */
+  words(text) {
+    if (this.name === this.own) return text;
+    return text.replace(this.said, (whole, numbers, unit) => {
+      const shown = this.of(unit === "\u00B0" ? "deg" : unit);
+      if (shown.ratio === 1) return whole;
+      return `${numbers.replace(RegExp(NUMBER, "g"), (/** @type {string} */ number) => rewritten(number, shown.ratio))} ${shown.unit}`;
+    });
+  }
+}
+
+/** A number in another unit, with as many digits, four at least. @param {string} number @param {number} ratio */
+function rewritten(number, ratio) {
+  const digits = number.replace(/e.*$/, "").replace(/\D/g, "").replace(/^0+/, "").length;
+  return format(Number(number.replace("\u2212", "-")) * ratio, `.${Math.max(digits, 4)}g`);
+}
+
+/** The name of a system, by units of declarations. @param {string[]} units */
+function named(units) {
+  const names = units.flatMap((unit) => unit.match(NAME) ?? []);
+  const first = (/** @type {string[]} */ some, /** @type {string} */ otherwise) => names.find((name) => some.includes(name)) ?? otherwise;
+  const length = first(["mm", "inch", "in"], "mm").replace(/^in$/, "inch");
+  return `${length}, ${first(["deg", "rad"], "deg")}, ${first(["N", "lbf"], length === "inch" ? "lbf" : "N")}`;
+}
+
+const longer = (/** @type {string} */ a, /** @type {string} */ b) => b.length - a.length;
+const quoted = (/** @type {string} */ text) => text.replace(/[.*+?^${}()|[\]\\/]/g, "\\$&");
