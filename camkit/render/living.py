@@ -44,6 +44,7 @@ from ..views.picture import Mark, Picture, View
 from .contours import outlined
 from .page_parts import PAGE, STYLE, in_html, look, script
 from .picture import VIEWPOINT, given_to, positions_of, turn_range
+from .reasons import reason_of
 
 SIZE = np.array([400.0, 300.0])
 """For which a picture that does not compute chooses its contours' names, pixels."""
@@ -126,9 +127,17 @@ class Living:
         return {
             "pictures": [self._seen(view, now, position, outputs) for view in self.views],
             "positions": [outputs.at(row) for row in _position_rows(now, self.first)],
-            "measures": [_measure(m, m.of(now, 1), limit, outputs) for m, limit in self._limited()],
+            "measures": [
+                {**_measure(m, m.of(now, 1), limit, outputs), "why": self._reasons[m]} for m, limit in self._limited()
+            ],
             "trouble": outputs.at(_trouble(now)),
         }
+
+    @cached_property
+    def _reasons(self) -> dict[Measure, dict[str, Json]]:
+        """Why each measure is what it is."""
+        analysis = self.design.analyse()
+        return {measure: reason_of(measure, analysis) for measure in (*self.measures, *self.limits)}
 
     def _limited(self) -> Iterator[tuple[Measure, tuple[float, int] | None]]:
         """Each measure with its limit, if it has one; those that have two once more, after all."""
@@ -312,7 +321,7 @@ def _name(view: View) -> str:
     return str(getattr(view, "__name__", "") or getattr(getattr(view, "func", None), "__name__", "view"))
 
 
-def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, outputs: Outputs) -> Json:
+def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, outputs: Outputs) -> dict[str, Json]:
     row: dict[str, Json] = {
         "name": measure.name,
         "unit": measure.unit,

@@ -12,8 +12,9 @@ from .draw import ROLES, STROKES, colour
 
 PAGE = Path(__file__).with_name("page")
 MODULES = (
-    *("numbers", "units", "marks", "scales", "picture", "controls", "files", "parts", "sheet", "docks", "engine"),
-    *("bar", "history", "measures", "verdict", "quantities", "positions", "pointer", "tabs", "panel", "session"),
+    *("numbers", "units", "marks", "scales", "picture", "spans", "controls", "files", "parts", "sheet", "docks"),
+    *("engine", "idle", "bar", "history", "measures", "around", "verdict", "quantities", "positions", "pointer"),
+    *("tabs", "why", "panel", "session"),
 )
 """What every page is made of, each on those before it."""
 STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))

@@ -1,4 +1,5 @@
 // The controls of a page: a row for each quantity, with a slider to drag and a box to type in; native elements all.
+import { spansInWords } from "./spans.js";
 import { format, letters, parse, pretty } from "./numbers.js";
 
 /** An element with attributes and children; every text is a text node.
@@ -33,11 +34,13 @@ export class Row {
     this.slider = make("input", { type: "range" });
     this.box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
     this.after = make("span", { class: "camkit-unit" });
+    this.track = make("div", { class: "camkit-track", hidden: true });
+    /** @type {import("./spans.js").Span[]} */ this.spans = [];
     this.refusal = make("div", { class: "camkit-refusal", role: "alert" });
     const title = meaning && meaning !== name ? `${name}: ${meaning}` : name;
     const label = make("label", { title }, inGroup, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
     this.element = make("div", { class: "camkit-row" }, label,
-      make("span", { class: "camkit-box" }, this.box, this.after), this.slider, this.refusal);
+      make("span", { class: "camkit-box" }, this.box, this.after), this.slider, this.track, this.refusal);
     this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * this.factor, false));
     this.slider.addEventListener("change", () => moved(this.value, true));
     this.box.addEventListener("change", () => this._typed());
@@ -61,6 +64,28 @@ export class Row {
     this.box.setAttribute("aria-label", `${said}, number`);
     this.after.textContent = pretty(shown.unit);
     this.show(this.value);
+    this._sayTrack();
+  }
+
+  /** Paint on the track what can be built, or nothing. @param {import("./spans.js").Span[]} spans
+   * @param {boolean} limited whether there are limits */
+  paint(spans, limited) {
+    Object.assign(this, { spans, limited });
+    const share = (/** @type {number} */ value) => (100 * (value - this.low)) / (this.high - this.low);
+    this.track.hidden = !spans.length;
+    this.track.classList.remove("camkit-old");
+    this.track.replaceChildren(...spans.map(({ low, high, kind }) => {
+      const part = make("span", { class: ["camkit-cannot", "camkit-missed", "camkit-kept"][kind] });
+      Object.assign(part.style, { left: `${share(low)}%`, width: `${share(high) - share(low)}%` });
+      return part;
+    }));
+    this._sayTrack();
+  }
+
+  /** What is painted, for those who do not see it. */
+  _sayTrack() {
+    const text = (/** @type {number} */ value) => `${format(value / this.factor, ".3g")} ${pretty(this.unit)}`.trim();
+    this.slider.title = this.spans.length ? spansInWords(this.spans, text, this.limited) : "";
   }
 
   /** Stand at a value. @param {number} value */

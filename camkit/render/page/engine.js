@@ -2,12 +2,14 @@
 
 /**
  * @typedef {ArrayLike<number>[] & {structure?: any, sentence?: string}} Outputs
- * @typedef {{run(values: Float64Array): Outputs | Promise<Outputs>, here?: boolean}} Engine `here`: it is the page that computes
+ * @typedef {(values: Float64Array) => Outputs} Run
+ * @typedef {{run(values: Float64Array): Outputs | Promise<Outputs>, twin?: () => Run}} Engine `twin` gives another one of
+ * the same program, with numbers of its own: what one computes is not done again because of the other
  */
 
-/** The function that a program is, from what gzip packed. @param {Uint8Array} bytes
- * @returns {Promise<(values: Float64Array) => Float64Array[]>} */
-export async function programOf(bytes) {
+/** The engine of a program, from what gzip packed. @param {Uint8Array} bytes @returns {Promise<Engine>} */
+export async function engineOf(bytes) {
   const text = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
-  return machine(...JSON.parse(text)); // what runs any program stands before the modules
+  const numbers = JSON.parse(text), twin = () => machine(...numbers); // what runs any program stands before the modules
+  return { run: twin(), twin };
 }

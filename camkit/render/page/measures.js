@@ -27,14 +27,41 @@ export const judged = (structure, outputs, before) => structure.measures.map((/*
   return { m, now, then, change, kept, miss: Number.isNaN(miss) ? 1e300 : miss };
 });
 
-/** The measures as rows. @param {Judged[]} rows @param {string} before how the other design is called
- * @param {import("./units.js").Units} units */
-export function tableOf(rows, before, units) {
-  const cell = (/** @type {string} */ words) => make("td", {}, words);
-  const head = make("tr", {}, ...["measure", "now", before, "change"].map((words) => make("th", { scope: "col" }, words)));
-  const lines = rows.filter((row) => Number.isFinite(row.now)).map(({ m, now, then, change, kept }) =>
-    make("tr", { class: kept ? "" : "camkit-bad" }, ...[
-      letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(change, "+.1f")} %` : "",
-    ].map(cell)));
-  return make("table", {}, head, ...lines);
+/** The measures as a table whose cells stay, so that a row keeps the focus. */
+export class Table {
+  /** @param {(element: HTMLElement, measure: () => any) => void} explain what shows why a measure is what it is */
+  constructor(explain) {
+    this.explain = explain;
+    this.before = make("th", { scope: "col" });
+    const [first, now, change] = ["measure", "now", "change"].map((words) => make("th", { scope: "col" }, words));
+    this.table = make("table", {}, make("tr", {}, first, now, this.before, change));
+    this.element = make("div", { class: "camkit-numbers" }, this.table);
+    /** @type {{line: HTMLElement, cells: HTMLElement[], m: any}[]} */ this.lines = [];
+  }
+
+  /** @param {Judged[]} every @param {string} before how the other design is called @param {import("./units.js").Units} units */
+  fill(every, before, units) {
+    const rows = every.filter((row) => Number.isFinite(row.now));
+    this.before.textContent = before;
+    while (this.lines.length < rows.length) this._more();
+    this.lines.forEach((line, i) => {
+      line.line.hidden = i >= rows.length;
+      if (i < rows.length) write(line, rows[i], units);
+    });
+  }
+
+  _more() {
+    const cells = [0, 1, 2, 3].map(() => make("td")), line = make("tr", {}, ...cells), made = { line, cells, m: null };
+    this.explain(line, () => made.m);
+    this.table.append(line);
+    this.lines.push(made);
+  }
+}
+
+/** @param {{line: HTMLElement, cells: HTMLElement[], m: any}} made @param {Judged} row @param {import("./units.js").Units} units */
+function write(made, { m, now, then, change, kept }, units) {
+  made.m = m;
+  made.line.className = kept ? "" : "camkit-bad";
+  const words = [letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(change, "+.1f")} %` : ""];
+  words.forEach((word, k) => { if (made.cells[k].textContent !== word) made.cells[k].textContent = word; });
 }

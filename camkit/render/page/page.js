@@ -1,13 +1,13 @@
 // A page that stands alone: what it shows and the program that it runs are in the file.
-import { programOf } from "./engine.js";
+import { engineOf } from "./engine.js";
 import { Docks } from "./docks.js";
 import { Panel } from "./panel.js";
 
 const text = (/** @type {string} */ id) => document.getElementById(id)?.textContent ?? "";
 const structure = JSON.parse(text("structure"));
-const run = await programOf(Uint8Array.from(atob(text("program")), (c) => c.charCodeAt(0)));
+const program = await engineOf(Uint8Array.from(atob(text("program")), (c) => c.charCodeAt(0)));
 document.title = structure.name;
-const shown = new Panel(document.querySelector(".camkit-page"), structure, { run, here: true });
+const shown = new Panel(document.querySelector(".camkit-page"), structure, program);
 new Docks().show(shown, structure.docks.map(({ title, sheets }) => ({ title, models: sheets.map(stored) })));
 globalThis.camkit = shown;
 

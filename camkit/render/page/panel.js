@@ -4,15 +4,19 @@ import { make } from "./controls.js";
 import { fill, format } from "./numbers.js";
 import { button, filesOf, screenOf } from "./bar.js";
 import { History } from "./history.js";
-import { judged, tableOf, told } from "./measures.js";
+import { Around } from "./around.js";
+import { Idle } from "./idle.js";
+import { Table, judged, told } from "./measures.js";
 import { listen } from "./pointer.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
 import { Tabs } from "./tabs.js";
 import { Units } from "./units.js";
 import { Verdict } from "./verdict.js";
+import { Why } from "./why.js";
 
 const NARROW = 60; // letters: below it everything stands in one column
+const QUIET = 250; // ms without a move before tracks are painted
 const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 
 /**
@@ -29,6 +33,11 @@ export class Panel {
     this.values = Float64Array.from(this.inputs);
     this.history = new History(this.values, structure.quantities.length);
     this.leaving = new AbortController();
+    /** Designs around this one, if the page computes them. */
+    this.around = engine.twin ? new Around(structure, engine.twin()) : null;
+    this.slopes = new Idle();
+    this.painting = new Idle();
+    /** Of each row, what the others were when its track was painted. @type {Map<number, string>} */ this.painted = new Map();
     this._build();
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.system.addEventListener("change", () => this.ask(true), { signal: this.leaving.signal });
@@ -44,7 +53,7 @@ export class Panel {
 
   /** Leave the page. */
   end() {
-    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect();
+    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop();
     this.positions.playing = false; this.ended = true;
     this.root.replaceChildren();
   }
@@ -125,7 +134,10 @@ export class Panel {
       host && ((path, option) => host.choose(path, option)));
     this.positions = new Positions(structure, this.units, this.values, moved, (settled) => this.ask(settled));
     this.rows = [...this.quantities.rows, ...this.positions.rows];
-    this.verdict = new Verdict();
+    const explain = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => this.why.explain(element, measure);
+    this.why = new Why(this);
+    this.verdict = new Verdict(explain);
+    this.table = new Table(explain);
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
     this.over = make("div", { class: "camkit-over", role: "alert", hidden: true });
     this.tip = make("div", { class: "camkit-tip", hidden: true });
@@ -133,15 +145,15 @@ export class Panel {
       new Chart(make("canvas", { role: "img", tabindex: "0", "aria-description": KEYS }), picture, structure.look));
     const [first, ...curves] = this.charts.map((/** @type {Chart} */ chart) => chart.canvas);
     this.middle = make("div", { class: "camkit-middle" }, ...(first ? [first] : []), this.over);
-    this.table = make("div", { class: "camkit-numbers" });
     this.tabs = new Tabs();
     const framed = curves.map((/** @type {HTMLElement} */ canvas) => make("div", { class: "camkit-curve" }, canvas));
     this.addTab("Curves", make("div", { class: "camkit-curves" }, ...framed), () => this.ask(true));
-    this.addTab("Numbers", this.table, () => this.ask(true), true);
+    this.addTab("Numbers", this.table.element, () => this.ask(true), true);
     root.classList.add("camkit-page");
     root.replaceChildren(this._bar(), this.note, ...this.verdict.elements, this.quantities.element, this.middle,
-      this.tabs.element, this.positions.element, this.tabs.row, this.tip);
+      this.tabs.element, this.positions.element, this.tabs.row, this.tip, this.why.element);
     for (const chart of this.charts) listen(this, chart);
+    this.quantities.element.addEventListener("toggle", () => this._paint(), { capture: true }); // a group was opened
     root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._key(event), { signal: this.leaving.signal });
   }
 
@@ -166,8 +178,15 @@ export class Panel {
   _moved(k, value, settled) {
     this.values[k] = value;
     this.last = k;
+    if (k < this.history.count) this._leaveTracks();
     if (settled) this.history.settle(this.values);
     this.ask(settled);
+  }
+
+  /** What is painted on tracks is of another design, but on that which is being moved. */
+  _leaveTracks() {
+    this.painting.stop();
+    this.quantities.element.classList.add("camkit-moving");
   }
 
   _undo() { this._back(this.history.undo()); }
@@ -196,11 +215,11 @@ export class Panel {
 
   /** Show a design beside the one in hand as long as somebody looks at it, or none. @param {ArrayLike<number> | null} design */
   preview(design) {
-    if (!this.engine.here) return;
+    if (!this.engine.twin) return;
     if (!design) { if (this.looked) { this.looked = null; this.ask(); } return; }
     const values = Float64Array.from([...Array.from(design), ...this.values.slice(design.length)]);
     if (this.looked?.values.every((/** @type {number} */ v, /** @type {number} */ k) => v === values[k])) return;
-    this.looked = { values, outputs: this.engine.run(values) };
+    this.looked = { values, outputs: this._beside(values) };
     this.ask();
   }
 
@@ -209,8 +228,11 @@ export class Panel {
     const { ghost } = this, { begin } = this.positions;
     if (ghost.values.subarray(begin).every((/** @type {number} */ v, /** @type {number} */ k) => v === this.values[begin + k])) return;
     ghost.values.set(this.values.subarray(begin), begin);
-    ghost.outputs = this.engine.run(ghost.values);
+    ghost.outputs = this._beside(ghost.values);
   }
+
+  /** The outputs of another design, which are not those that the page goes on from. @param {Float64Array} values */
+  _beside(values) { return (this.twin ??= this.engine.twin())(values); }
 
   async _show() {
     const number = ++this.asked, settled = this.settling, ran = this.engine.run(this.values);
@@ -219,8 +241,9 @@ export class Panel {
     if (number < this.shownAt || this.ended) return; // a newer one is there
     this.shownAt = number;
     if (outputs.structure) this._adopt(outputs.structure);
-    if (this.ghost && outputs === ran) this._turnGhost();
+    if (this.ghost && this.engine.twin) this._turnGhost();
     this._draw(outputs, settled);
+    if (settled) this._paint();
     this._report();
   }
 
@@ -237,6 +260,25 @@ export class Panel {
     const first = !this.reported, number = (/** @type {any} */ m) => (Number.isFinite(m.value) ? m.value : null);
     this.reported = values;
     if (!first) this.host.changed(values, this.sentence ? [] : this.numbers.map(number));
+  }
+
+  /** Paint on each track in sight what can be built, when nothing has moved for a moment.  What is painted holds as long
+   * as all the other quantities stay. */
+  _paint() {
+    const { around, structure, rows, painted } = this, values = this.values.slice();
+    this.quantities.element.classList.remove("camkit-moving");
+    if (!around) return;
+    const design = [...values.subarray(0, structure.quantities.length)];
+    const others = (/** @type {number} */ k) => design.map((value, j) => (j === k ? "" : value)).join();
+    const old = this.quantities.inSight.filter((k) => painted.get(k) !== others(k));
+    for (const k of old) rows[k].track.classList.add("camkit-old");
+    const limited = structure.measures.some((/** @type {any} */ m) => m.limit !== undefined);
+    this.painting.begin((function* steps() {
+      for (const k of old) {
+        yield* around.spans(values, k, rows[k].low, rows[k].high, (spans) => rows[k].paint(spans, limited));
+        painted.set(k, others(k));
+      }
+    })(), QUIET);
   }
 
   /** @param {import("./engine.js").Outputs} outputs @param {boolean} settled */
@@ -294,6 +336,6 @@ export class Panel {
     const rows = judged(this.structure, outputs, this.ghost?.outputs ?? this.first);
     this.numbers = rows.map(({ m, now }) => ({ name: m.name, value: now, text: told(m, now, this.units) }));
     this.verdict.tell(rows, this.words(this.structure.trouble), settled, this.units);
-    if (!this.table.hidden) this.table.replaceChildren(tableOf(rows, this.ghost ? "pinned" : "start", this.units));
+    if (!this.table.element.hidden) this.table.fill(rows, this.ghost ? "pinned" : "start", this.units);
   }
 }

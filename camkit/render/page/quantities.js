@@ -24,6 +24,17 @@ export class Quantities {
     this.element = make("div", { class: "camkit-left", role: "group", "aria-label": "quantities" }, ...search, ...this.groups);
   }
 
+  /** Places of the rows that have a slider in sight: free, in a group that is open, those that are not scrolled away first. */
+  get inSight() {
+    const box = this.element.getBoundingClientRect(), every = [...this.rows.keys()];
+    const seen = every.filter((k) => this.declared[k].free && this.rows[k].element.offsetParent);
+    const away = (/** @type {number} */ k) => {
+      const { top, bottom } = this.rows[k].element.getBoundingClientRect();
+      return bottom < box.top || top > box.bottom ? 1 : 0;
+    };
+    return seen.map((k) => [k, away(k)]).sort((a, b) => a[1] - b[1]).map(([k]) => k);
+  }
+
   _filter() {
     const wanted = this.find.value.trim().toLowerCase(), has = (/** @type {string} */ text) => text.toLowerCase().includes(wanted);
     this.declared.forEach((/** @type {any} */ q, /** @type {number} */ k) => {

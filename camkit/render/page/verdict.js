@@ -6,11 +6,14 @@ import { told } from "./measures.js";
 const MOST = 5; // chips, if few have a limit
 
 export class Verdict {
-  constructor() {
+  /** @param {(element: HTMLElement, measure: () => any) => void} explain what shows why a measure is what it is */
+  constructor(explain) {
+    this.explain = explain;
     this.trouble = make("div", { class: "camkit-trouble camkit-chip camkit-bad", hidden: true });
-    this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures", tabindex: "0" });
+    this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures" });
     this.said = make("div", { class: "camkit-said", role: "status" });
     this.elements = [this.trouble, this.chips, this.said];
+    /** @type {{element: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
   }
 
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled
@@ -20,15 +23,32 @@ export class Verdict {
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
     if (settled) this._say(limited, trouble);
-    const chips = [
-      ...limited.map((row) => chipOf(row, units)),
-      ...others.map(({ m, now }) => ["", `${letters(m.name)} `, "b", told(m, now, units)])];
-    const written = JSON.stringify([trouble, chips]);
+    const told = [...limited, ...others], chips = told.map((row) => chipOf(row, units)), written = JSON.stringify([trouble, chips]);
     if (this.written === written) return; // else the page would be laid out anew in every frame
     this.written = written;
     this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
-    this.chips.replaceChildren(...chips.map(([kind, words, tag, more]) =>
-      make("span", { class: `camkit-chip ${kind}` }, words, make(tag, {}, more))));
+    this._fill(told.map(({ m }) => m), chips);
+  }
+
+  /** Chips stay as elements, so that one keeps the focus. @param {any[]} measures @param {string[][]} chips */
+  _fill(measures, chips) {
+    while (this.made.length < chips.length) this.made.push(this._chip());
+    chips.forEach(([kind, words, more], k) => {
+      const made = this.made[k];
+      made.m = measures[k];
+      made.element.className = `camkit-chip ${kind}`;
+      made.words.data = words;
+      made.more.textContent = more;
+    });
+    if (this.chips.childElementCount === chips.length) return;
+    this.chips.replaceChildren(...this.made.slice(0, chips.length).map(({ element }) => element));
+  }
+
+  _chip() {
+    const words = new Text(""), more = make("small"), element = make("span", { role: "button" }, words, more);
+    const made = { element, words, more, m: null };
+    this.explain(element, () => made.m);
+    return made;
   }
 
   /** @param {import("./measures.js").Judged[]} limited @param {string} trouble */
@@ -40,9 +60,11 @@ export class Verdict {
   }
 }
 
-/** Kind, words and limit. @param {import("./measures.js").Judged} row @param {import("./units.js").Units} units */
+/** Kind, words and limit, or the number of what has none. @param {import("./measures.js").Judged} row
+ * @param {import("./units.js").Units} units */
 function chipOf({ m, now, kept }, units) {
-  const shown = Number.isNaN(now) ? "cannot be computed" : told(m, now, units);
+  const shown = Number.isNaN(now) ? "cannot be computed" : told(m, now, units), name = letters(m.name);
+  if (m.limit === undefined) return ["camkit-free", `${name} `, shown];
   const limit = `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit, units)}`;
-  return [kept ? "camkit-ok" : "camkit-bad", `${letters(m.name)} ${shown} `, "small", limit];
+  return [kept ? "camkit-ok" : "camkit-bad", `${name} ${shown} `, limit];
 }

@@ -1,14 +1,14 @@
 // The page as a widget of a notebook: it computes and draws by itself and tells the kernel what a person settled on.
-import { programOf } from "./engine.js";
+import { engineOf } from "./engine.js";
 import { Panel } from "./panel.js";
 import { Docks } from "./docks.js";
 import { download } from "./files.js";
 import { Session, alone, known, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
-async function engineOf(model) {
+async function engineFor(model) {
   const packed = model.get("program");
-  return packed.byteLength ? { run: await programOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)), here: true } : asking(model);
+  return packed.byteLength ? engineOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)) : asking(model);
 }
 
 /** Arrays that came in buffers. @param {DataView[]} buffers */
@@ -58,7 +58,7 @@ async function render({ model, el }) {
   /** @type {Promise<void>} */ let ready;
   const begin = () => (ready = starting());
   const starting = async () => {
-    const number = ++begun, first = !panel, engine = await engineOf(model), structure = structuredClone(model.get("structure"));
+    const number = ++begun, first = !panel, engine = await engineFor(model), structure = structuredClone(model.get("structure"));
     if (number < begun) return; // structure and program come together
     const before = panel;
     before?.end();
