@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import ipywidgets as w
 import numpy as np
 
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise, Segment
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, html, joined, table
+from ..quantities.types import Array
 from ..units import deg, factor, in_unit
 from ..views.laws import PROGRAM_VIEWS, ShownProgram
-from .kit.banner import Banner
-from .kit.controls import tables_html
-from .kit.layout import button, wrapped
-from .kit.number import NumberBox, staying
-from .kit.panel import IMPOSSIBLE, Panel
-from .kit.picture import LivePicture
+from .kit.drawn import LivePicture, nearest
+from .kit.inputs import Amount, Menu
+from .kit.parts import Banner, Button, Group, Message, Table, Words, row
 from .kit.quiet import Quiet
+from .kit.sheet import IMPOSSIBLE, Panel
 
 KINDS = ("rise", "dwell", "return")
 LEAST = 1 * deg
@@ -27,46 +24,48 @@ MOST = 10_000.0
 """More cannot be typed, in the unit shown."""
 GRID = 0.5
 """Dragged angles (deg) and lifts snap to multiples of this, in the unit shown."""
+HEIGHT = 250
+"""Pixels of each curve in the page."""
+REACH = 30
+"""Pixels from which a handle is taken hold of."""
 
 
-class LengthBox(NumberBox):
+class Length(Amount):
     """A box for an angle or a lift of at most `MOST` units."""
 
-    def _read(self, text: str) -> float:
-        value = super()._read(text)
-        if abs(value) > MOST:
-            raise ValueError(f"{value:g} {self.unit} was typed; it must be at most {MOST:g} {self.unit}")
-        return value
+    def take(self, message: Message) -> None:
+        """Another number; ``ValueError`` for one that is too large."""
+        value = float(message["value"])
+        if not abs(value) <= MOST:
+            told = f"{value:g} {self.unit} was typed; it must be at most {MOST:g} {self.unit}"
+            raise ValueError(f"the {self.description} stays as before: {told}")
+        self.value = value
 
 
 class SegmentRow:
     """One segment: kind, angle, lift, law."""
 
     def __init__(
-        self,
-        segment: Segment,
-        unit: str,
-        changed: Callable[[], None],
-        remove: Callable[[SegmentRow], None],
-        refused: Callable[[str], None],
+        self, segment: Segment, unit: str, changed: Callable[[], None], remove: Callable[[SegmentRow], None]
     ) -> None:
-        self.unit, self._refused = unit, refused
+        self.unit = unit
         kind = type(segment).__name__.lower()
         law = getattr(segment, "law", LAWS[2])
         laws = [(option.name, option) for option in (*LAWS, *(() if law in LAWS else (law,)))]
-        self.kind = w.Dropdown(options=KINDS, value=kind, layout=w.Layout(width="92px"))
-        self.angle = self._box("angle", "deg", in_unit(float(segment.angle), "deg"))
-        self.lift = self._box("lift", unit, in_unit(float(getattr(segment, "lift", 0.0)), unit))
-        self.law = w.Dropdown(options=laws, value=law, layout=w.Layout(width="210px"))
-        drop = button("", lambda: remove(self), "times", "34px", tooltip="remove this segment")
-        cells = [self.kind, self.angle, w.Label("deg"), self.lift, w.Label(unit), self.law, drop]
-        self.row = w.HBox(cells, layout=w.Layout(align_items="center"))
+        self.kind = Menu(KINDS, value=kind, tooltip="kind")
+        self.angle = Length(description="angle", unit="deg", value=in_unit(float(segment.angle), "deg"))
+        self.lift = Length(description="lift", unit=unit, value=in_unit(float(getattr(segment, "lift", 0.0)), unit))
+        self.law = Menu(laws, value=law, tooltip="law")
+        drop = Button("Remove", lambda: remove(self), tooltip="remove this segment")
+        self.row = row(self.kind, self.angle, self.lift, self.law, drop, look="segment")
+        self._show_moving()
+        self.kind.observe(lambda _: self._show_moving(), "value")
         for box in (self.kind, self.angle, self.lift, self.law):
             box.observe(lambda _: changed(), "value")
 
-    def _box(self, name: str, unit: str, value: float) -> NumberBox:
-        refused = staying(name, self._refused)
-        return LengthBox(value, refused, unit, meaning=f"{name}, {unit}", layout=w.Layout(width="84px"))
+    def _show_moving(self) -> None:
+        """A dwell has neither lift nor law."""
+        self.lift.visible = self.law.visible = self.kind.value != "dwell"
 
     def segment(self) -> Segment:
         """The segment as the row says it."""
@@ -92,13 +91,14 @@ class ProgramEditor(Panel):
         self._quiet = Quiet()
         self._held: int | None = None
         self.rows: list[SegmentRow] = []
-        self.numbers, self._list, self.banner = w.HTML(), w.VBox(), Banner()
+        self.numbers, self.verdicts, self.banner = Table(), Words(), Banner()
+        self._list = Group()
         self.picture = LivePicture(PROGRAM_VIEWS, "Displacement, velocity, acceleration and jerk", height=5.6)
-        self.picture.widget.on_pointer(self._pointer)
-        add = button("Add a segment", self._add, "plus")
-        reset = button("Reset", lambda: self.load(self.start), "undo")
-        left = w.VBox([self._list, w.HBox([add, reset])], layout=w.Layout(flex="0 1 600px"))
-        super().__init__([wrapped(left, self.numbers), self.banner, self.picture.widget])
+        self.picture.pixels = HEIGHT
+        self.picture.on_pointer(self._pointer)
+        add, reset = Button("Add a segment", self._add), Button("Reset", lambda: self.load(self.start))
+        left = Group(self._list, row(add, reset), self.banner, self.numbers, self.verdicts)
+        super().__init__(Group(left, self.picture, look="beside"))
         self.load(program)
 
     def load(self, program: MotionProgram) -> None:
@@ -107,28 +107,39 @@ class ProgramEditor(Panel):
         self._try(lambda: program)
 
     def _row(self, segment: Segment) -> SegmentRow:
-        changed = self._quiet.unless(self._changed)
-        return SegmentRow(segment, self.unit, changed, self._remove, self.banner.show_message)
+        return SegmentRow(segment, self.unit, self._quiet.unless(self._changed), self._remove)
 
     def _list_rows(self, rows: list[SegmentRow]) -> None:
-        self.rows, self._list.children = rows, [row.row for row in rows]
+        for k, each in enumerate(rows, 1):
+            each.row.description = f"segment {k}"
+        self.rows, self._list.children = rows, tuple(each.row for each in rows)
 
     def _changed(self) -> None:
         self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
 
     def _try(self, make: Callable[[], MotionProgram]) -> None:
         last = self.program
-        try:
-            self.program = make()
-            table = self._table_html()
-            self.picture.show(ShownProgram(self.program, self.unit))
-        except IMPOSSIBLE as refusal:
-            self.program = last
-            self.refuse_picture(f"This is no motion program: {refusal}.")
-            return
-        self.refuse_picture("")
-        self.numbers.value = table
+        with self.held():
+            try:
+                self.program = make()
+                peaks, verdicts = self._peaks(), self._verdicts()
+                self.picture.show(ShownProgram(self.program, self.unit))
+            except IMPOSSIBLE as refusal:
+                self.program = last
+                self.refuse_picture(f"This is no motion program: {refusal}.")
+                return
+            self.refuse_picture("")
+            self.numbers.put(("peak", "value", "at"), peaks)
+            self.verdicts.say(
+                *(verdict if lawful else {"words": verdict, "look": "missed"} for verdict, lawful in verdicts)
+            )
         self._tell_followers(self.program)
+
+    def refuse_picture(self, sentence: str) -> None:
+        """Show a sentence in place of the picture, its numbers and its verdicts; an empty one brings them back."""
+        with self.held():
+            super().refuse_picture(sentence)
+            self.verdicts.visible = not sentence
 
     def _add(self) -> None:
         rest = max(2 * np.pi - float(self.program.span), 0.0)
@@ -140,14 +151,14 @@ class ProgramEditor(Panel):
         self._list_rows([r for r in self.rows if r is not row])
         self._changed()
 
-    def _pointer(self, kind: str, x: float, y: float) -> None:
-        """Take hold of the nearest handle, and move it."""
+    def _pointer(self, view: int, kind: str, at: Array, pixel: Array) -> None:
+        """Take hold of the nearest handle of the displacement, and move it."""
         if kind == "press":
             levels = np.asarray(self.program.levels, dtype=float) / factor(self.unit)
             handles = np.column_stack([np.asarray(self.program.edges) / deg, levels])
-            self._held = self.picture.nearest(handles, x, y, within=30)
+            self._held = nearest(handles, at, pixel, within=REACH) if view == 0 else None
         elif kind == "drag" and self._held is not None:
-            self._move(self._held, *self.picture.in_data(x, y))
+            self._move(self._held, float(at[0]), float(at[1]))
         elif kind == "release":
             self._held = None
 
@@ -184,22 +195,17 @@ class ProgramEditor(Panel):
         """What happens at each transition, in the unit of the table, and whether it may."""
         return [(joint.text(self.unit), joint.lawful) for joint in self.program.transitions()]
 
-    def _table_html(self) -> Html:
-        peaks = self.program.peaks()
+    def _peaks(self) -> list[tuple[str, str, str]]:
+        """The largest of each derivative, and where."""
         names = (("velocity", "/rad"), ("acceleration", "/rad^2"), ("jerk", "/rad^3"))
-        rows = (
+        return [
             (
                 name,
                 f"{in_unit(float(p.value), self.unit):.5g} {self.unit}{per}",
                 f"{in_unit(float(p.cam_angle), 'deg'):.4g} deg",
             )
-            for (name, per), p in zip(names, peaks, strict=True)
-        )
-        verdicts = joined(
-            html("<div>{}</div>" if lawful else "<div class='camkit-missed'>{}</div>", verdict)
-            for verdict, lawful in self._verdicts()
-        )
-        return tables_html(table(("peak", "value", "at"), rows), html("<div>{}</div>", verdicts))
+            for (name, per), p in zip(names, self.program.peaks(), strict=True)
+        ]
 
     def summary(self) -> str:
         """Each joint's verdict."""

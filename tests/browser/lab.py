@@ -268,6 +268,19 @@ def kernel_value(page: Page, expression: str, timeout: float = 30) -> Any:
     return json.loads(ast.literal_eval(answer["data"]["text/plain"]))
 
 
+def in_picture(output: Locator, x: float, y: float, k: int = 0) -> tuple[float, float]:
+    """Where a place of picture ``k`` of a sheet, in its user units, is in the window."""
+    canvas = output.locator(".camkit-pictures canvas").nth(k)
+    canvas.scroll_into_view_if_needed()
+    place = """(canvas, [x, y]) => {
+        const { parts } = canvas.closest('.camkit-sheet').parentElement.camkit, box = canvas.getBoundingClientRect();
+        const chart = [...parts.values()].flatMap(({ part }) => part.charts ?? []).find((c) => c.canvas === canvas);
+        return [box.left + chart.x(x), box.top + chart.y(y)];
+    }"""
+    left, top = canvas.evaluate(place, [x, y])
+    return left, top
+
+
 def table_of_measures(
     measures: Iterable[Any], now: Any, first: Any, at_most: Mapping[Any, float], at_least: Mapping[Any, float]
 ) -> list[str]:

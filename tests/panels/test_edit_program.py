@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from sheets import alert, do, parts, press
 from try_everything import try_everything
 
 from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, edit_program, mm
+from camkit.panels.kit.parts import Button
 
 PROGRAM = MotionProgram(
     (
@@ -26,17 +28,10 @@ def rows(editor):
     return [(row.kind.value, row.angle.value, row.lift.value) for row in editor.rows]
 
 
-def share(editor, angle, lift):
-    """Where on the image (shares of width and height) a cam angle (deg) and a lift (mm) are."""
-    width, height = editor.picture.figure.canvas.get_width_height()
-    x, y = editor.picture.axes[0].transData.transform((angle, lift))
-    return x / width, 1 - y / height
-
-
-def drag(editor, start, end):
-    editor._pointer("press", *share(editor, *start))
-    editor._pointer("drag", *share(editor, *end))
-    editor._pointer("release", *share(editor, *end))
+def drag(editor, start, end, view=0):
+    """From a cam angle (deg) and a lift (mm) to others, in a picture whose pixels are 1 deg and 0.1 mm."""
+    for kind, at in (("press", start), ("drag", end), ("release", end)):
+        do(editor, editor.picture, does=kind, view=view, at=at, pixel=[1.0, 0.1])
 
 
 def test_rows_show_the_program(editor):
@@ -72,17 +67,46 @@ def test_a_joint_stops_at_its_neighbours(editor):
     assert editor.program.edges[1] == pytest.approx(134 * deg)
 
 
-def test_a_drag_beside_the_handles_moves_nothing(editor):
-    drag(editor, (250, 3), (260, 9))
+def test_a_drag_beside_the_handles_or_in_another_curve_moves_nothing(editor):
+    drag(editor, (250, 10), (260, 15))
+    drag(editor, (135, 20), (150, 20), view=1)
     assert editor.program == PROGRAM
+
+
+def test_the_curves_and_handles_are_those_of_the_program(editor):
+    drag(editor, (135, 20), (150, 26))
+    displacement = editor.picture.shown[0]
+    assert displacement["handles"].x == pytest.approx(editor.program.edges / deg)
+    assert displacement["handles"].y == pytest.approx([0, 0, 26, 26, 0, 0])
+    assert [line.split("  ")[0] for line in editor.numbers.text.splitlines()] == [
+        "peak", "velocity", "acceleration", "jerk"
+    ]  # fmt: skip
+    assert editor.verdicts.text == editor.summary()
+
+
+def test_a_dwell_shows_neither_lift_nor_law(editor):
+    row = editor.rows[0]
+    assert [row.lift.visible, row.law.visible] == [False, False]
+    do(editor, row.kind, value=row.kind.values.index("rise"))
+    assert row.lift.visible
+    assert row.law.visible
+
+
+def test_a_number_that_is_far_too_large_is_refused_and_the_last_one_stays(editor):
+    do(editor, editor.rows[1].angle, value=1e5)
+    assert alert(editor) == "The angle stays as before: 100000 deg was typed; it must be at most 10000 deg."
+    assert (editor.rows[1].angle.value, editor.program) == (90, PROGRAM)
+    do(editor, editor.rows[1].angle, value=80.0)
+    assert alert(editor) == ""
 
 
 def test_an_impossible_program_is_told_and_the_last_one_kept(editor):
     editor.rows[1].angle.value = 200
-    assert "the program spans 470 deg; it can span at most 360 deg" in editor.banner.value
+    assert "the program spans 470 deg; it can span at most 360 deg" in alert(editor)
     assert editor.program == PROGRAM
+    assert [part.visible for part in (editor.picture, editor.numbers, editor.verdicts)] == [False] * 3
     editor.rows[1].angle.value = 90
-    assert editor.banner.value == ""
+    assert alert(editor) == ""
 
 
 def test_followers_hear_of_every_possible_program(editor):
@@ -99,9 +123,10 @@ def test_the_verdict_names_a_broken_joint(editor):
 
 
 def test_segments_are_added_and_removed(editor):
-    editor._remove(editor.rows[-1])
+    remove = [button for button in parts(editor, Button) if button.description == "Remove"]
+    remove[-1].click()
     assert editor.program.span == pytest.approx(300 * deg)
-    editor._add()
+    press(editor, "Add a segment")
     assert rows(editor)[-1] == ("dwell", pytest.approx(60), 0)
 
 

@@ -150,6 +150,8 @@ class Group(Part):
     children = traitlets.Tuple()
     row = traitlets.Bool(False).tag(page=True)
     look = traitlets.Unicode("").tag(page=True)
+    description = traitlets.Unicode("").tag(page=True)
+    """What is read aloud before each part in it."""
 
     def __init__(self, *children: Part, row: bool = False, **given: object) -> None:
         super().__init__(children=children, row=row, **given)

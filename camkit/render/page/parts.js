@@ -84,6 +84,7 @@ export const PARTS = {
       menu.replaceChildren(...names.map((/** @type {string} */ words, /** @type {number} */ k) => make("option", { value: k }, words)));
       menu.value = chosen === null ? "" : String(chosen);
       Object.assign(menu, { disabled, title: tooltip });
+      if (!description) menu.setAttribute("aria-label", tooltip);
     } };
   },
 

@@ -97,7 +97,7 @@ export class Sheet {
       this.parts.set(state.id, known);
     }
     const text = JSON.stringify(own), done = known.sent >= 0 && known.sent <= this.answered;
-    if (known.sent < 0 ? text !== known.text : done) { known.text = text; known.sent = -1; known.part.show(own); }
+    if (known.sent < 0 || state.kind === "picture" ? text !== known.text : done) { known.text = text; known.sent = -1; known.part.show(own); }
     known.part.element.hidden = !state.visible || (state.kind === "table" && !state.head.length);
     if (children) hold(known.part.element, children.map((/** @type {any} */ child) => this._part(child).element));
     return known.part;
@@ -148,7 +148,10 @@ function hold(parent, children) {
 const KINDS = {
   group() {
     const element = make("div", {});
-    return { element, show(/** @type {any} */ { row, look }) { element.className = `camkit-group ${row ? "camkit-line" : ""} ${look && `camkit-${look}`}`; } };
+    return { element, show(/** @type {any} */ { row, look, description }) {
+      element.className = `camkit-group ${row ? "camkit-line" : ""} ${look && `camkit-${look}`}`;
+      if (description) { element.setAttribute("role", "group"); element.setAttribute("aria-label", description); }
+    } };
   },
 
   picture(_, { sheet, say, look, dark }) {
