@@ -5,23 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ..quantities import Measure, Quantity, label, with_quantities, words
 from ..quantities.kinds import a_number, refuse_arguments
-from ..quantities.markup import html, joined
+from ..quantities.types import Array
 from ..study.design_map import DesignMap
 from ..study.study import Study, WeightedSum, named_studies
 from ..units import factor
 from ..views.design_map import ShownPlane, objective_plane
 from .instrument import Instrument
-from .kit.banner import Banner
-from .kit.controls import NumberRow
+from .kit.drawn import LivePicture
+from .kit.inputs import Menu, Number
 from .kit.latest_only import Debounced
-from .kit.layout import button, column, menu, wrapped
-from .kit.panel import IMPOSSIBLE, Panel
-from .kit.picture import SETTLE, LivePicture
+from .kit.parts import Banner, Button, Group, Part, Words, bold, row
+from .kit.sheet import IMPOSSIBLE, Panel
+
+QUIET = 0.25
+"""Seconds after the last move until the optimum is looked for."""
 
 
 def optimum(plane: DesignMap) -> np.ndarray | None:
@@ -61,33 +62,31 @@ class ContourPanel(Panel):
     ) -> None:
         refuse_arguments(ContourPanel.__init__, locals())
         self.explorer, self.studies, self.steps = explorer, named_studies(studies, explorer.start), steps
-        self.menu = menu(list(self.studies), "problem", "auto", "66px")
+        self.menu = Menu(list(self.studies), "problem", visible=len(self.studies) > 1)
         self.menu.observe(lambda _: self._changed(), "value")
-        self.verdict, self.banner = w.HTML(), Banner()
+        self.verdict, self.banner = Words(), Banner()
         self.knobs = [self._knob(i, *item) for i, item in enumerate(weights.items(), start=1)]
         self.plane = DesignMap(self.study, n=steps)
         self.optimum: np.ndarray | None = None
         self._key: Any = None
         self._searched = False
-        self.later = Debounced(self._catch_up, SETTLE)
-        self.take = button("Load the optimum", lambda: self.load(self.optimum), "star", disabled=True)
-        self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=5.6)
-        self.picture.widget.on_click(self.clicked)
-        super().__init__([self._body()])
+        self.later = Debounced(self._catch_up, QUIET)
+        self.take = Button("Load the optimum", lambda: self.load(self.optimum), disabled=True)
+        self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=6.6)
+        self.picture.on_click(self.clicked)
+        super().__init__(self._body())
         self._changed()
         self.settle()
         explorer.on_change(lambda _: self.later.ask())  # the sliders' own pictures come first
 
-    def _knob(self, i: int, name: str, value: float) -> NumberRow:
+    def _knob(self, i: int, name: str, value: float) -> Number:
         a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)
         declared = Quantity(f"W_{i}", value, 0, max(1.0, value), "", f"weight of the {words(name)}", at_least=0)
-        return NumberRow(name, declared, value, self._changed, self.banner.show_message)
+        return Number(name, declared, value, self._changed, self.banner.show_message)
 
-    def _body(self) -> w.Widget:
-        take = w.HBox([self.take])
-        problem = [self.menu] if len(self.studies) > 1 else []
-        left = [*problem, *(knob.row for knob in self.knobs), take, self.banner, self.verdict]
-        return wrapped(column(left, 340, 560), column([self.picture.widget], 480, 740))
+    def _body(self) -> Part:
+        left = Group(self.menu, *self.knobs, row(self.take), self.banner, self.verdict)
+        return Group(left, self.picture, look="beside")
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -151,10 +150,11 @@ class ContourPanel(Panel):
 
     def _show(self) -> None:
         here = self.plane.study.x_of(self.explorer.design)
-        self.take.disabled = self.optimum is None
         first, *rest = self._lines()
-        self.verdict.value = joined([html("<b>{}</b>", first), *rest], "<br>")
-        self.picture.show(ShownPlane(self.plane, here, self.optimum if self._searched else self.plane.best_on_grid))
+        with self.held():
+            self.picture.show(ShownPlane(self.plane, here, self.optimum if self._searched else self.plane.best_on_grid))
+            self.take.disabled = self.optimum is None
+            self.verdict.say(bold(first), *rest)
 
     def _lines(self) -> list[str]:
         """The optimum in words: free quantities, parts of the objective, limits."""
@@ -176,12 +176,12 @@ class ContourPanel(Panel):
         free = dict(zip(self.plane.study.free, map(float, x), strict=True))
         self.explorer.load(with_quantities(self.plane.study.around(self.explorer.design).start, free))
 
-    def clicked(self, x: float, y: float) -> None:
-        """Load the design at a share of the picture's width and height."""
+    def clicked(self, view: int, at: Array, pixel: Array) -> None:
+        """Load the design at a place of the picture, unless it lies beyond the bounds."""
         low, high = self.plane.study.bounds
-        shown = self.picture.in_data(x, y) * np.array([factor(q.unit) for q in self.plane.declared])
-        if (low <= shown).all() and (shown <= high).all():
-            self.load(shown)
+        x = at * np.array([factor(q.unit) for q in self.plane.declared])
+        if (low <= x).all() and (x <= high).all():
+            self.load(x)
 
     def summary(self) -> str:
         """The problem, its weights and its optimum."""

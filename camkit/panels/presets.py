@@ -11,10 +11,10 @@ import ipywidgets as w
 from ..quantities import D
 from ..quantities.kinds import refuse_arguments
 from .instrument import Instrument
-from .kit.banner import Banner
-from .kit.layout import button, menu, wrapped
-from .kit.panel import IMPOSSIBLE, PanelStyle
+from .kit.inputs import Menu
+from .kit.parts import Banner, Button, row
 from .kit.quiet import Quiet
+from .kit.sheet import IMPOSSIBLE, Sheet
 
 Change = Callable[[D], D]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
@@ -34,17 +34,17 @@ class Presets(w.VBox):
         refuse_arguments(Presets.__init__, locals())
         self.explorer = explorer
         self._quiet = Quiet()
-        self.banner = Banner()
         self.menus = {name: self._menu(name, options) for name, options in menus.items()}
-        self.buttons = {words: button(words, partial(self._make, change)) for words, change in buttons.items()}
-        offers = wrapped(*self.menus.values(), *self.buttons.values())
-        super().__init__([PanelStyle(layout=w.Layout(display="none")), offers, self.banner, explorer])
-        self.add_class("camkit-panel")
+        self.buttons = {words: Button(words, partial(self._make, change)) for words, change in buttons.items()}
+        self.banner = Banner()
+        self.sheet = Sheet(row(*self.menus.values(), *self.buttons.values()), self.banner)
+        self.sheet.banner = self.banner
+        super().__init__([self.sheet, explorer])
         explorer.on_change(self._follow)
         self._follow(explorer.design)
 
-    def _menu(self, name: str, options: Mapping[str, Change]) -> w.Dropdown:
-        offers = menu(list(options.items()), name, "230px", value=None)
+    def _menu(self, name: str, options: Mapping[str, Change]) -> Menu:
+        offers = Menu(list(options.items()), name, value=None)
         self._quiet.hear(offers, lambda change: self._make(change) if change else None)
         return offers
 
@@ -52,14 +52,15 @@ class Presets(w.VBox):
         try:
             self.explorer.load(change(self.explorer.design))
         except IMPOSSIBLE as refusal:
+            self._follow(self.explorer.design)
             self.banner.show_message(f"This cannot be offered: {refusal}.")
         else:
             self._follow(self.explorer.design)
 
     def _follow(self, design: object) -> None:
         """Every menu shows which of its options the design is."""
-        self.banner.show_message("")
-        with self._quiet:
+        with self.sheet.held(), self._quiet:
+            self.banner.show_message("")
             for offers in self.menus.values():
                 offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 

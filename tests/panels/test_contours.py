@@ -3,12 +3,12 @@
 import itertools
 from dataclasses import dataclass
 
-import ipywidgets as w
 import numpy as np
 import pytest
 from hand import move
 from numpy.testing import assert_allclose
 from scipy.interpolate import RegularGridInterpolator
+from sheets import do, press
 from try_everything import try_everything
 
 from camkit import Measure, Study, explore
@@ -20,7 +20,6 @@ from camkit.motion import Cycloidal
 from camkit.panels.contours import contour_panel, optimum
 from camkit.quantities import Design, quantity
 from camkit.render.contours import level_curve
-from camkit.render.draw import artist_of
 from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
 from camkit.study.study import weighted
@@ -162,7 +161,6 @@ def workshop():
     panel = contour_panel(app, PROBLEMS, weights={"fullness": 0.5, "wear": 0.5}, steps=21)
     yield panel
     settled(panel)
-    panel.picture.settle()
 
 
 @pytest.fixture
@@ -170,7 +168,7 @@ def panel(workshop):
     """The panel as it is when it has just been opened."""
     workshop.menu.value = "nose deceleration"
     for knob in workshop.knobs:
-        knob.box.value = 0.5
+        do(workshop, knob, value=0.5)
     workshop.explorer.load(ValveCam())
     return settled(workshop)
 
@@ -181,19 +179,9 @@ def settled(panel):
     return panel
 
 
-def xy(panel, name):
-    return np.array(artist_of(panel.picture.axes[0], name).get_data(), dtype=float)
-
-
 def mark(panel, name):
-    return xy(panel, name).ravel()
-
-
-def press(panel, words):
-    def inside(box):
-        return [box, *(c for child in getattr(box, "children", ()) for c in inside(child))]
-
-    next(b for b in inside(panel) if isinstance(b, w.Button) and b.description == words).click()
+    shown = panel.picture.shown[0][name]
+    return np.ravel([shown.x, shown.y])
 
 
 def test_it_opens_with_the_optimum(panel):
@@ -208,7 +196,7 @@ def test_it_opens_with_the_optimum(panel):
 def test_weights_move_the_optimum(panel):
     panel.menu.value = "sign as printed"
     for typed, best in ((0.5, 4.827593), (0.62, 4.827593), (0.65, 20)):  # jumps at W1 = 0.5577: 0.5 of 0.8966
-        panel.knobs[0].box.value = typed
+        do(panel, panel.knobs[0], value=typed)
         settled(panel)
         assert_allclose(panel.optimum, (best, 20), atol=1e-5)
         assert_allclose(mark(panel, "optimum"), (best, 20), atol=1e-5)
@@ -217,7 +205,7 @@ def test_weights_move_the_optimum(panel):
 
 
 def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(panel):
-    before = xy(panel, "levels")
+    before = panel.picture.shown[0]["levels"].levels
     panel.menu.value = "sign as printed"
     assert panel.optimum is None
     assert "looking for the optimum" in panel.summary()
@@ -225,7 +213,7 @@ def test_the_objective_follows_a_weight_at_once_and_the_optimum_a_moment_later(p
     assert shown.feasible.all()
     assert_allclose(shown.f[0, 0], f[panel.plane.evaluation.feasible].min(), rtol=1e-12)
     assert panel.take.disabled
-    assert xy(panel, "levels").shape != before.shape
+    assert not np.allclose(panel.picture.shown[0]["levels"].levels, before)
     panel.settle()
     assert not panel.take.disabled
     assert panel.optimum is not None
@@ -263,7 +251,7 @@ def test_a_law_without_the_free_coefficients_is_surveyed_shaped():
     survey = contour_panel(explorer, study, {"wear": 1.0}, steps=5)
     explorer.load(cam.replace(rise_law=Cycloidal()))
     survey.settle()
-    assert survey.banner.value == ""
+    assert survey.banner.text == ""
     press(survey, "Load the optimum")
     assert explorer.design.rise_law.base == Cycloidal()
 
@@ -275,32 +263,30 @@ def test_a_design_outside_the_bounds_is_surveyed_too(panel):
     assert_allclose(panel.optimum, (20, 20))
 
 
-def test_the_optimum_and_aclicked_point_are_loaded(panel):
+def test_the_optimum_and_a_clicked_point_are_loaded(panel):
     press(panel, "Load the optimum")
     assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (20, 20), rtol=1e-12)
-    width, height = panel.picture.figure.canvas.get_width_height()
-    x, y = panel.picture.axes[0].transData.transform((8.0, 12.0))
-    panel.clicked(x / width, 1 - y / height)
+    do(panel, panel.picture, does="click", view=0, at=[8.0, 12.0], pixel=[0.05, 0.05])
     assert_allclose((panel.explorer.design.n, panel.explorer.design.m), (8, 12), rtol=1e-9)
-    panel.clicked(0.01, 0.99)  # beside the axes
+    do(panel, panel.picture, does="click", view=0, at=[2.0, 12.0], pixel=[0.05, 0.05])  # beyond the bounds
     assert_allclose(panel.explorer.design.n, 8, rtol=1e-9)
 
 
 def test_weights_that_are_all_0_are_refused_in_a_sentence(panel):
-    panel.knobs[0].box.value = 0
+    do(panel, panel.knobs[0], value=0)
     settled(panel)
     assert panel.weights == (0, 1)
-    panel.knobs[1].box.value = 0
-    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel.banner.value
+    do(panel, panel.knobs[1], value=0)
+    assert "This cannot be surveyed: all weights are 0; at least one must be above 0." in panel.banner.text
     settled(panel)
     assert_allclose(panel.optimum, (20, 20))
     assert "W_1 0, W_2 1" in panel.summary()
-    panel.knobs[1].box.value = 0.5
-    assert panel.banner.value == ""
+    do(panel, panel.knobs[1], value=0.5)
+    assert panel.banner.text == ""
 
 
 def test_every_control_comes_back(panel):
-    assert try_everything(panel) == 5
+    assert try_everything(panel) == 3
 
 
 def test_a_study_of_three_quantities_is_refused():
