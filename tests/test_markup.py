@@ -21,6 +21,7 @@ from camkit.decision import side_by_side
 from camkit.files.profiles import table_csv
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from camkit.panels import (
+    Instrument,
     ahp_panel,
     choose_panel,
     compare_fronts,
@@ -215,8 +216,9 @@ def widgets(box: w.Widget) -> list[w.Widget]:
 
 def assert_panel_harmless(panel, at_least: int = 1) -> None:
     """No HTML of the panel makes an element, and the name is told where it belongs."""
-    shown = [sheet for sheet in widgets(panel) if isinstance(sheet, Sheet)]  # their pages make text nodes of it
-    told = sum(json.dumps([sheet.body, sheet.heading]).count("onerror") for sheet in shown)
+    pages = [widget for widget in widgets(panel) if isinstance(widget, Sheet | Instrument)]  # which make text nodes
+    shown = [page.structure if isinstance(page, Instrument) else [page.body, page.heading] for page in pages]
+    told = json.dumps(shown).count("onerror")
     texts = [widget.value for widget in widgets(panel) if isinstance(widget, w.HTML)]
     for text in texts:
         assert_harmless(text)
