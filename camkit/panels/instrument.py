@@ -27,7 +27,7 @@ from ..quantities import (
     refuse_design,
     value_of,
 )
-from ..quantities.applied import a_path, raised
+from ..quantities.applied import a_new_file, raised
 from ..quantities.kinds import refuse_arguments, shown
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
@@ -306,7 +306,7 @@ class Instrument(anywidget.AnyWidget):
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""
-        a_path(path).write_text(self.html(), encoding="utf-8")
+        a_new_file(path).write_text(self.html(), encoding="utf-8")
 
     def html(self) -> str:
         """The page of the design as it is now, as one file."""

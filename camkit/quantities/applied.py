@@ -33,6 +33,14 @@ def raised(error: Exception) -> str:
     return f"{type(error).__name__}: {error}".removesuffix(": ")
 
 
+def a_new_file(path: str | os.PathLike[str]) -> Path:
+    """The path of a file in a folder that is there."""
+    file = a_path(path)
+    if not file.parent.is_dir():
+        raise ValueError(f"there is no folder {shown(str(file.parent))} to write {shown(file.name)} into")
+    return file
+
+
 def a_path(path: str | os.PathLike[str]) -> Path:
     """The path of a file that the system can name."""
     try:

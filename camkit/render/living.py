@@ -34,7 +34,7 @@ from ..quantities import (
     value_of,
     words,
 )
-from ..quantities.applied import a_path, applied
+from ..quantities.applied import a_new_file, applied
 from ..quantities.kinds import refuse_arguments
 from ..quantities.known import known
 from ..study.study import KEPT, refuse_limits
@@ -43,7 +43,7 @@ from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
 from .contours import outlined
 from .page_parts import PAGE, STYLE, in_html, look, script
-from .picture import VIEWPOINT, given_to, positions_of, turn_range
+from .picture import VIEWPOINT, given_to, made_by, positions_of, turn_range
 from .reasons import reason_of
 
 SIZE = np.array([400.0, 300.0])
@@ -157,7 +157,7 @@ class Living:
     ) -> Json:
         asked = {"limits": {measure: limits[-1][0] for measure, limits in self.limits.items()}, **position}
         with applied(f"the view {_name(view).replace('_', ' ')}", analysis):
-            return outputs.picture(view(analysis, **given_to(view, asked)), _name(view), why)
+            return outputs.picture(made_by(view, analysis, given_to(view, asked)), _name(view), why)
 
     @cached_property
     def _recorded(self) -> tuple[dict[str, Json], Program | None, str]:
@@ -385,4 +385,4 @@ def to_html(
     True
     """
     refuse_arguments(to_html, locals())
-    a_path(path).write_text(living(design, views, measures, at_most, at_least).html(), encoding="utf-8")
+    a_new_file(path).write_text(living(design, views, measures, at_most, at_least).html(), encoding="utf-8")

@@ -17,11 +17,12 @@ from PIL import Image
 from ..quantities import Analysable, Measure, Quantity, refuse_design, refuse_population, words
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, refuse_arguments
+from ..quantities.kinds import shown as said
 from ..study.study import refuse_limits
 from ..study.tolerances import ANGLES
 from ..units import deg
 from ..views.defaults import default_views
-from ..views.picture import View
+from ..views.picture import Picture, View
 from .draw import draw_picture, theme_style
 
 LARGEST = 100
@@ -112,6 +113,14 @@ def given_to(view: View, asked: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in asked.items() if name in takes}
 
 
+def made_by(view: View, analysis: object, given: Mapping[str, Any]) -> Picture:
+    """The picture that a view makes; ``ValueError`` for anything else that it gives."""
+    made = view(analysis, **given)
+    if not isinstance(made, Picture):
+        raise ValueError(f"the view {_name(view)} gives {said(made)}; a view gives a Picture")
+    return made
+
+
 def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: object) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
@@ -126,7 +135,7 @@ def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked:
             except TypeError as unfit:
                 raise ValueError(f"the view {_name(view)} cannot show an analysis: {unfit}") from None
             with applied(f"the view {_name(view)}", analysis):
-                draw_picture(view(analysis, **given), ax)
+                draw_picture(made_by(view, analysis, given), ax)
 
 
 def _name(view: View) -> str:

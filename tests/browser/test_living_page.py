@@ -14,7 +14,7 @@ from camkit.render import to_html
 from camkit.render.living import living
 from camkit.render.page_parts import script
 from camkit.render.picture import given_to, positions_of
-from camkit.views import default_views, pressure_angle
+from camkit.views import default_views, mechanism, pressure_angle
 from camkit.views.picture import Axes, Contour, Line, Picture, Points, Text
 
 MOST_BYTES = 500_000
@@ -210,6 +210,17 @@ def test_the_scale_only_makes_room_while_it_turns_and_the_pinned_design_turns_to
     pinned = page.evaluate("Array.from(camkit.ghost.values)")
     assert pinned[0] == design.lift_arm
     assert pinned[-1] == pytest.approx(2.9)
+
+
+def test_trouble_is_named_where_it_is_and_symbols_have_lowered_indices(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    (trouble,) = page.evaluate("camkit.shown().pictures[0].troubles")
+    cuts = [mark for mark in mechanism(design.analyse()).marks if mark.role == "trouble"]
+    places = np.concatenate([np.transpose([cut.x, cut.y]) for cut in cuts])
+    assert trouble["words"] == "undercut"
+    assert np.nanmin(np.hypot(*(places - [trouble["x"], trouble["y"]]).T)) < 1e-9
+    assert page.evaluate("[...document.querySelectorAll('.camkit-row sub')].some((e) => e.textContent === 'T')")
 
 
 def test_a_tab_chooses_what_stands_at_the_right_and_others_can_be_added(opened):

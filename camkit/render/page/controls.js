@@ -1,6 +1,6 @@
 // The controls of a page: a row for each quantity, with a slider to drag and a box to type in; native elements all.
 import { spansInWords } from "./spans.js";
-import { format, letters, parse, pretty } from "./numbers.js";
+import { format, indexed, parse, pretty } from "./numbers.js";
 
 /** An element with attributes and children; every text is a text node.
  * @param {string} tag @param {Record<string, any>} [attributes] @param {...(Node | string)} children @returns {any} */
@@ -14,6 +14,9 @@ export function make(tag, attributes = {}, ...children) {
   element.append(...children);
   return element;
 }
+
+/** A text in which symbols stand, their indices lowered. @param {string} text @returns {(Node | string)[]} */
+export const lettered = (text) => indexed(text).map((piece, k) => (k % 2 ? make("sub", {}, piece) : piece));
 
 /** A step of a slider: round, some hundreds of them from end to end. @param {number} low @param {number} high */
 export function stepOf(low, high) {
@@ -38,7 +41,7 @@ export class Row {
     /** @type {import("./spans.js").Span[]} */ this.spans = [];
     this.refusal = make("div", { class: "camkit-refusal", role: "alert" });
     const title = meaning && meaning !== name ? `${name}: ${meaning}` : name;
-    const label = make("label", { title }, inGroup, " ", symbol === name ? "" : make("i", {}, letters(symbol)));
+    const label = make("label", { title }, inGroup, " ", symbol === name ? "" : make("i", {}, ...lettered(symbol)));
     this.element = make("div", { class: "camkit-row" }, label,
       make("span", { class: "camkit-box" }, this.box, this.after), this.slider, this.track, this.refusal);
     this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * this.factor, false));

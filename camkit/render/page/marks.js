@@ -124,15 +124,21 @@ export const DRAW = {
     return drawn;
   },
   text(chart, mark, outputs, tint) {
-    const { pen } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
-    const [p, q] = [chart.x(x), chart.y(y)], at = mark.anchor.split(" "), size = mark.size * 1.1 * chart.em;
+    const { pen, box } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
+    const small = chart.compact && !chart.axes.equal && !chart.axes.bare; // there is room for one line above a curve
+    let p = chart.x(x);
+    const q = chart.y(y), at = mark.anchor.split(" "), size = mark.size * (small ? 1 : 1.1) * chart.em;
     if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
     const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
     const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
     pen.font = `${mark.bold ? 600 : 400} ${size}px ${LETTERS}`;
     pen.textAlign = /** @type {CanvasTextAlign} */ (across); pen.textBaseline = /** @type {CanvasTextBaseline} */ (upright);
-    const lines = words.split("\n"), wide = Math.max(...lines.map((line) => pen.measureText(line).width));
-    const tall = lines.length * size * 1.25;
+    const lines = small ? [words.split("\n").join(" ")] : words.split("\n");
+    const wide = Math.max(...lines.map((line) => pen.measureText(line).width)), tall = lines.length * size * 1.25;
+    if (small) {
+      const before = across === "left" ? 0 : across === "right" ? wide : wide / 2;
+      p = Math.max(Math.min(p, box.right - wide + before), box.left + before);
+    }
     if (mark.boxed || mark.framed) {
       const left = across === "left" ? p : across === "right" ? p - wide : p - wide / 2;
       const top = upright === "top" ? q : upright === "bottom" ? q - tall : q - tall / 2;
@@ -142,7 +148,11 @@ export const DRAW = {
     }
     pen.fillStyle = mark.framed ? chart.colour("ink") : READABLE[mark.role] ? chart.ink(mark.role) : tint;
     const first = q - (upright === "top" ? 0 : upright === "bottom" ? tall - size * 1.25 : (tall - size * 1.25) / 2);
-    lines.forEach((line, k) => pen.fillText(line, p, first + k * size * 1.25));
+    pen.lineWidth = 3; pen.setLineDash([]); pen.strokeStyle = chart.colour("paper"); pen.lineJoin = "round";
+    lines.forEach((line, k) => {
+      if (small) pen.strokeText(line, p, first + k * size * 1.25); // readable across a curve
+      pen.fillText(line, p, first + k * size * 1.25);
+    });
     return { x: [x], y: [y], words };
   },
 };

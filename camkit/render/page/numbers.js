@@ -204,6 +204,7 @@ const GREEK = (
   "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho final sigma tau upsilon " +
   "phi chi psi omega"
 ).split(" ");
+const INDEXED = /\b([A-Za-z]+)_([A-Za-z0-9]+)\b/g;
 const INDICES = "0123456789aehijklmnoprstuvx", SUBSCRIPTS = "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ";
 const subscript = (index) => [...index].map((c) => SUBSCRIPTS[INDICES.indexOf(c)] ?? "_").join("");
 
@@ -214,13 +215,31 @@ const subscript = (index) => [...index].map((c) => SUBSCRIPTS[INDICES.indexOf(c)
  */
 export function letters(symbol) {
   return symbol
-    .replace(/\b([A-Za-z]+)_([A-Za-z0-9]+)\b/g, (word, letter, index) => {
+    .replace(INDEXED, (word, letter, index) => {
       const known = greek(letter), below = greek(index);
       if (known.length > 1) return word; // a name, not a letter with an index
       return known + (subscript(below).includes("_") ? below : subscript(below)); // there is no small B
     })
     .replace(/[A-Za-z]+/g, greek)
     .replace(/\^([+-]?[\d.]+)/g, (_, power) => raised(power));
+}
+
+/**
+ * The same in pieces, for a reader with lowered letters: text and index in turn, text first and last.
+ * @param {string} symbol
+ * @returns {string[]}
+ */
+export function indexed(symbol) {
+  const pieces = [""], add = (text) => { pieces[pieces.length - 1] += text; };
+  let from = 0;
+  for (const { 0: word, 1: letter, 2: index, index: at } of symbol.matchAll(INDEXED)) {
+    if (greek(letter).length > 1) continue; // a name, not a letter with an index
+    add(letters(symbol.slice(from, at)) + greek(letter));
+    pieces.push(greek(index), "");
+    from = at + word.length;
+  }
+  add(letters(symbol.slice(from)));
+  return pieces;
 }
 
 function greek(name) {

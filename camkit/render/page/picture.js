@@ -1,7 +1,7 @@
 // Draws pictures as data on a canvas: axes, and marks with roles.  It knows neither cams nor their numbers.
 import { format, pretty } from "./numbers.js";
 import { DRAW, FORMS, LETTERS, POINT, READABLE, REACH, circle, found, many, one, real, stroke, trace } from "./marks.js";
-import { degreeTicks, scale, ticks } from "./scales.js";
+import { between, degreeTicks, scale, short, ticks } from "./scales.js";
 
 /**
  * @typedef {import("./marks.js").Mark} Mark
@@ -43,9 +43,10 @@ export class Chart {
     this.now = how.cursor === undefined ? [] : this.valuesAt(how.cursor);
     this._place(width, height);
     this._frame();
-    this.list = { name: this.picture.name, window: { ...this.window }, marks: [] };
+    this.list = { name: this.picture.name, window: { ...this.window }, marks: [], troubles: [] };
     if (how.ghost) for (const { mark } of marks) this._ghost(mark, how.ghost);
     for (const { mark } of marks) this._mark(mark, outputs);
+    if (axes.equal) this._nameTroubles(marks.map(({ mark }) => mark).filter(({ role, kind }) => role === "trouble" && kind === "line"));
     this._cursor();
     this._title(width);
   }
@@ -106,7 +107,8 @@ export class Chart {
       for (const name of up) widen("y", many(mark[name], outputs), by);
       if (mark.kind === "band" && mark.along === "y") widen("x", [one(mark.low, outputs), one(mark.high, outputs)]);
     }
-    const scattered = !this.picture.marks.some(({ kind, role }) => ["line", "area", "polygon"].includes(kind) && role !== "guide" && role !== "limit");
+    const drawn = ["line", "area", "polygon"];
+    const scattered = !this.picture.marks.some(({ kind, role }) => drawn.includes(kind) && role !== "guide" && role !== "limit");
     /** @param {"x"|"y"} name */
     const ends = (name) => {
       const asked = found(axes[`${name}lim`], outputs) ?? [null, null], log = axes.log.includes(name);
@@ -172,27 +174,39 @@ export class Chart {
       return (degrees ? degreeTicks(low, high, room) : ticks(low, high, room)).map((v) => [v / ratio, short(v)]);
     };
     pen.textBaseline = "top"; pen.textAlign = "center";
-    for (const [at, words] of marks("x")) {
-      const p = this.x(at);
-      if (p < box.left - 0.5 || p > box.right + 0.5) continue;
-      if (axes.grid) stroke(pen, grid, [[p, box.top], [p, box.bottom]]);
-      pen.fillStyle = ink;
-      const half = pen.measureText(words).width / 2;
-      pen.fillText(words, Math.min(Math.max(p, box.left - 4 + half), box.right - half), box.bottom + 4);
+    const below = marks("x").filter(([at]) => this.x(at) > box.left - 0.5 && this.x(at) < box.right + 0.5).map(([at, words]) => {
+      const half = pen.measureText(words).width / 2, middle = Math.min(Math.max(this.x(at), box.left - 4 + half), box.right - half);
+      return { at, words, middle, left: middle - half, right: middle + half };
+    });
+    const named = this._named(below);
+    pen.fillStyle = ink;
+    for (const { at, words, middle, left, right } of below) {
+      if (axes.grid) stroke(pen, grid, [[this.x(at), box.top], [this.x(at), box.bottom]]);
+      if (!named || right < named.left || left > named.right) pen.fillText(words, middle, box.bottom + 4);
     }
+    if (named) pen.fillText(axes.xlabel, (named.left + named.right) / 2, box.bottom + 4);
     pen.textBaseline = "middle"; pen.textAlign = "right";
     for (const [at, words] of marks("y")) {
       const p = this.y(at);
       if (p < box.top - 0.5 || p > box.bottom + 0.5) continue;
       if (axes.grid) stroke(pen, grid, [[box.left, p], [box.right, p]]);
       pen.fillStyle = ink;
-      const lines = words.split("\n");
-      lines.forEach((/** @type {string} */ line, /** @type {number} */ k) => pen.fillText(line, box.left - 5, p + (k - (lines.length - 1) / 2) * 12.5 * em));
+      const lines = words.split("\n"), first = p - ((lines.length - 1) / 2) * 12.5 * em;
+      lines.forEach((/** @type {string} */ line, /** @type {number} */ k) => pen.fillText(line, box.left - 5, first + k * 12.5 * em));
     }
     if (!this.compact && axes.xlabel && !axes.equal) {
       pen.textAlign = "right"; pen.textBaseline = "bottom";
       pen.fillText(axes.xlabel, box.right, box.bottom + 33 * em);
     }
+  }
+
+  /** Where the name of the first axis stands in a small picture: before its last number, if there is room between that and
+   * the first one. @param {{left: number, right: number}[]} below the numbers */
+  _named(below) {
+    const { axes, pen } = this, apart = 6, wide = pen.measureText(axes.xlabel).width;
+    if (!this.compact || axes.equal || !axes.xlabel || below.length < 2) return null;
+    const right = below[below.length - 1].left - apart;
+    return right - wide - apart > below[0].right ? { left: right - wide, right } : null;
   }
 
   /** Each labelled mark that is there, once: its name, its value at the position that is shown, its colour, its form.
@@ -289,6 +303,25 @@ export class Chart {
     this.list.marks.push({ key: mark.key, kind: mark.kind, role: mark.role, ...drawn });
   }
 
+  /** The name of what is wrong beside each place; of several flanks one may bear it for all. @param {Mark[]} marks */
+  _nameTroubles(marks) {
+    const words = this.how.words(marks.find(({ label }) => label)?.label ?? "");
+    for (const mark of words ? marks : []) this._nameTrouble(mark, words);
+  }
+
+  /** @param {Mark} mark @param {string} words */
+  _nameTrouble(mark, words) {
+    const { pen, box, em } = this, x = many(mark.x ?? [], this.outputs), y = many(mark.y ?? [], this.outputs);
+    const there = Array.from(x, (v, i) => i).filter((i) => real(x[i]) && real(y[i])), i = there[there.length >> 1];
+    if (i === undefined) return;
+    this.letters(11, 600);
+    const left = Math.min(this.x(x[i]) + 9, box.right - pen.measureText(words).width), up = Math.max(this.y(y[i]) - 9, box.top + 8 * em);
+    pen.textAlign = "left"; pen.textBaseline = "middle"; pen.lineWidth = 3; pen.setLineDash([]);
+    pen.strokeStyle = this.colour("paper"); pen.strokeText(words, left, up);
+    pen.fillStyle = this.ink("trouble"); pen.fillText(words, left, up);
+    this.list.troubles.push({ words, x: x[i], y: y[i] });
+  }
+
   /** Draw inside the axes only, and so far around them. @param {number} across @param {number} up */
   _clip(across, up) {
     const { pen, box: { left, right, top, bottom } } = this;
@@ -375,25 +408,8 @@ export class Chart {
   fit() { this.zoomed = this.window = null; }
 }
 
-/** Numbers beside an axis. @param {number} value */
-const short = (value) => String(+value.toPrecision(6)).replace("-", "\u2212");
-
 /** The unit in an axis's name. */
 const UNIT = /\[(.*?)\]/;
 
 /** The name of an axis with its unit as it is printed. @param {string} words */
 const axisName = (words) => words.replace(UNIT, (_, unit) => `[${pretty(unit)}]`);
-
-/** What a curve is at a place between its points, which may go either way.
- * @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} at */
-function between(x, y, at) {
-  for (let i = 1; i < x.length; i++) {
-    const [a, b] = [x[i - 1], x[i]];
-    if ((a <= at && at <= b) || (b <= at && at <= a)) {
-      const value = y.length === 1 ? y[0] : b === a ? y[i] : y[i - 1] + ((y[i] - y[i - 1]) * (at - a)) / (b - a);
-      if (real(value)) return value;
-    }
-  }
-  return NaN;
-}
-

@@ -28,3 +28,20 @@ export function scale(ends, from, to) {
   place.back = (pixel) => { const v = low + ((pixel - from) * span) / (to - from); return ends.log ? 10 ** v : v; };
   return place;
 }
+
+/** Numbers beside an axis. @param {number} value */
+export const short = (value) => String(+value.toPrecision(6)).replace("-", "\u2212");
+
+/** What a curve is at a place between its points, which may go either way.
+ * @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} at */
+export function between(x, y, at) {
+  for (let i = 1; i < x.length; i++) {
+    const [a, b] = [x[i - 1], x[i]];
+    if ((a <= at && at <= b) || (b <= at && at <= a)) {
+      const value = y.length === 1 ? y[0] : b === a ? y[i] : y[i - 1] + ((y[i] - y[i - 1]) * (at - a)) / (b - a);
+      if (Number.isFinite(value)) return value;
+    }
+  }
+  return NaN;
+}
+

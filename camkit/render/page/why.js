@@ -1,6 +1,6 @@
 // Why a measure is what it is: a card with its formula, its source, the test that holds it, and what each slider does to it.
-import { make } from "./controls.js";
-import { format, letters, pretty } from "./numbers.js";
+import { lettered, make } from "./controls.js";
+import { format, pretty } from "./numbers.js";
 
 const WAIT = 400; // ms that a pointer rests on a measure before its card comes
 const SHARE = 0.01; // of a slider's range, for slopes
@@ -44,10 +44,10 @@ export class Why {
     Object.assign(this, { at, measure });
     const { why } = measure, now = this.panel.numbers.find((/** @type {any} */ m) => m.name === measure.name);
     const line = (/** @type {string} */ name, /** @type {string} */ words) =>
-      make("p", {}, make("b", {}, `${name} `), letters(words.replace(/``?/g, "")));
+      make("p", {}, make("b", {}, `${name} `), ...lettered(words.replace(/``?/g, "")));
     this.bars = make("div", { class: "camkit-slopes" });
     this.element.replaceChildren(
-      make("h2", {}, letters(measure.name), " ", now?.text ?? ""),
+      make("h2", {}, ...lettered(measure.name), " ", now?.text ?? ""),
       ...(why.formula.length ? why.formula : ["No formula is given."]).map((/** @type {string} */ words) => line("", words)),
       line("Source:", why.source || "none is named"), line("Held by:", why.test || "no test is named"), this.bars);
     this.element.hidden = false;
