@@ -1,7 +1,7 @@
 // Draws pictures as data on a canvas: axes, and marks with roles.  It knows neither cams nor their numbers.
 import { format, pretty } from "./numbers.js";
 import { DRAW, FORMS, LETTERS, POINT, READABLE, REACH, circle, found, many, one, real, stroke, trace } from "./marks.js";
-import { between, degreeTicks, scale, short, ticks } from "./scales.js";
+import { between, degreeTicks, logTicks, scale, short, ticks } from "./scales.js";
 
 /**
  * @typedef {import("./marks.js").Mark} Mark
@@ -169,7 +169,7 @@ export class Chart {
       const long = name === "x" ? box.right - box.left : box.bottom - box.top;
       const apart = axes.equal ? Math.max(60 * em, (box.right - box.left) / 10, (box.bottom - box.top) / 10) : 60 * em;
       const room = axes.equal || name === "x" ? long / apart : Math.min(long / (34 * em), 4.5);
-      if (log) return ticks(Math.log10(low), Math.log10(high), Math.min(room, 6)).map((p) => [10 ** p / ratio, short(10 ** p)]);
+      if (log) return logTicks(low, high, room).map((v) => [v / ratio, short(v)]);
       const degrees = name === "x" && /\[°\]/.test(axes.xlabel) && high - low > 60;
       return (degrees ? degreeTicks(low, high, room) : ticks(low, high, room)).map((v) => [v / ratio, short(v)]);
     };

@@ -11,6 +11,21 @@ export function ticks(low, high, count) {
   return marks;
 }
 
+/** Round numbers along a logarithmic scale: powers of ten and, where there is room for them, 2 and 5 times those.
+ * @param {number} low @param {number} high @param {number} count */
+export function logTicks(low, high, count) {
+  const first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high));
+  const inside = (/** @type {number[]} */ parts, every = 1) => {
+    const marks = [];
+    for (let power = first; power <= last; power += every) marks.push(...parts.map((part) => +`${part}e${power}`));
+    return marks.filter((mark) => mark >= low * (1 - 1e-9) && mark <= high * (1 + 1e-9));
+  };
+  const few = inside([1, 2, 5]), powers = inside([1]);
+  if (few.length < 3) return ticks(low, high, count);
+  if (few.length <= count) return few;
+  return inside([1], Math.max(1, Math.ceil(powers.length / count)));
+}
+
 /** Ticks of an angle in degrees, if it goes round: 0, 90, 180 ... @param {number} low @param {number} high @param {number} count */
 export function degreeTicks(low, high, count) {
   const step = [15, 30, 45, 60, 90, 180].find((s) => (high - low) / s <= count + 1) ?? 360;

@@ -1,0 +1,28 @@
+"""Round numbers along the axes of the page's pictures."""
+
+from pathlib import Path
+
+import pytest
+
+import camkit.render
+
+SOURCE = Path(camkit.render.__file__).parent / "page/scales.js"
+CALL = """([source, ends]) => import(URL.createObjectURL(new Blob([source], {type: "text/javascript"})))
+    .then(scales => scales.logTicks(...ends))"""
+
+
+@pytest.mark.parametrize(
+    ("ends", "marks"),
+    [
+        ((1, 87, 8), [1, 2, 5, 10, 20, 50]),
+        ((1, 1000, 8), [1, 10, 100, 1000]),
+        ((1, 1000, 10), [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]),
+        ((1e-5, 1e3, 4), [1e-5, 1e-2, 10]),
+        ((3, 7, 4), [3, 4, 5, 6, 7]),
+        ((0.3, 0.3, 4), []),
+    ],
+)
+def test_logarithmic_scales_have_ticks_at_round_numbers(browser, ends, marks):
+    page = browser.new_page()
+    assert page.evaluate(CALL, [SOURCE.read_text(encoding="utf-8"), ends]) == pytest.approx(marks, rel=1e-12)
+    page.close()
