@@ -10,8 +10,9 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
-from camkit.decision import CHOOSERS, judgement_ranges, side_by_side
+from camkit.decision import CHOOSERS, judgement_ranges, side_by_side, weighted_sum
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
+from camkit.views.decision import triangle
 from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
@@ -39,7 +40,22 @@ def _kept_if_it_fails(page: Page, request: pytest.FixtureRequest) -> Iterator[No
 
 
 def panel(page: Page, words: str) -> Any:
-    return page.locator(".camkit-panel").filter(has_text=words)
+    return page.locator(".camkit-sheet").filter(has_text=words)
+
+
+# Where a point of one of a sheet's pictures stands in the window.
+PLACE = """(root, [name, x, y]) => {
+    const charts = [...root.parentElement.camkit.parts.values()].flatMap(({ part }) => part.charts ?? []);
+    const chart = charts.find(({ list }) => list?.name === name), box = chart.canvas.getBoundingClientRect();
+    return [box.left + chart.x(x), box.top + chart.y(y)];
+}"""
+
+
+def drawn(sheet: Any, name: str) -> dict[str, Any]:
+    """The marks that the page has drawn in one of a sheet's pictures, by key."""
+    pictures = sheet.evaluate("root => root.parentElement.camkit.shown().pictures.filter(Boolean)")
+    (marks,) = [picture["marks"] for picture in pictures if picture["name"] == name]
+    return {mark["key"]: mark for mark in marks}
 
 
 def front(page: Page) -> np.ndarray:
@@ -50,7 +66,7 @@ def front(page: Page) -> np.ndarray:
 def decided(page: Page, judgements: list[Any]) -> None:
     """Weights, winners and how far the judgements may move are on the page as the package has them."""
     f, weights = front(page), ahp(judgements).weights
-    expect(panel(page, "What matters more?").locator("td b")).to_have_text([f"{w:.4f}" for w in weights])
+    expect(panel(page, "What matters more?").locator("td.camkit-bold")).to_have_text([f"{w:.4f}" for w in weights])
     decision = panel(page, "load the winner by")
     for rule, choose in CHOOSERS.items():
         i = choose(f, weights)
@@ -87,15 +103,8 @@ def test_judging_by_keyboard_moves_weights_and_winners(page: Page) -> None:
 
 def test_a_drag_along_an_axis_brushes_the_front(page: Page) -> None:
     decision = panel(page, "load the winner by")
-    image = decision.locator("img.camkit-image").first
-    image.scroll_into_view_if_needed()
-    box = image.bounding_box()
-    assert box
-    size = kernel_value(page, "panel.pictures[0].figure.canvas.get_width_height()")
-    points = kernel_value(page, "panel.pictures[0].axes[0].transData.transform([[1, 0.25], [1, 0.7]])")
-    (x, y0), (_, y1) = [(box["x"] + p / size[0] * box["width"], box["y"] + (1 - q / size[1]) * box["height"])
-                        for p, q in points]  # fmt: skip
-    shown = image.get_attribute("src")
+    decision.get_by_role("group", name="Designs of the front").scroll_into_view_if_needed()
+    (x, y0), (_, y1) = (decision.evaluate(PLACE, ["brushed designs", 1, share]) for share in (0.25, 0.7))
     page.mouse.move(x, y0)
     page.mouse.down()
     page.mouse.move(x, y1, steps=6)
@@ -105,13 +114,35 @@ def test_a_drag_along_an_axis_brushes_the_front(page: Page) -> None:
     low, high = (forces.min() + share * np.ptp(forces) for share in (0.25, 0.7))
     expect(decision).to_contain_text(re.compile(r"\d+ of 171 designs kept"))
     expect(decision).not_to_contain_text("171 of 171 designs kept")
+    eventually(lambda: kernel_value(page, "panel.designs.bands[1][1]") > forces.min() + 0.68 * np.ptp(forces))
     band = kernel_value(page, "panel.designs.bands[1]")
     np.testing.assert_allclose(band, (low, high), atol=0.02 * np.ptp(forces))
     inside = int(((band[0] <= forces) & (forces <= band[1])).sum())
     expect(decision).to_contain_text(f"{inside} of 171 designs kept")
-    assert image.get_attribute("src") != shown
+    heights = (np.array(band) - forces.min()) / np.ptp(forces)
+    eventually(lambda: np.allclose(as_list(drawn(decision, "brushed designs")["band 1"]["y"])[1:3], heights))
+    assert len(as_list(drawn(decision, "front winners")["kept"]["x"])) == inside
     decision.get_by_role("button", name="Keep all").click()
     expect(decision).to_contain_text("171 of 171 designs kept")
+    eventually(lambda: "band 1" not in drawn(decision, "brushed designs"))
+
+
+def test_a_click_on_a_line_loads_its_design_and_one_on_the_map_its_winner(page: Page) -> None:
+    decision = panel(page, "load the winner by")
+    decision.get_by_role("group", name="Designs of the front").scroll_into_view_if_needed()
+    page.mouse.click(*decision.evaluate(PLACE, ["brushed designs", 0, 1.0]))
+    f = front(page)
+    eventually(lambda: kernel_value(page, f"app.design == finder.front[{f[:, 0].argmax()}]"))
+    eventually(lambda: len(as_list(drawn(decision, "brushed designs")["in the sliders"]["x"])) > 1)
+    decision.get_by_role("group", name="Winners by weight").scroll_into_view_if_needed()
+    weights = np.array([0.1, 0.1, 0.8])
+    page.mouse.click(*decision.evaluate(PLACE, ["winners by weight", *triangle(weights).tolist()]))
+    eventually(lambda: kernel_value(page, f"app.design == finder.front[{weighted_sum(f, weights)}]"))
+
+
+def as_list(values: Any) -> list[float]:
+    """An array of the page, which comes as an object."""
+    return list(values.values()) if isinstance(values, dict) else values
 
 
 def test_the_bands_handles_are_called_after_the_axis_and_move_with_the_keys(page: Page) -> None:
@@ -145,7 +176,7 @@ def test_the_tray_exports_what_it_shows(page: Page) -> None:
     for line in table.lines:
         missed = [f"{text} not met" if bad else text for text, bad in zip(line.texts, line.missed, strict=True)]
         cells += [line.name, *missed, line.limit]
-    expect(tray.locator(".camkit-tables td")).to_have_text(cells)
+    expect(tray.locator("td")).to_have_text(cells)
 
     for button, name, content in (
         ("Save as Markdown", "designs.md", table.markdown()),
