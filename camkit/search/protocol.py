@@ -87,7 +87,8 @@ class Step:
     def seconds_left(self) -> float:
         """How long the search still takes, if it goes on as it did; ``nan`` where that cannot be known."""
         seconds = self.record.get("seconds", np.nan)
-        return float(seconds / self.number * (self.of - self.number)) if self.of else np.nan
+        known = self.of and self.number
+        return float(seconds / self.number * (self.of - self.number)) if known else np.nan
 
     @property
     def summary(self) -> Evaluated:
