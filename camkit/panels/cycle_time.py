@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-import ipywidgets as w
-
 from ..quantities import Measure, Quantity
 from ..quantities.kinds import a_number, refuse_arguments
 from ..search.cycle_time import INTERVALS, IntervalStep, cycle_time_steps
@@ -14,10 +12,10 @@ from ..study.study import Study, named_studies
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
 from .instrument import Instrument
-from .kit.controls import NumberRow
-from .kit.layout import button, menu
-from .kit.picture import LivePicture
-from .kit.runner import JobPanel, Runner, told
+from .kit.drawn import LivePicture
+from .kit.inputs import Menu, Number
+from .kit.parts import Button, Part, Words, bold
+from .kit.runner import JobPanel, Runner
 
 TOLERANCE = 0.1 * deg
 """To which the interval is found."""
@@ -44,7 +42,7 @@ class CycleTimePanel(JobPanel):
         a_number(limit, "the limit", "be a finite number above 0", lambda most: most > 0)
         self.explorer, self.studies = explorer, named_studies(studies, explorer.start)
         self.intervals = tuple(intervals)
-        self.problem = menu(list(self.studies), "problem", "100%", "112px")
+        self.problem = Menu(list(self.studies), "problem")
         self.measure: Measure = self._study().minimise[0]
         self._search(limit, shortest, longest)  # refuses at once what cannot be searched
         self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, self.studies)
@@ -52,29 +50,27 @@ class CycleTimePanel(JobPanel):
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
         self.steps: list[IntervalStep] = []
-        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="150px"))
-        self.take = button("Load the design", self.load, "star", disabled=True)
-        self.verdict = w.HTML()
+        self.take = Button("Load the design", self.load, disabled=True)
+        self.verdict = Words()
         self.picture = LivePicture((intervals_tried,), "Intervals tried", width=6.6, height=3.9)
         self.picture.show(ShownIntervals(self.measure, limit, ()))
-        super().__init__([self._beside_picture(self._asked())])
+        super().__init__(self._beside_picture(*self._questions()))
+        explorer.add_tab("Cycle time", self)
 
-    def _limit_knob(self, limit: float) -> NumberRow:
+    def _limit_knob(self, limit: float) -> Number:
         unit = self.measure.unit
         shown = in_unit(limit, unit)
         declared = Quantity("max", shown, 0, 2 * shown, unit, f"largest {self.measure.name} that is allowed")
-        return NumberRow("limit", declared, limit, lambda: None, self.runner.banner.show_message)
+        return Number("limit", declared, limit, refused=self.runner.banner.show_message)
 
-    def _interval(self, symbol: str, name: str, value: float) -> NumberRow:
+    def _interval(self, symbol: str, name: str, value: float) -> Number:
         declared = Quantity(symbol, 90, 10, 170, "deg", f"{name} interval that is tried")
-        return NumberRow(f"{name}_interval", declared, value, lambda: None, self.runner.banner.show_message)
+        return Number(f"{name}_interval", declared, value, refused=self.runner.banner.show_message)
 
-    def _asked(self) -> list[w.Widget]:
+    def _questions(self) -> list[Part]:
         runner = self.runner
-        knobs = [knob.row for knob in (self.limit, self.longest, self.shortest)]
-        buttons = w.HBox([runner.run_button, runner.stop_button, self.take, self.progress])
-        problem = [self.problem] if len(self.studies) > 1 else []
-        return [*problem, *knobs, buttons, runner.status, runner.banner, self.verdict]
+        problem, knobs = [self.problem] if len(self.studies) > 1 else [], (self.limit, self.longest, self.shortest)
+        return [*problem, *knobs, runner.buttons(self.take), runner.status, runner.banner, self.verdict]
 
     def _study(self) -> Study:
         return self.studies[self.problem.value].around(self.explorer.design)
@@ -100,7 +96,8 @@ class CycleTimePanel(JobPanel):
 
     def _steps(self, measure: Measure, limit: float, steps: Iterator[Step]) -> Iterator[Step]:
         self.measure, self._tried_limit, self.steps = measure, limit, []
-        self.take.disabled, self.verdict.value = True, ""
+        self.take.disabled = True
+        self.verdict.say()
         for step in steps:
             if isinstance(step, IntervalStep):
                 self._show(step)
@@ -108,27 +105,19 @@ class CycleTimePanel(JobPanel):
 
     def _show(self, step: IntervalStep) -> None:
         self.steps.append(step)
-        self.take.disabled = step.best is None
-        self.verdict.value = told(step.message, step.best.message if step.best else step.optimum.message)
-        self.picture.show(ShownIntervals(self.measure, self._tried_limit, tuple(self.steps)))
+        with self.held():
+            self.take.disabled = step.best is None
+            self.verdict.say(bold(step.message), step.best.message if step.best else step.optimum.message)
+            self.picture.show(ShownIntervals(self.measure, self._tried_limit, tuple(self.steps)))
 
     def _show_step(self, step: Step, last: bool) -> None:
-        self.progress.max, self.progress.value = step.of, step.number
         stopped = " (stopped)" if last and not (self.runner.job and self.runner.job.ended) else ""
-        self.runner.status.value = f"{step.number} intervals tried, {step.evaluated} designs evaluated{stopped}"
+        self.runner.status.say(f"{step.number} intervals tried, {step.evaluated} designs evaluated{stopped}")
 
     def summary(self) -> str:
         """What was asked, and what was found."""
         return f"problem: {self.problem.value}\n{self.step.message if self.step else 'not run yet'}"
 
 
-def cycle_time_panel(
-    explorer: Instrument,
-    studies: Study | Mapping[str, Study],
-    limit: float,
-    shortest: float,
-    longest: float,
-    intervals: Sequence[str] = INTERVALS,
-) -> CycleTimePanel:
-    """A panel that finds how short the intervals may be (see `CycleTimePanel`)."""
-    return CycleTimePanel(explorer, studies, limit, shortest, longest, intervals)
+cycle_time_panel = CycleTimePanel
+"""A panel that finds how short the intervals may be."""

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 
-import ipywidgets as w
 import numpy as np
 
 from ..quantities import Analysable
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, escaped, table
+from ..quantities.types import Array
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
 from ..search.protocol import Step
 from ..study.study import Study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .instrument import Instrument
-from .kit.controls import tables_html
-from .kit.front_picker import objective_texts
-from .kit.layout import menu, wrapped
-from .kit.picture import LivePicture
+from .kit.drawn import LivePicture, nearest
+from .kit.front_picker import FrontChoice, designs_on, objective_texts
+from .kit.inputs import Menu, Whole
+from .kit.parts import Part, Table, Words
 from .kit.quiet import Quiet
 from .kit.runner import JobPanel, Runner
 
@@ -28,6 +28,10 @@ Search = Callable[[Study], Iterator[Step]]
 """Looks for the front of a study step by step, as `search` does with one of its methods."""
 Way = tuple[Study, Search]
 """A study, and how it is searched around a design."""
+
+NOT_COMPARED = (
+    "What the fronts dominate is not compared: in one of the objectives no design is better than the starting design."
+)
 
 
 class FrontsPanel(JobPanel):
@@ -50,13 +54,14 @@ class FrontsPanel(JobPanel):
         self._refuse_other_objectives()
         self.start = self._objectives(explorer.start.analyse())
         self.seconds: dict[str, float] = {}
-        self._quiet = Quiet()
-        self._make_widgets()
+        self._quiet, self._drawing = Quiet(), threading.RLock()
+        self._make_parts()
         self.picture = LivePicture((fronts_overlaid,), "Fronts laid over each other", width=8.6, height=5.4)
-        self.picture.widget.on_click(self.clicked)
-        super().__init__([self._beside_picture(self._asked(), (360, 560), (520, 860))])
+        self.picture.on_click(self.clicked)
+        super().__init__(self._beside_picture(*self._questions()))
         self._show()
         explorer.on_change(lambda _: self._show_here())
+        explorer.add_tab("Fronts", self)
 
     def _empty_fronts(self, given: dict[str, Front]) -> dict[str, Front]:
         """A front for each way, without a design where none is given."""
@@ -74,22 +79,20 @@ class FrontsPanel(JobPanel):
             named = "; ".join(", ".join(m.name for m in measures) for measures in objectives)
             raise ValueError(f"the fronts are of {named}; they must be of the same two objectives")
 
-    def _make_widgets(self) -> None:
+    def _make_parts(self) -> None:
         page = self.explorer.start, list(self.ways)
         self.runner = Runner("Compute the fronts", lambda: self._steps(self.explorer.design), self._show_step, *page)
         self.runner.run_button.disabled = not self.ways
-        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
-        self.menu = menu(list(self.fronts), "front", "330px", "62px")
-        style = {"description_width": "62px"}
-        self.pick = w.IntSlider(0, 0, 0, description="design", layout=w.Layout(width="330px"), style=style)
-        self.table = w.HTML()
+        self.menu = Menu(list(self.fronts), "front")
+        self.pick = Whole(0, 0, 0, "design", slider=True, tooltip="loads a design of the front")
+        self.table, self.note = Table(), Words(look="hint")
         self.menu.observe(lambda _: self._fit_slider(), "value")
         self._quiet.hear(self.pick, lambda index: self.select(self.menu.value, index))
 
-    def _asked(self) -> list[w.Widget]:
+    def _questions(self) -> list[Part]:
         runner = self.runner
-        buttons = wrapped(runner.run_button, runner.stop_button, self.progress)
-        return [*([buttons, runner.status, runner.banner] if self.ways else []), self.menu, self.pick, self.table]
+        search = [runner.buttons(), runner.status] if self.ways else []
+        return [*search, runner.banner, self.menu, self.pick, self.table, self.note]
 
     # ------------------------------------------------------------ the searches
 
@@ -105,16 +108,13 @@ class FrontsPanel(JobPanel):
             self._show()
 
     def _show_step(self, step: Step, last: bool) -> None:
-        further = step.number != self.progress.value
         self.fronts[self._name] = step.front
-        self.progress.max, self.progress.value = step.of, step.number
         told = f"{self._name}: {step.number} of {step.of}"
         if last:
             ended = self.runner.job and self.runner.job.ended
             told = f"all fronts are there: {sum(self.seconds.values()):.1f} s elapsed" if ended else "stopped"
-        self.runner.status.value = escaped(told)
-        if further:
-            self._show()
+        self.runner.status.say(told)
+        self._show()
 
     # ------------------------------------------------------------ what is shown
 
@@ -122,29 +122,38 @@ class FrontsPanel(JobPanel):
         return np.array([m.one(analysis) for m in next(iter(self.fronts.values())).study.minimise])
 
     def _show(self) -> None:
-        self._fit_slider()
-        self.table.value = self._table_html()
-        self._show_here()
+        with self.held():
+            self._fit_slider()
+            self.table.put(("front", "designs", "dominates", "time"), self._rows())
+            self.note.say(NOT_COMPARED if np.isnan(list(self.shares().values())).any() else "")
+            self._show_here()
 
     def _show_here(self) -> None:
-        self.picture.show(ShownFronts(self.fronts, self.start, self._objectives(self.explorer.analysis)))
+        with self._drawing:  # else the one thread could show an older design than the other
+            design = self.explorer.design
+            every = [designs_on(front, front.__getitem__, design) for front in self.fronts.values()]
+            self.picture.offer(*map(np.concatenate, zip(*every, strict=True)))
+            self.picture.show(ShownFronts(dict(self.fronts), self.start, self._objectives(self.explorer.analysis)))
 
     def _fit_slider(self) -> None:
         """As many designs as the front in the menu has."""
         count = len(self.fronts[self.menu.value])
-        with self._quiet:
+        with self._quiet, self.held():
             self.pick.max, self.pick.disabled = max(count - 1, 0), not count
+            self.pick.value = min(self.pick.value, self.pick.max)
 
     def shares(self) -> dict[str, float]:
         """What each front dominates (see `dominated_shares`), up to the design that the explorer began with."""
         return dominated_shares(self.fronts, self.start)
 
-    def _table_html(self) -> Html:
-        rows = []
-        for name, share in self.shares().items():
+    def _rows(self) -> list[tuple[object, ...]]:
+        """A row of the table for each front, its name behind the colour of its points."""
+        rows: list[tuple[object, ...]] = []
+        for k, (name, share) in enumerate(self.shares().items()):
             time_told = f"{self.seconds[name]:.1f} s" if name in self.seconds else ""
-            rows.append((name, len(self.fronts[name]), f"{100 * share:.1f} %", time_told))
-        return tables_html(table(("front", "designs", "dominates", "time"), rows))
+            dominates = "" if np.isnan(share) else f"{100 * share:.1f} %"
+            rows.append(({"words": name, "series": k}, len(self.fronts[name]), dominates, time_told))
+        return rows
 
     def select(self, name: str, index: int) -> None:
         """Load a design of one of the fronts into the sliders."""
@@ -156,22 +165,23 @@ class FrontsPanel(JobPanel):
             self.pick.value = index
         self.explorer.load(self.fronts[name][index])
 
-    def clicked(self, x: float, y: float) -> None:
+    def clicked(self, view: int, at: Array, pixel: Array) -> None:
         """Load the nearest point."""
         places = [(name, i) for name, front in self.fronts.items() for i in range(len(front))]
         points = np.concatenate([shown_objectives(front).T for front in self.fronts.values()])
-        nearest = self.picture.nearest(points, x, y)
-        if nearest is not None:
-            self.select(*places[nearest])
+        place = nearest(points, at, pixel)
+        if place is not None:
+            self.select(*places[place])
 
     def summary(self) -> str:
         """Each front with what it dominates, and the design in the sliders."""
-        lines = [
-            f"{name}: {len(self.fronts[name])} designs, dominates {100 * s:.0f} %" for name, s in self.shares().items()
-        ]
+        lines = []
+        for name, share in self.shares().items():
+            dominates = "" if np.isnan(share) else f", dominates {100 * share:.0f} %"
+            lines.append(f"{name}: {FrontChoice(self.fronts[name]).count}{dominates}")
         study = next(iter(self.fronts.values())).study
         here = self._objectives(self.explorer.analysis)
-        return "\n".join([*lines, f"in the sliders: {', '.join(objective_texts(study, here))}"])
+        return "\n".join([*lines, *self.note.value, f"in the sliders: {', '.join(objective_texts(study, here))}"])
 
 
 def compare_fronts(

@@ -7,12 +7,10 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ..quantities import Analysable, with_quantities
 from ..quantities.kinds import refuse_arguments
-from ..quantities.markup import Html, html, joined
 from ..search.fast_front import quick_front
 from ..search.front import Front
 from ..search.protocol import search
@@ -20,12 +18,12 @@ from ..study.study import Study, named_studies
 from ..views.front import LiveFront, live_pareto
 from .ahp import AhpPanel
 from .instrument import Instrument
-from .kit.banner import Banner
+from .kit.drawn import LivePicture
 from .kit.front_picker import FrontPanel, FrontPicker, objective_texts
+from .kit.inputs import Menu
 from .kit.latest_only import LatestOnly
-from .kit.layout import column, menu, wrapped
-from .kit.panel import IMPOSSIBLE, reason
-from .kit.picture import LivePicture
+from .kit.parts import Banner, Group, Line, Part, Words, bold, row
+from .kit.sheet import IMPOSSIBLE, reason
 
 
 class LiveParetoPanel(FrontPanel):
@@ -53,18 +51,19 @@ class LiveParetoPanel(FrontPanel):
         self.studies = {name: study.freeing(self.space) for name, study in named.items()}
         self.explorer = explorer
         self.criteria, self.importance = criteria, importance
-        self._lock = threading.RLock()
+        self._showing = threading.RLock()
         self._worker = LatestOnly(self._compute)
-        self._make_widgets()
+        self.menu = Menu(list(self.studies), "problem")
+        self.menu.observe(lambda _: self._changed(), "value")
+        self.status, self.numbers, self.banner = Words(look="status"), Words(), Banner()
         self._wanted = self.menu.value, self._asked()
         began = time.monotonic()
         self._mode, first = self.menu.value, quick_front(self._wanted[1])
         self._first = {self._mode: first}
-        self.picker = self._make_picker(first)
-        self.picture = LivePicture((live_pareto,), "Pareto front that follows the sliders", width=7.6, height=4.8)
-        self.picture.figure.set_layout_engine("constrained", w_pad=0.15)  # numbers on the axes may get longer
-        self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
-        super().__init__([self._body()])
+        self.picker = FrontPicker(explorer, first, importance, self._judged, self._with_free)
+        self.picture = LivePicture((live_pareto,), "Pareto front that follows the sliders", width=7.6, height=6.0)
+        self.picture.on_click(self.picker.select_nearest)
+        super().__init__(self._body())
         self._tell_time(time.monotonic() - began)
         self._show(first)
         explorer.on_change(lambda _: self._changed())
@@ -72,20 +71,7 @@ class LiveParetoPanel(FrontPanel):
             criteria.on_change(self._changed)
         if importance:
             importance.on_change(self._judged)
-
-    def _make_widgets(self) -> None:
-        self.menu = menu(list(self.studies), "problem", "100%", "78px")
-        self.menu.layout.max_width = "430px"
-        self.status, self.numbers, self.banner = w.HTML(), w.HTML(), Banner()
-        self.status.add_class("camkit-status")
-        self.menu.observe(lambda _: self._changed(), "value")
-
-    def _make_picker(self, front: Front) -> FrontPicker:
-        picker = FrontPicker(self.explorer, front, self.importance, self._judged, self._with_free)
-        for part in (picker.rule, picker.pick):
-            part.layout.width, part.layout.max_width = "100%", "430px"
-            part.style.description_width = "78px"
-        return picker
+        self._stand_in_tabs("Live front", criteria, importance)
 
     def _with_free(self, index: int) -> Analysable:
         """A design of the front; what is not free stays as it is in the sliders."""
@@ -93,11 +79,11 @@ class LiveParetoPanel(FrontPanel):
         free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))
         return with_quantities(self.explorer.design, free)
 
-    def _body(self) -> w.Widget:
+    def _body(self) -> Part:
         menus = [self.menu] if len(self.studies) > 1 else []
         picker = self.picker
-        left = [*menus, picker.rule, picker.pick, w.HBox([picker.take]), self.status, self.numbers]
-        return wrapped(column(left, 340, 560), column([self.banner, self.picture.widget], 480, 760))
+        left = Group(*menus, picker.rule, picker.pick, row(picker.take), self.status, self.numbers)
+        return Group(left, Group(self.banner, self.picture), look="beside")
 
     # ------------------------------------------------------------ the front
 
@@ -149,7 +135,7 @@ class LiveParetoPanel(FrontPanel):
                 self._take(mode, step.front, time.monotonic() - began)
 
     def _take(self, mode: str, front: Front, seconds: float | None = None) -> None:
-        with self._lock:
+        with self._showing, self.held():
             self._mode = mode
             self._show(front)
             if seconds is not None:
@@ -157,7 +143,7 @@ class LiveParetoPanel(FrontPanel):
         self._tell_followers()
 
     def _tell_time(self, seconds: float) -> None:
-        self.status.value = (
+        self.status.say(
             f"{self.picker.choice.count} on the front, found in {1000 * seconds:.0f} ms, "
             f"each judged on {self.front.study.angles} angles"
         )
@@ -174,14 +160,15 @@ class LiveParetoPanel(FrontPanel):
         self._tell_followers()
 
     def _show(self, front: Front) -> None:
-        with self._lock:
+        with self._showing, self.held():
             self.picker.show(front)
             if not len(front):
                 self._refuse(front.message)
                 return
             self.refuse_picture("")
             here = self._here()
-            self.numbers.value = joined([*self.picker.choice.verdict(), self._in_sliders(here)], "<br>")
+            self.numbers.say(*self.picker.choice.verdict(), self._in_sliders(here))
+            self.picture.offer(*self.picker.offered)
             self.picture.show(LiveFront(front, self._before(), here, self.winner))
 
     def _refuse(self, sentence: str) -> None:
@@ -199,15 +186,13 @@ class LiveParetoPanel(FrontPanel):
         first = self._first.get(self._mode, self.front)
         return first.judged_by(first.study.with_weights(self.criteria.weights)) if self.criteria else first
 
-    def _in_sliders(self, here: np.ndarray) -> Html:
+    def _in_sliders(self, here: np.ndarray) -> Line:
         """The design in the sliders, in words."""
         f = self.front.f
         better = int(((f <= here).all(-1) & (f < here).any(-1)).sum())
-        return html(
-            "<b>in the sliders</b>: {}; {} better in every wish",
-            ", ".join(objective_texts(self.front.study, here)),
-            f"{better or 'none'} of the front {'are' if better > 1 else 'is'}",
-        )
+        count = f"{better or 'none'} of the front {'are' if better > 1 else 'is'}"
+        goals = ", ".join(objective_texts(self.front.study, here))
+        return [bold("in the sliders"), f": {goals}; {count} better in every wish"]
 
     def summary(self) -> str:
         """The front's size and its winner."""

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ..quantities import Measure
 from ..quantities.kinds import refuse_arguments, shown
-from ..quantities.markup import escaped
 from ..quantities.types import Array
 from ..search.minimise import METHODS
 from ..search.minimum import Minimum
@@ -18,10 +16,10 @@ from ..search.protocol import Evaluated, Step, search
 from ..study.study import Study, named_studies
 from ..views.progress import ShownLooks, best_so_far
 from .instrument import Instrument
-from .kit.layout import button, menu
-from .kit.number import WholeBox, staying
-from .kit.picture import LivePicture
-from .kit.runner import JobPanel, Runner, told
+from .kit.drawn import LivePicture
+from .kit.inputs import Menu, Whole
+from .kit.parts import Button, Part, Words, bold
+from .kit.runner import JobPanel, Runner
 
 
 class OptimisePanel(JobPanel):
@@ -39,29 +37,27 @@ class OptimisePanel(JobPanel):
         if not len(methods) or any(method not in METHODS for method in methods):
             raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
         self.explorer, self.studies = explorer, named_studies(studies, explorer.start)
-        self.problem = menu(list(self.studies), "problem", "100%", "112px")
-        self.method = menu(list(methods), "method", "100%", "112px")
+        self.problem, self.method = Menu(list(self.studies), "problem"), Menu(list(methods), "method")
         self.runner = Runner("Optimise from here", self._prepare, self._show, self.studies)
-        layout, refused = w.Layout(width="190px"), staying("restarts", self.runner.banner.show_message, "stay")
-        self.starts = WholeBox(1, 1, 100, refused, description="restarts", description_width="112px", layout=layout)
+        self.starts = Whole(1, 1, 100, "restarts")
         self.method.observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
         self.minimum: Minimum | None = None
         self.before: Any = None
-        self.back = button("Undo", lambda: self.explorer.load(self.before), "undo", disabled=True)
-        self.verdict = w.HTML()
+        self.back = Button("Undo", lambda: self.explorer.load(self.before), disabled=True)
+        self.verdict = Words()
         self._lines: tuple[str, ...] = ()
         self._seen: list[Evaluated] = []
         self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
         self.picture.show(ShownLooks(self._measure, ()))
-        super().__init__([self._beside_picture(self._asked())])
+        super().__init__(self._beside_picture(*self._questions()))
+        explorer.add_tab("Optimise", self)
 
-    def _asked(self) -> list[w.Widget]:
+    def _questions(self) -> list[Part]:
         runner = self.runner
         asked = [menu for menu in (self.problem, self.method) if len(menu.options) > 1]
-        buttons = w.HBox([runner.run_button, runner.stop_button, self.back])
-        return [*asked, self.starts, buttons, runner.status, runner.banner, self.verdict]
+        return [*asked, self.starts, runner.buttons(self.back), runner.status, runner.banner, self.verdict]
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""
@@ -84,7 +80,7 @@ class OptimisePanel(JobPanel):
 
     def _show(self, step: Step, last: bool) -> None:
         best = f", best so far {self._text(step.best.f)}" if step.best else ""
-        self.runner.status.value = escaped(f"{step.evaluated} designs evaluated{best}")
+        self.runner.status.say(f"{step.evaluated} designs evaluated{best}")
         self.picture.show(ShownLooks(self._measure, tuple(self._seen)))
         if last:
             stopped = f"The search was stopped after {step.evaluated} designs."
@@ -98,7 +94,8 @@ class OptimisePanel(JobPanel):
             first, last = self.study.evaluate([self.study.x0, x]).f[:, 0]
             self._lines = (f"{self._measure.name}: {self._text(first)} → {self._text(last)}", why)
             self.explorer.load(self.study.design(x))
-        self.verdict.value = told(*self._lines)
+        result, reached = self._lines
+        self.verdict.say(bold(result), reached)
 
     @property
     def _measure(self) -> Measure:

@@ -7,14 +7,12 @@ from dataclasses import replace
 from threading import RLock
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ..decision import CHOOSERS, Judgements
 from ..files import Session, designs, sessions
 from ..quantities import Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
-from ..quantities.markup import escaped, joined
 from ..search.front import Front
 from ..search.protocol import Step
 from ..study.study import Study, named_studies, refuse_bounds
@@ -22,17 +20,16 @@ from ..views.front import ShownFront, pareto
 from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.bounds import Bounds
-from .kit.controls import Download, Upload
 from .kit.design_files import remarked
+from .kit.drawn import LivePicture
 from .kit.front_picker import FrontPanel, FrontPicker
-from .kit.layout import button, column, menu, wrapped
-from .kit.number import WholeBox, staying
-from .kit.panel import IMPOSSIBLE, reason
-from .kit.picture import LivePicture
+from .kit.inputs import Download, Input, Menu, Upload, Whole
+from .kit.parts import Button, Group, Part, Words, bold, row
 from .kit.runner import JobPanel, Runner
 from .kit.running import Job
 from .kit.search_job import SessionSearch, progress_text, record_text
 from .kit.search_page import SearchPage, same_design
+from .kit.sheet import IMPOSSIBLE, reason
 
 COUNTS = {"population": range(4, 1001), "generations": range(1, 10_001), "seed": range(10**6 + 1)}
 """What can be typed for the size of a search."""
@@ -78,9 +75,9 @@ class ParetoPanel(JobPanel, FrontPanel):
         refuse_bounds(declared, space)
         self.page = self._page(studies, space)
         self.runner = Runner("Optimise", self._asked, self._show_step, self.page.kind, ended=self._offer_resume)
-        self.banner, self.status = self.runner.banner, self.runner.status
+        self.banner, self.status, self.progress = self.runner.banner, self.runner.status, self.runner.progress
         self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
-        self.mode = menu(list(studies), "problem", "270px", "92px")
+        self.mode = Menu(list(studies), "problem")
         self.population, self.generations, self.seed = map(self._count, COUNTS, (population, generations, 1))
         self.study = self.asked_study()
         self.found = sessions.empty_front(self.study)
@@ -88,14 +85,18 @@ class ParetoPanel(JobPanel, FrontPanel):
         self._went_back = ""
         self._showing = RLock()  # a search shows its steps from its own thread
         self.picker = FrontPicker(explorer, self.found, importance, self._show_again)
-        self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=4.6)
-        self.picture.widget.on_click(lambda x, y: self.picker.select_nearest(self.picture, x, y))
-        self._make_widgets()
+        self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=5.6)
+        self.picture.on_click(self.picker.select_nearest)
+        last = "go on with the last search that was stopped or killed"
+        self.resume_button = Button("Resume", self.resume, tooltip=last)
+        self._offer_resume()
+        self.record, self.verdict = Words(), Words()
         for panel in self._judges.values():
             panel.on_change(self.picker.quiet.unless(self._judged))
         explorer.on_change(lambda _: self._show_again() if self.picker.moved else None)
-        super().__init__([self._body()])
+        super().__init__(self._body())
         self._show_again()
+        self._stand_in_tabs("Front", criteria, importance)
 
     def _page(self, studies: Mapping[str, Study], space: Mapping[str, object]) -> SearchPage:
         judged = {name: panel.names for name, panel in self._judges.items()}
@@ -108,39 +109,27 @@ class ParetoPanel(JobPanel, FrontPanel):
         panels = {"criteria": self.criteria, "importance": self.importance}
         return {name: panel for name, panel in panels.items() if panel}
 
-    def _count(self, name: str, value: int) -> WholeBox:
+    def _count(self, name: str, value: int) -> Whole:
         low, high = COUNTS[name][0], COUNTS[name][-1]
         whole(value, f"the {name}", low, high)
-        layout = w.Layout(width="190px")
-        refused = staying(name, self._refuse, "stay" if name == "generations" else "stays")
-        return WholeBox(value, low, high, refused, description=name, description_width="92px", layout=layout)
+        return Whole(value, low, high, name)
 
-    def _make_widgets(self) -> None:
-        last = "go on with the last search that was stopped or killed"
-        self.resume_button = button("Resume", self.resume, "forward", tooltip=last)
-        self._offer_resume()
-        self.progress = w.IntProgress(0, 0, 1, layout=w.Layout(width="190px"))
-        self.record, self.verdict = w.HTML(), w.HTML()
-        self.picker.rule.layout.width, self.picker.pick.layout.width = "270px", "430px"
-        for part in (self.picker.rule, self.picker.pick):
-            part.style.description_width = "92px"
-
-    def _body(self) -> w.Widget:
+    def _body(self) -> Part:
         save = Download("Save study", "study.json", "application/json", self._json, self.banner.show_message)
-        runner, picker = self.runner, self.picker
-        left = [
+        picker = self.picker
+        left = Group(
             self.mode,
-            w.HTML("<b>free quantities and their bounds</b>"),
-            *(bounds.row for bounds in self.bounds.values()),
-            wrapped(self.population, self.generations, self.seed),
-            wrapped(runner.run_button, runner.stop_button, self.resume_button, self.progress),
+            Words(value=[bold("free quantities and their bounds")]),
+            Group(*(part for bounds in self.bounds.values() for part in bounds.parts), look="bounds"),
+            row(self.population, self.generations, self.seed),
+            self.runner.buttons(self.resume_button),
             self.status,
             self.record,
             self.banner,
-            w.HBox([save, Upload("Load study", self.load_json)]),
-        ]
-        right = [self.picture.widget, picker.pick, w.HBox([picker.rule, picker.take]), self.verdict]
-        return wrapped(column(left, 430), column(right, 480))
+            row(save, Upload("Load study", self.load_json)),
+        )
+        right = Group(self.picture, picker.pick, row(picker.rule, picker.take), self.verdict)
+        return Group(left, right, look="beside")
 
     # ------------------------------------------------------------ the search
 
@@ -170,7 +159,6 @@ class ParetoPanel(JobPanel, FrontPanel):
         if self.criteria and self.criteria.judgements != search.session.judgements["criteria"]:
             self.study = self.study.with_weights(self.criteria.weights)
         self.resume_button.disabled = True
-        self.progress.max, self.progress.value = self.generations.value, 0
         return search
 
     def _offer_resume(self) -> None:
@@ -189,7 +177,7 @@ class ParetoPanel(JobPanel, FrontPanel):
             self._follow(search, self._put_back(search.session))
             self.runner.adopt(job)
             if job.step:
-                self._show_step(job.step, last=False)
+                self.runner.show(job.step, last=False)
             old.leave("the search goes on in a newer panel")
         return True
 
@@ -197,10 +185,9 @@ class ParetoPanel(JobPanel, FrontPanel):
         assert self.search
         self.found = step.front
         front = step.front if self.study is step.study else step.front.judged_by(self.study)
-        self.progress.value = step.number
         if last or not (self.runner.job and self.runner.job.stopping):  # else it says "stopping"
             hypervolume = front.hypervolume(self.search.reference)
-            self.status.value = escaped(progress_text(step, len(front), hypervolume, last))
+            self.status.say(progress_text(step, len(front), hypervolume, last))
         self._say(front.message if last else "")
         self._show_front(front)
 
@@ -228,13 +215,14 @@ class ParetoPanel(JobPanel, FrontPanel):
 
     def _show_front(self, front: Front) -> None:
         """Nothing is told of a front that cannot be drawn."""
-        with self._showing:
+        with self._showing, self.held():
             self.picker.show(front)
             analysis = self.explorer.start.analyse(self.study.angles)
             start = np.array([measure(analysis) for measure in self.study.minimise])
+            self.picture.offer(*self.picker.offered)
             self.picture.show(ShownFront(front, self.picker.selected, self.winner, start))
-            self.verdict.value = joined(self.picker.choice.verdict(), "<br>")
-            self.record.value = escaped(record_text(front.record))
+            self.verdict.say(*self.picker.choice.verdict())
+            self.record.say(record_text(front.record))
         self._tell_followers()
 
     def _show_again(self) -> None:
@@ -256,9 +244,9 @@ class ParetoPanel(JobPanel, FrontPanel):
         settings = {name: box.value for name, box in self._settings().items()}
         return Session(self.study, self.explorer.design, self._judgements(), settings, self.front)
 
-    def _settings(self) -> dict[str, Any]:
+    def _settings(self) -> dict[str, Input]:
         """The boxes and menus of the settings, by name."""
-        boxes = {name: getattr(self, name) for name in (*COUNTS, "mode")}
+        boxes: dict[str, Input] = {name: getattr(self, name) for name in (*COUNTS, "mode")}
         return {**boxes, "rule": self.picker.rule}
 
     def _judgements(self) -> dict[str, Judgements]:
@@ -275,7 +263,8 @@ class ParetoPanel(JobPanel, FrontPanel):
         """
         before = self._search_in_words()
         self._judge({name: given for name, given in session.judgements.items() if self._untouched(name)})
-        rule = {"rule": self.picker.rule.value} if self.picker.rule.index else {}
+        chosen = self.picker.rule.value
+        rule = {} if chosen == self.picker.first_rule else {"rule": chosen}
         self._set_boxes(replace(session, search={**session.search, **rule}))
         if self.explorer.design == self.explorer.start:
             self.explorer.load(session.design)
@@ -318,7 +307,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         session.design.analyse()
         self._show_loaded(session)
         self._set_boxes(session)
-        self.status.value = f"loaded: {len(self.front)} designs on the front"
+        self.status.say(f"loaded: {len(self.front)} designs on the front")
 
     def _show_loaded(self, session: Session) -> None:
         """Front, judgements and design of a file: all of them or none."""

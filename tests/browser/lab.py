@@ -299,6 +299,29 @@ def table_of_measures(
     return rows
 
 
+OWN_SHEETS = ".camkit-sheet:not(.camkit-page *)"
+"""The sheets that are the output of a cell of their own, not those in a tab of an instrument."""
+
+_MARKS = """(root) => {
+    const list = (values) => typeof values === 'number' ? [values] : Array.from(values);
+    const marks = root.parentElement.camkit.shown().pictures[0].marks.filter((mark) => mark.x !== undefined);
+    return Object.fromEntries(marks.map((mark) => [mark.key, [list(mark.x), list(mark.y)]]));
+}"""
+
+
+def marks_of(sheet: Locator) -> dict[str, list[list[float]]]:
+    """What a sheet's first picture draws, in user units: x and y of each mark."""
+    marks: dict[str, list[list[float]]] = sheet.evaluate(_MARKS)
+    return marks
+
+
+def type_number(page: Page, name: str, text: str) -> None:
+    """Type into the box of a quantity of the instrument."""
+    box = page.locator(".camkit-page").get_by_label(f"{name}, number", exact=True)
+    box.fill(text)
+    box.press("Enter")
+
+
 def eventually(check: Callable[[], bool], seconds: float = 15) -> None:
     """Waits until ``check()`` holds."""
     end = time.monotonic() + seconds

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hand import move
 from numpy.testing import assert_allclose
+from sheets import click, parts
 from try_everything import try_everything
 
 from camkit import Measure, Study, explore
@@ -18,6 +19,7 @@ from camkit.machines.cam_lever import CamLever, lever_stress
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_measures import high_speed_study, peak_stress
 from camkit.panels.fronts import compare_fronts
+from camkit.panels.kit.parts import Button
 from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity
 from camkit.render.draw import artist_of, moving
@@ -237,8 +239,13 @@ def panel(app, fronts):
     close(panel)
 
 
+def marked(panel, key):
+    mark = panel.picture.shown[0][key]
+    return np.array([mark.x, mark.y], dtype=float)
+
+
 def ring(panel):
-    return xy(panel.picture.axes[0], "in the sliders").ravel()
+    return marked(panel, "in the sliders").ravel()
 
 
 def test_a_design_that_is_picked_goes_into_the_sliders(panel, app, fronts):
@@ -261,10 +268,8 @@ def test_the_cross_follows_the_sliders(panel, app):
 
 
 def test_a_click_loads_the_nearest_design_of_any_front(panel, app, fronts):
-    width, height = panel.picture.figure.canvas.get_width_height()
     for name, i in (("limits", 4), ("NSGA-II", 11)):
-        x, y = panel.picture.axes[0].transData.transform(fronts[name].f[i] / mm**2)
-        panel.clicked(x / width, 1 - y / height)
+        click(panel, *(fronts[name].f[i] / mm**2 + [0.001, -0.001]))
         assert (panel.menu.value, panel.pick.value) == (name, i)
         assert app.design == fronts[name][i]
 
@@ -279,13 +284,13 @@ def test_the_searches_run_around_the_design_in_the_sliders(app):
     front = panel.fronts["limits"]
     assert front.study.start == app.design
     assert on_the_line(front, 1e-5)
-    assert (panel.progress.value, panel.progress.max) == (5, 5)
-    assert panel.runner.status.value.startswith("all fronts are there")
+    assert (panel.runner.progress.value, panel.runner.progress.max) == (5, 5)
+    assert panel.runner.status.text.startswith("all fronts are there")
     assert panel.seconds["limits"] > 0
     assert not panel.pick.disabled
-    assert_allclose(xy(panel.picture.axes[0], "front limits"), front.f.T / mm**2)
+    assert_allclose(marked(panel, "front limits"), front.f.T / mm**2)
     assert front[2].analyse() == front[2]  # its study no longer listens to Stop
-    assert "<td>5</td>" in panel.table.value
+    assert panel.table.text.split("\n")[1].startswith(f"limits  5  {100 * panel.shares()['limits']:.1f} %  ")
     close(panel)
 
 
@@ -294,12 +299,12 @@ def test_stop_keeps_the_fronts_so_far(app):
     panel = compare_fronts(app, {"endless": (places(), endless), "never": (places(), endless)})
     panel.run()
     until = time.monotonic() + 20
-    while panel.progress.value < 3 and time.monotonic() < until:
+    while panel.runner.progress.value < 3 and time.monotonic() < until:
         time.sleep(0.01)
     panel.run()  # a second press does nothing
     panel.stop()
     panel.wait(20)
-    assert panel.runner.status.value == "stopped"
+    assert panel.runner.status.text == "stopped"
     assert len(panel.fronts["endless"]) > 0
     assert len(panel.fronts["never"]) == 0
     assert panel.runner.stop_button.disabled
@@ -313,8 +318,8 @@ def test_what_cannot_be_searched_is_said(app):
     panel = compare_fronts(app, {"broken": broken})
     panel.run()
     panel.wait(20)
-    assert "the population is 1; it must be a whole number of at least 4" in panel.runner.banner.value
-    assert panel.runner.banner.layout.display != "none"
+    assert "the population is 1; it must be a whole number of at least 4" in panel.banner.text
+    assert panel.banner.visible
     close(panel)
 
 
@@ -330,11 +335,33 @@ def test_fronts_that_do_not_belong_together_are_refused(app, fronts):
 
 def test_given_fronts_need_no_search_and_everything_moves(app, fronts):
     panel = compare_fronts(app, given=fronts)
-    assert not inside(panel, w.Button)
+    assert not parts(panel, Button)
     assert try_everything(panel) == 2
     assert panel.shares() == dominated_shares(fronts, panel.start)
     assert panel.summary().startswith("limits: 9 designs, dominates ")
     close(panel)
+
+
+def test_what_cannot_be_compared_is_not_given_as_a_number(app):
+    study = places()
+    best = Front(study, np.zeros((1, 2)), study.evaluate([study.x0]).f)
+    nothing = Front(study, np.zeros((0, 2)), np.zeros((0, 2)))
+    panel = compare_fronts(app, given={"the start": best, "nothing": nothing})
+    assert panel.table.text.split("\n")[1:] == ["the start  1    ", "nothing  0    "]
+    sentence = "in one of the objectives no design is better than the starting design"
+    assert sentence in panel.note.text
+    lines = panel.summary().split("\n")
+    assert lines[:2] == ["the start: 1 design", "nothing: 0 designs"]
+    assert sentence in lines[2]
+    panel.menu.value = "nothing"
+    assert (panel.pick.disabled, panel.pick.value, panel.pick.max) == (True, 0, 0)
+    close(panel)
+
+
+def test_a_shorter_front_in_the_menu_keeps_the_slider_on_it(panel, fronts):
+    panel.select("NSGA-II", 30)
+    panel.menu.value = "limits"
+    assert (panel.pick.value, panel.pick.max) == (8, 8)
 
 
 # ---------------------------------------------------------------- what was measured of the high-speed cam

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hand import move
 from numpy.testing import assert_allclose, assert_array_equal
+from sheets import click
 from try_everything import try_everything
 
 from camkit import (
@@ -413,15 +414,13 @@ def workshop():
     panel = live_pareto_panel(app, STUDIES, LIFT_SPACE, criteria=criteria, importance=importance)
     yield panel
     panel.settle()
-    for each in (panel, criteria, importance):
-        each.picture.settle()
 
 
 @pytest.fixture
 def panel(workshop):
     """The panel as it is when it has just been opened."""
     workshop.menu.value = "lift curve alone"
-    workshop.picker.rule.value = "crowding distance"
+    workshop.picker.rule.value = workshop.picker.first_rule
     workshop.criteria.load(PAPER_JUDGEMENTS)
     workshop.importance.load([1])
     workshop.explorer.load(DoorHandleCam())
@@ -434,7 +433,8 @@ def asked(make, cam):
 
 
 def marks(panel, key):
-    return np.array(artist_of(panel.picture.axes[0], key).get_data(), dtype=float)
+    mark = panel.picture.shown[0][key]
+    return np.array([mark.x, mark.y], dtype=float)
 
 
 def test_it_opens_with_the_front_of_the_package(panel, lift):
@@ -442,7 +442,7 @@ def test_it_opens_with_the_front_of_the_package(panel, lift):
     assert_allclose(marks(panel, "front"), shown_objectives(lift))
     radius = stroke_radius(DoorHandleCam().analyse(lift.study.angles))
     assert_allclose(marks(panel, "in the sliders").ravel(), [1, radius / mm], rtol=1e-5)
-    assert panel.summary().startswith("100 designs on the front; winner by crowding distance:\neffort: 0.9")
+    assert panel.summary().startswith("100 designs on the front; winner by weighted sum:\neffort: 0.9")
 
 
 def test_a_slider_moves_the_front_and_a_free_one_does_not(panel, lift):
@@ -503,10 +503,7 @@ def test_slider_click_and_button_load_a_design_and_keep_what_is_not_free(panel):
     assert_allclose([getattr(panel.explorer.design, n) for n in LIFT_SPACE], panel.front.x[7])
     assert panel.explorer.design.lift_centre_distance == pytest.approx(78 * mm)
     assert_allclose(marks(panel, "in the sliders").ravel(), shown_objectives(panel.front)[:, 7], rtol=1e-9)
-    ax, figure = panel.picture.axes[0], panel.picture.figure
-    x, y = ax.transData.transform(shown_objectives(panel.front)[:, 60])
-    width, height = figure.canvas.get_width_height()
-    panel.picker.select_nearest(panel.picture, x / width, 1 - y / height)
+    click(panel, *shown_objectives(panel.front)[:, 60])
     assert panel.picker.pick.value == 60
     panel.picker.take.click()
     assert panel.picker.pick.value == panel.winner
@@ -520,7 +517,7 @@ def test_another_problem(panel, lift):
     panel.settle()
     cam = DoorHandleCam(roller_radius=3 * mm)
     assert_array_equal(panel.front.x, asked(door_handle_study, cam).x)
-    assert "worse curve" in panel.picture.axes[0].get_ylabel()
+    assert "worse curve" in panel.picture.shown[0].axes.ylabel
 
 
 def test_a_problem_without_a_design_is_told_in_place_of_the_picture(panel):
@@ -528,13 +525,15 @@ def test_a_problem_without_a_design_is_told_in_place_of_the_picture(panel):
     panel.settle()
     assert not len(panel.front)
     assert panel.winner is None
-    assert "There is no front: no design that was evaluated" in panel.banner.value
-    assert panel.picture.widget.layout.display == "none"
+    assert "There is no front: no design that was evaluated" in panel.banner.text
+    assert not panel.picture.visible
+    assert not panel.numbers.visible
     assert panel.summary().startswith("no front: no design")
     panel.explorer.load(DoorHandleCam())
     panel.settle()
-    assert panel.banner.value == ""
-    assert panel.picture.widget.layout.display == ""
+    assert panel.banner.text == ""
+    assert panel.picture.visible
+    assert panel.numbers.visible
 
 
 def test_a_study_that_cannot_be_made_is_told_and_forgotten():
@@ -549,11 +548,10 @@ def test_a_study_that_cannot_be_made_is_told_and_forgotten():
     panel = live_pareto_panel(app, lift.replace(at_most={**lift.at_most, Measure("refusing", "", refusing): 1.0}))
     move(app, "handle_angle", 190)
     panel.settle()
-    assert "There is no front: the handle turns too far." in panel.banner.value
+    assert "There is no front: the handle turns too far." in panel.banner.text
     move(app, "handle_angle", 180)
     panel.settle()
-    assert panel.banner.value == ""
-    panel.picture.settle()
+    assert panel.banner.text == ""
 
 
 def test_five_free_quantities_are_refused():

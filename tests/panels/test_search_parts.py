@@ -21,6 +21,7 @@ from camkit.machines.door_handle import (
 )
 from camkit.panels.kit.front_picker import FrontChoice, place_on
 from camkit.panels.kit.latest_only import Debounced
+from camkit.panels.kit.parts import plain
 from camkit.panels.kit.quiet import Quiet
 from camkit.panels.kit.search_job import SessionSearch
 from camkit.panels.kit.search_page import SearchPage
@@ -169,7 +170,7 @@ def test_the_winner_is_the_rules_own_and_said_with_its_units(front, rule):
     choice = FrontChoice(front, rule, np.array([0.7, 0.3]))
     assert choice.winner == CHOOSERS[rule](front, np.array([0.7, 0.3]))
     winner, free = choice.verdict()
-    assert f"design {choice.winner}</b>, {choice.winner + 1}" in winner
+    assert f"winner: design {choice.winner}, {choice.winner + 1}" in plain(winner)
     assert f"lift arm {front.x[choice.winner, 0] / mm:.4g}"[:11] in free
     assert choice.summary().splitlines()[0] == f"{len(front)} designs on the front; winner by {rule}:"
     assert len(choice.summary().splitlines()) == 3

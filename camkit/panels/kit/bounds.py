@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import ipywidgets as w
-
-from ...quantities import Quantity, words
+from ...quantities import Quantity, label
 from ...study.study import refuse_bounds
 from ...units import in_unit
-from .controls import label_html, small_html
-from .number import NumberBox, staying
+from .inputs import Amount, Check
+from .parts import Part
 from .quiet import Quiet
 
 
 class Bounds:
-    """One row of the search space: whether a quantity is free, and between which bounds."""
+    """One row of the search space: whether a quantity is free, and between which bounds.
+
+    ``refused(sentence)`` is called after each bound that is typed: with why they could not be searched, or nothing.
+    """
 
     def __init__(
         self,
@@ -26,20 +27,19 @@ class Bounds:
         refused: Callable[[str], None],
     ) -> None:
         self.name, self.declared = name, declared
-        narrow = w.Layout(width="84px")
-        self.free = w.Checkbox(value=free, indent=False, layout=w.Layout(width="22px"), tooltip="free to change")
+        self.free = Check(value=free, description=label(name, declared), tooltip=f"free to change: {declared.meaning}")
         self.low, self.high = (
-            NumberBox(0.0, staying(f"bounds of the {words(name)}", refused, "stay"), declared.unit, layout=narrow)
-            for _ in range(2)
+            Amount(unit=declared.unit, description=f"{label(name, declared)}, {end}") for end in ("from", "to")
         )
         self._refused, self._quiet = refused, Quiet()
         self._show(bounds)
         for box in (self.low, self.high):
             self._quiet.hear(box, lambda _: self._check())
-        label = w.HTML(label_html(name, declared), layout=w.Layout(flex="1 1 170px"))
-        unit = w.HTML(small_html(declared.unit), layout=w.Layout(width="44px"))
-        self.row = w.HBox([self.free, label, self.low, self.high, unit], layout=w.Layout(align_items="center"))
-        self.row.add_class("camkit-knob")
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """What stands in the row."""
+        return self.free, self.low, self.high
 
     def _show(self, bounds: tuple[float, float]) -> None:
         """Show ``bounds`` (SI), rounded to what fits; as long as nobody edits them they stay exact."""
@@ -55,6 +55,8 @@ class Bounds:
             refuse_bounds({self.name: self.declared}, {self.name: self.value})
         except ValueError as refusal:
             self._refused(f"This cannot be searched: {refusal}.")
+        else:
+            self._refused("")
 
     @property
     def value(self) -> tuple[float, float]:

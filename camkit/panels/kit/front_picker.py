@@ -1,6 +1,6 @@
 """The choice of one design from a front: by a rule, by hand, or as it stands in an explorer's sliders.
 
-`FrontChoice` is the choice, without widgets; `FrontPicker` has the parts to choose with, without a layout;
+`FrontChoice` is the choice, without a page; `FrontPicker` has the parts to choose with, without a layout;
 `FrontPanel` is a panel around them.
 """
 
@@ -11,20 +11,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import ipywidgets as w
 import numpy as np
 
 from ...decision import CHOOSERS
-from ...quantities import Analysable, label
-from ...quantities.markup import html
+from ...quantities import Analysable, label, quantities_of, value_of
 from ...quantities.types import Array
 from ...search.front import Front
 from ...study.study import Study
 from ...views.front import Judged, shown_objectives
-from .layout import button
-from .panel import Panel
-from .picture import LivePicture
+from .drawn import nearest
+from .inputs import Menu, Whole
+from .parts import Button, Line, bold
 from .quiet import Quiet
+from .sheet import Panel, Sheet
 
 
 def objective_texts(study: Study, f: Array, between: str = " ") -> list[str]:
@@ -43,6 +42,22 @@ def place_on(front: Judged, design: Analysable) -> int | None:
     return next(map(int, places_on(front, design)), None)
 
 
+def designs_on(front: Front, design: Callable[[int], Any], now: Any) -> tuple[Array, Array]:
+    """Points of a front as they are read ``(p, 2)``, and the values of all quantities there ``(p, q)``.
+
+    The quantities are those of the design ``now`` in the sliders, in their order; ``design(0)`` has those that are not
+    free.
+    """
+    paths = list(quantities_of(now))
+    picked = design(0) if len(front) else now
+    of = {path: picked if path in quantities_of(picked) else now for path in paths}
+    values = np.tile([float(value_of(there, path)) for path, there in of.items()], (len(front), 1))
+    for path, x in zip(front.study.free, front.x.T, strict=True):
+        if path in of:
+            values[:, paths.index(path)] = x
+    return shown_objectives(front).T, values
+
+
 @dataclass(frozen=True)
 class FrontChoice:
     """The winner of a front by one of `CHOOSERS`, under weights of the objectives (``None``: all count alike)."""
@@ -56,7 +71,7 @@ class FrontChoice:
         """Which design; ``None`` if there is none."""
         return CHOOSERS[self.rule](self.front, self.weights) if len(self.front) else None
 
-    def verdict(self) -> list[str]:
+    def verdict(self) -> list[Line]:
         """The winner in words: its objectives, its free quantities; or why there is none."""
         if self.winner is None:
             return [self.front.message]
@@ -64,12 +79,7 @@ class FrontChoice:
         goals = ", ".join(objective_texts(study, f))
         free = [f"{label(n, q)} {q.text(v)}" for (n, q), v in zip(study.declared.items(), x, strict=True)]
         return [
-            html(
-                "<b>winner: design {}</b>, {}: {}",
-                self.winner,
-                f"{_ordinal(self.winner + 1)} of {len(self.front)}",
-                goals,
-            ),
+            [bold(f"winner: design {self.winner}"), f", {_ordinal(self.winner + 1)} of {len(self.front)}: {goals}"],
             ", ".join(free),
         ]
 
@@ -90,7 +100,8 @@ class FrontPicker:
     """A menu of rules, a slider over the designs of a front, and a button for the winner.
 
     ``choice`` is what they show.  What is picked goes into the sliders of an `Instrument`: ``design(i)``, by default
-    the front's own.  ``importance`` judges the objectives; ``judged()`` is called when another rule is asked for.
+    the front's own.  ``importance`` judges the objectives, and the first rule is then the weighted sum; ``judged()`` is
+    called when another rule is asked for.
     """
 
     def __init__(
@@ -104,9 +115,10 @@ class FrontPicker:
         self.explorer, self.importance = explorer, importance
         self._design = design or (lambda index: self.choice.front[index])
         self.quiet = Quiet()
-        self.rule = w.Dropdown(options=list(CHOOSERS), description="choose by")
-        self.pick = w.IntSlider(0, 0, 0, description="design", tooltip="loads a design of the front")
-        self.take = button("Load the winner", lambda: self.select(self.choice.winner), "star")
+        self.first_rule = "weighted sum" if importance else next(iter(CHOOSERS))
+        self.rule = Menu(list(CHOOSERS), "choose by", value=self.first_rule)
+        self.pick = Whole(0, 0, 0, "design", slider=True, tooltip="loads a design of the front")
+        self.take = Button("Load the winner", lambda: self.select(self.choice.winner))
         self.quiet.hear(self.rule, lambda _: judged())
         self.quiet.hear(self.pick, self.select)
         self.show(front)
@@ -121,6 +133,7 @@ class FrontPicker:
             self.pick.max, self.pick.disabled = max(len(front) - 1, 0), not len(front)
             if self.selected is not None and self.pick.value not in places:
                 self.pick.value = self.selected
+            self.pick.value = min(self.pick.value, self.pick.max)
 
     @property
     def moved(self) -> bool:
@@ -132,15 +145,26 @@ class FrontPicker:
         if index is not None and index < len(self.choice.front):
             self.explorer.load(self._design(index))
 
-    def select_nearest(self, picture: LivePicture, x: float, y: float) -> None:
-        """Load the design whose point is nearest to a click."""
-        self.select(picture.nearest(shown_objectives(self.choice.front).T, x, y))
+    @property
+    def offered(self) -> tuple[Array, Array]:
+        """What the front's picture offers (see `designs_on`)."""
+        return designs_on(self.choice.front, self._design, self.explorer.design)
+
+    def select_nearest(self, view: int, at: Array, pixel: Array) -> None:
+        """Load the design whose point is nearest to a click in the picture of the front."""
+        self.select(nearest(shown_objectives(self.choice.front).T, at, pixel))
 
 
 class FrontPanel(Panel):
     """A panel around its ``picker``."""
 
     picker: FrontPicker
+
+    def _stand_in_tabs(self, title: str, *judged: Sheet | None) -> None:
+        """Be a tab of the explorer, and the judgements that there are another."""
+        if judgements := [panel for panel in judged if panel]:
+            self.picker.explorer.add_tab("Judgements", *judgements)
+        self.picker.explorer.add_tab(title, self)
 
     @property
     def front(self) -> Front:

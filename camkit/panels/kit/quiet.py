@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from ipywidgets import Widget
+from traitlets import HasTraits
 
 
 class Quiet(threading.local):
@@ -37,6 +37,6 @@ class Quiet(threading.local):
 
         return heard
 
-    def hear(self, widget: Widget, act: Callable[..., object]) -> None:
-        """Call ``act(value)`` for each value that a person gives ``widget``."""
-        widget.observe(self.unless(lambda change: act(change.new)), "value")
+    def hear(self, part: HasTraits, act: Callable[..., object]) -> None:
+        """Call ``act(value)`` for each value that a person gives ``part``."""
+        part.observe(self.unless(lambda change: act(change.new)), "value")

@@ -49,14 +49,8 @@ def progress_text(step: Step, on_front: int, hypervolume: float, last: bool) -> 
     stopped = " (stopped)" if last and step.number < step.of else ""
     return (
         f"generation {step.number} of {step.of}{stopped}: {step.feasible} of {len(step.evaluation.x)} feasible, "
-        f"{on_front} on the front, hypervolume {hypervolume:.6g}{'' if last else time_left(step)}"
+        f"{on_front} on the front, hypervolume {hypervolume:.6g}"
     )
-
-
-def time_left(step: Step) -> str:
-    """How long a search still takes, in words."""
-    left = step.seconds_left
-    return f", {left:.0f} s left" if left < 90 else f", {left / 60:.0f} min left"
 
 
 def record_text(record: Mapping[str, object]) -> str:

@@ -56,7 +56,7 @@ class Sheet(anywidget.AnyWidget):
         self._heard = 0
         self.top = Group(*children)
         super().__init__(setting={"look": look(), "units": known_units()}, heading=heading)
-        self.on_msg(lambda _, message, buffers: self._asked(message, buffers))
+        self.on_msg(lambda _, message, buffers: self._hear(message, buffers))
         self._tell()
 
     def stored(self) -> dict[str, object]:
@@ -93,7 +93,7 @@ class Sheet(anywidget.AnyWidget):
                     self.pictures = pictures
                 self.body = {**self.top.described(), "heard": self._heard}
 
-    def _asked(self, message: Message, buffers: Sequence[memoryview]) -> None:
+    def _hear(self, message: Message, buffers: Sequence[memoryview]) -> None:
         """A person has done something with a part; it is always answered."""
         with self.held():
             part = next((p for p in self.top.inside() if p.number == message.get("part")), None)
