@@ -49,7 +49,6 @@ def made():
     yield names
     names["live"].settle()
     names["spread"].settle()
-    names["live"].picture.settle()
 
 
 def test_it_takes_fifteen_lines_and_imports_from_camkit_and_its_wings_alone():

@@ -1,7 +1,6 @@
 """Files from anywhere: what camkit wrote comes back, whatever the study; anything else is told in a sentence."""
 
 import copy
-import html
 import importlib
 import inspect
 import json
@@ -19,6 +18,7 @@ from hand import file_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
+from sheets import click
 
 import camkit
 from camkit import (
@@ -879,7 +879,7 @@ def page():
 def said(panel):
     if isinstance(panel, Instrument):
         return panel.message
-    return html.unescape(panel.banner.value.replace("<div role='alert'>", "").replace("</div>", ""))
+    return panel.banner.text
 
 
 BAD = {
@@ -898,7 +898,7 @@ def test_a_bad_file_leaves_the_last_good_picture_and_one_sentence(page, name, mo
 
     def state():
         shown = app.design, app.analysis, app.structure, app.values
-        return *shown, page.study, page.front, page.population.value, page.criteria.judgements, page.status.value
+        return *shown, page.study, page.front, page.population.value, page.criteria.judgements, page.status.text
 
     before = state()
     for panel in (app, page):
@@ -936,7 +936,6 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
     page.load(Session(own, page.explorer.design, front=good))
     assert len(page.front) > 3
     page.select(len(page.front) - 1)
-    page.picture.settle()
     study = plain.replace(minimise=minimise)
     front = front_of(study.evaluate(GRID), study)
     other = {"judgements": {"criteria": ahp([9, 5, 1])}, "search": {"population": 44, "rule": "knee"}}
@@ -951,19 +950,18 @@ def test_a_study_that_the_page_cannot_judge_or_draw_changes_nothing(page, name, 
             page.population.value,
             page.criteria.judgements,
         )
-        told = page.winner, page.status.value, page.verdict.value, page.record.value, page.picture.widget.data
+        told = page.winner, page.status.text, page.verdict.text, page.record.text, page.picture.data
         return shown, boxes, told, {name: bounds.value for name, bounds in page.bounds.items()}
 
     before = state()
     page.load_json(text)
     assert said(page).startswith(f"This file cannot be used: {sentence}")
-    page.picture.settle()
     after = state()
     assert all(a is b for a, b in zip(after[0], before[0], strict=True))
     assert after[1:] == before[1:]
     page.importance.sliders[0, 1].value = 3.0
     page.criteria.load(PAPER_JUDGEMENTS)
-    page.picker.select_nearest(page.picture, 0.5, 0.5)
+    click(page, 0.5, 0.5)
     page.select(page.winner)
     assert page.explorer.design == page.front[page.winner]
     page.importance.load([1])
