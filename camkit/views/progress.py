@@ -78,7 +78,7 @@ def intervals_tried(shown: ShownIntervals) -> Picture:
     return Picture.of(
         Axes(title="Best designs", xlabel="interval  [deg]", ylabel=two_lines(shown.measure)),
         Band("left", *_left(shown), role="allowed", along="y", opacity=0.18),
-        Line("limit", ends, 0 * ends + shown.limit / unit, stroke="dashed", label="limit"),
+        Line("limit", ends, 0 * ends + shown.limit / unit, role="limit", stroke="dashed", label="limit"),
         dots,
     )
 
