@@ -75,7 +75,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         refuse_bounds(declared, space)
         self.page = self._page(studies, space)
         self.runner = Runner("Optimise", self._asked, self._show_step, self.page.kind, ended=self._offer_resume)
-        self.banner, self.status, self.progress = self.runner.banner, self.runner.status, self.runner.progress
+        self._make_parts()
         self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
         self.mode = Menu(list(studies), "problem")
         self.population, self.generations, self.seed = map(self._count, COUNTS, (population, generations, 1))
@@ -87,10 +87,6 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.picker = FrontPicker(explorer, self.found, importance, self._show_again)
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=5.6)
         self.picture.on_click(self.picker.select_nearest)
-        last = "go on with the last search that was stopped or killed"
-        self.resume_button = Button("Resume", self.resume, tooltip=last)
-        self._offer_resume()
-        self.record, self.verdict = Words(), Words()
         for panel in self._judges.values():
             panel.on_change(self.picker.quiet.unless(self._judged))
         explorer.on_change(lambda _: self._show_again() if self.picker.moved else None)
@@ -108,6 +104,14 @@ class ParetoPanel(JobPanel, FrontPanel):
         """The judgement panels that there are, by name."""
         panels = {"criteria": self.criteria, "importance": self.importance}
         return {name: panel for name, panel in panels.items() if panel}
+
+    def _make_parts(self) -> None:
+        """What stands beside Run and Stop, and what is said."""
+        self.banner, self.status, self.progress = self.runner.banner, self.runner.status, self.runner.progress
+        last = "go on with the last search that was stopped or killed"
+        self.resume_button = Button("Resume", self.resume, tooltip=last)
+        self._offer_resume()
+        self.record, self.verdict = Words(), Words()
 
     def _count(self, name: str, value: int) -> Whole:
         low, high = COUNTS[name][0], COUNTS[name][-1]

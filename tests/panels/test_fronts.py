@@ -261,6 +261,14 @@ def test_a_design_that_is_picked_goes_into_the_sliders(panel, app, fronts):
     assert_allclose(ring(panel), fronts["limits"].f[0] / mm**2, atol=1e-12)
 
 
+def test_in_a_tab_of_the_instrument_the_page_has_every_design_that_a_point_stands_for(panel, app, fronts):
+    assert app.tabs == [{"title": "Fronts", "sheets": [panel]}]
+    x, y, designs = map(np.frombuffer, panel.picture.data[0]["offered"])
+    every = list(fronts.values())
+    assert_allclose([x, y], np.concatenate([front.f for front in every]).T / mm**2)
+    assert_allclose(designs.reshape(-1, 2), np.concatenate([front.x for front in every]))
+
+
 def test_the_cross_follows_the_sliders(panel, app):
     move(app, "x", 1.5)
     assert_allclose(ring(panel), [1.5**2 + 1, 0.5**2 + 1])

@@ -300,6 +300,7 @@ def test_every_control_of_the_panels_comes_back(app):
     panel = cycle_time_panel(app, high_speed_study(), limit, 60 * deg, 90 * deg)
     assert try_everything(panel) == 3
     assert panel.limit.value == pytest.approx(limit)
+    assert [tab["title"] for tab in app.tabs] == ["Optimise", "Cycle time"]
 
 
 # --- the cycle time ---------------------------------------------------------------------------------------------------
