@@ -56,7 +56,6 @@ if TYPE_CHECKING:
     from .panels.instrument import explore as explore
     from .panels.presets import presets as presets
     from .panels.shortlist import shortlist as shortlist
-    from .panels.try_everything import try_everything as try_everything
     from .render.living import to_html as to_html
     from .render.picture import picture as picture
     from .search.nsga2 import nsga2 as nsga2
@@ -82,7 +81,6 @@ _LATER = {
     "shortlist": "panels",
     "to_html": "render.living",
     "tolerance_panel": "panels",
-    "try_everything": "panels",
 }
 """Where they live."""
 _WINGS = ("papers", "views", "panels", "render")

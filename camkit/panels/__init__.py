@@ -16,7 +16,6 @@ with extra("camkit.panels"):
     from .program import ProgramEditor, edit_program
     from .shortlist import shortlist
     from .tolerances import TolerancePanel, general_tolerances, tolerance_panel
-    from .try_everything import try_everything
 
 __all__ = [
     "AhpPanel",
@@ -42,5 +41,4 @@ __all__ = [
     "presets",
     "shortlist",
     "tolerance_panel",
-    "try_everything",
 ]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import json
-import math
 import os
 import re
 import secrets
@@ -19,17 +18,24 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import pytest
 from playwright.sync_api import Locator, Page
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
-from camkit.study.study import keeps
+from camkit.quantities import quantities_of, value_of
 
+SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
+    const plain = (v) => (typeof v === "number" ? [String(v)] : typeof v === "object" && v ? Array.from(v, String) : v);
+    const mark = (m) => Object.fromEntries(Object.entries(m).map(([name, v]) => [name, plain(v)]));
+    return { sentence, values, measures: measures.map((m) => m.text),
+             pictures: pictures.map((p) => ({ ...p, marks: p.marks.map(mark) })) }; }"""
+"""What a page shows, as data."""
 CHROMIUM_FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
@@ -52,11 +58,8 @@ def find_chromium() -> str | None:
 
 
 def copy_notebooks(source: Path, target: Path) -> None:
-    """The notebooks for a server of tests: nbval moves every control of every notebook, here one notebook does."""
+    """The notebooks for a server of tests."""
     shutil.copytree(source, target, ignore=shutil.ignore_patterns(".*"))
-    for path in target.glob("*.ipynb"):
-        if path.name != "17_tolerances.ipynb":
-            path.write_text(path.read_text(encoding="utf-8").replace("try_everything(", "id("), encoding="utf-8")
 
 
 @dataclass(frozen=True)
@@ -281,22 +284,63 @@ def in_picture(output: Locator, x: float, y: float, k: int = 0) -> tuple[float, 
     return left, top
 
 
-def table_of_measures(
-    measures: Iterable[Any], now: Any, first: Any, at_most: Mapping[Any, float], at_least: Mapping[Any, float]
-) -> list[str]:
-    """Rows that an explorer's table must show for ``now`` and ``first``; none where a measure is twice infinite."""
-    rows = []
-    for measure in measures:
-        value, start, verdict = float(measure(now)), float(measure(first)), ""
-        if math.isinf(value) and math.isinf(start):
-            continue
-        for sign, sense, limits in (("≤", 1, at_most), ("≥", -1, at_least)):
-            if measure in limits:
-                limit = limits[measure]
-                verdict = f"{sign} {measure.text(limit)}" + ("met" if keeps(value, limit, sense) else "not met")
-        change = f"{100 * (value - start) / abs(start):+.1f} %" if start and math.isfinite(start - value) else ""
-        rows.append(f"{measure.name}{measure.text(value)}{measure.text(start)}{change}{verdict}")
-    return rows
+@dataclass(frozen=True)
+class Instrument:
+    """An instrument of the notebook in front: its ``name`` in the kernel, and its ``place`` among those of the page."""
+
+    page: Page
+    name: str = "app"
+    place: int = 0
+
+    @property
+    def root(self) -> Locator:
+        """The instrument, with every group of its sliders open."""
+        root = self.page.locator(".camkit-page").nth(self.place)
+        root.evaluate("root => root.querySelectorAll('.camkit-left details').forEach(group => { group.open = true; })")
+        return root
+
+    def slider(self, label: str) -> Locator:
+        return self.root.get_by_label(label, exact=True)
+
+    def box(self, label: str) -> Locator:
+        return self.root.get_by_label(f"{label}, number", exact=True)
+
+    def type(self, label: str, text: str) -> None:
+        self.box(label).fill(text)
+        self.box(label).press("Enter")
+
+    def choose(self, option: str) -> None:
+        """Takes an option from the menu that has it."""
+        self.root.locator(".camkit-left select").filter(has_text=option).first.select_option(label=option)
+
+    def reset(self) -> None:
+        self.root.get_by_role("button", name="Reset").click()
+
+    def shown(self) -> Any:
+        """What it shows, when nothing is left to be drawn."""
+        panel = f"document.querySelectorAll('.camkit-page')[{self.place}].parentElement.camkit"
+        self.page.wait_for_function(f"() => {panel}?.outputs && !{panel}.frame")
+        return self.page.evaluate(SHOWN.replace("camkit.shown", f"{panel}.shown"))
+
+    def shows(self, design: Any, measures: Iterable[Any]) -> None:
+        """The page and the kernel come to ``design``; the page has its measures, computed here."""
+        wanted = [value_of(design, path) for path in quantities_of(design)]
+        eventually(lambda: self.shown()["values"][: len(wanted)] == pytest.approx(wanted, rel=1e-9))
+        eventually(lambda: numbers_of(self.shown()) == numbers_in(design, measures))
+        known = f"[{self.name}.values, {self.name}.message]"  # the page has let go, and both agree
+        eventually(lambda: kernel_value(self.page, known)[0] == pytest.approx(wanted, rel=1e-9))
+        assert "The page computes" not in kernel_value(self.page, known)[1]
+
+
+def numbers_of(shown: Any) -> list[str]:
+    """The numbers of the measures that a page shows, without their units."""
+    return [text.replace("°", " °").partition(" ")[0] for text in shown["measures"]]
+
+
+def numbers_in(design: Any, measures: Iterable[Any]) -> list[str]:
+    """The numbers that it has to show."""
+    analysis = design.analyse()
+    return [m.text(m.one(analysis)).partition(" ")[0] for m in measures]
 
 
 OWN_SHEETS = ".camkit-sheet:not(.camkit-page *)"

@@ -11,7 +11,7 @@ from lab import eventually, kernel_value, open_notebook, run_all
 
 SOURCE = """
 import numpy as np
-from camkit import ArmLoad, DoorHandleCam, Judgements, ahp_panel, door_handle_study, instrument, quick_front
+from camkit import ArmLoad, DoorHandleCam, Judgements, ahp_panel, door_handle_study, explore, quick_front
 from camkit.panels.kit.drawn import LivePicture, nearest
 from camkit.panels.kit.parts import Banner
 from camkit.panels.kit.sheet import Panel
@@ -20,7 +20,7 @@ from camkit.views.front import ShownFront, pareto, shown_objectives
 
 study = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
 front = quick_front(study)
-app = instrument(study.start, at_most=study.at_most, at_least=study.at_least)
+app = explore(study.start, at_most=study.at_most, at_least=study.at_least)
 judged = ahp_panel(Judgements(["effort", "least radius"], [1]), "What matters?")
 
 

@@ -17,12 +17,12 @@ from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_measures import GEOMETRY, HIGH_SPEED_MEASURES, high_speed_study, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
+from camkit.quantities import quantities_of
 from camkit.search.minimise import minimise
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all, table_of_measures
+from lab import Instrument, LabServer, eventually, kernel_value, open_notebook, run_all
 
 START = HighSpeedCam()
 SHAPED = ShapedLaw(c=(0.0, -0.15, 0.0, 0.0))
-LIMITS = high_speed_study().at_least or {}
 
 
 @dataclass(frozen=True)
@@ -30,16 +30,12 @@ class Workbook:
     """The opened notebook and its panels."""
 
     page: Page
-    bench: Locator
+    app: Instrument
     better: Locator
     faster: Locator
 
     def value(self, expression: str) -> Any:
         return kernel_value(self.page, expression)
-
-    def row(self, panel: Locator, name: str) -> Locator:
-        label = self.page.locator("span[title]", has_text=re.compile(rf"(^|\s){name}$"))
-        return panel.locator(".camkit-knob").filter(has=label)
 
 
 @pytest.fixture(scope="module")
@@ -50,52 +46,30 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     panels = page.locator(".camkit-panel")
     optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
     shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
-    # a panel inside a panel: the outer one, with the buttons, comes first
-    yield Workbook(page, panels.filter(has_text="return law c3").first, optimise.first, shorten.first)
+    yield Workbook(page, Instrument(page), optimise.first, shorten.first)
     page.close()
     server.end_kernels()
 
 
 @pytest.fixture(autouse=True)
 def _from_the_start(book: Workbook) -> None:
-    book.bench.get_by_role("button", name="Reset").click()
-    shows(book, START)
+    book.app.reset()
+    book.app.shows(START, HIGH_SPEED_MEASURES)
 
 
-def shows(book: Workbook, cam: HighSpeedCam) -> None:
-    """Boxes and table show ``cam``, computed here."""
-    for name, field in (
-        ("arm length", "arm_length"),
-        ("roller radius", "roller_radius"),
-        ("radius at the far dwell", "max_radius"),
-    ):
-        expect(book.row(book.bench, name).get_by_role("spinbutton")).to_have_value(f"{getattr(cam, field) / mm:.6g}")
-    expected = table_of_measures(HIGH_SPEED_MEASURES, cam.analyse(), START.analyse(), {}, LIMITS)
-    expect(book.bench.locator(".camkit-tables tr:has(td)")).to_have_text(expected)
-
-
-def test_a_slider_changes_the_roller_and_all_that_follows(book: Workbook) -> None:
-    slider = book.row(book.bench, "roller radius").get_by_role("slider")
+def test_sliders_coefficients_and_the_load_case_change_all_that_follows(book: Workbook) -> None:
+    slider = book.app.slider("roller radius, mm")
     slider.focus()
     for _ in range(5):
         slider.press("ArrowRight")
-    r = float(slider.get_attribute("aria-valuetext") or 0)
-    assert r > 30
-    cam = START.replace(roller_radius=r * mm)
-    shows(book, cam)
-    top = book.value("app.picture.axes[3].lines[2].get_ydata().tolist()")  # the dot on the way out
-    peak = cam.analyse().rise.highest(lambda part: part.stress_coefficient).value
-    np.testing.assert_allclose(top, peak, rtol=1e-9)
-
-
-def test_coefficients_and_the_load_case_from_the_menu(book: Workbook) -> None:
-    box = book.row(book.bench, "rise law c1").get_by_role("spinbutton")
-    box.fill("-0.15")
-    box.press("Enter")
-    shows(book, START.replace(rise_law=SHAPED))
-    menu = book.bench.locator("select").filter(has_text="constant torque")
-    menu.select_option(label="constant torque")
-    shows(book, START.replace(rise_law=SHAPED, load=ConstantTorque()))
+    r = book.app.shown()["values"][list(quantities_of(START)).index("roller_radius")]
+    assert r > 30 * mm
+    cam = START.replace(roller_radius=r)
+    book.app.shows(cam, HIGH_SPEED_MEASURES)
+    book.app.type("rise law c1", "-0.15")
+    book.app.shows(cam.replace(rise_law=SHAPED), HIGH_SPEED_MEASURES)
+    book.app.choose("constant torque")
+    book.app.shows(cam.replace(rise_law=SHAPED, load=ConstantTorque()), HIGH_SPEED_MEASURES)
 
 
 def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> None:
@@ -111,7 +85,7 @@ def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> 
     np.testing.assert_allclose(found, [getattr(best.design, name) for name in GEOMETRY], rtol=1e-4)
     assert book.value("float(app.measures[1](app.analysis))") < 0.6 * float(peak_wear(START.analyse()))
     book.better.get_by_role("button", name="Undo").click()
-    shows(book, START)
+    book.app.shows(START, HIGH_SPEED_MEASURES)
 
 
 def test_a_long_search_can_be_stopped_and_keeps_the_best(book: Workbook) -> None:

@@ -10,8 +10,8 @@ from playwright.sync_api import expect
 from camkit import ArmLoad, DoorHandleCam, door_handle_study
 from camkit.quantities import choices_of, measures_of
 from camkit.views import default_views
-from lab import eventually, kernel_value, open_notebook, run_all
-from test_living_page import DRAG, SHOWN, compare
+from lab import SHOWN, eventually, kernel_value, open_notebook, run_all
+from test_living_page import DRAG, compare
 
 START = """
 from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore

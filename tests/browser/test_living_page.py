@@ -16,13 +16,9 @@ from camkit.render.page_parts import script
 from camkit.render.picture import given_to, positions_of
 from camkit.views import default_views, mechanism, pressure_angle
 from camkit.views.picture import Axes, Contour, Line, Picture, Points, Text
+from lab import SHOWN, numbers_in, numbers_of
 
 MOST_BYTES = 500_000
-SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
-    const plain = (v) => (typeof v === "number" ? [String(v)] : typeof v === "object" && v ? Array.from(v, String) : v);
-    const mark = (m) => Object.fromEntries(Object.entries(m).map(([name, v]) => [name, plain(v)]));
-    return { sentence, values, measures: measures.map((m) => m.text),
-             pictures: pictures.map((p) => ({ ...p, marks: p.marks.map(mark) })) }; }"""
 DRAWN = "() => globalThis.camkit?.outputs && !camkit.frame"
 DRAG = """([share, k]) => { const slider = document.querySelectorAll(".camkit-left input[type=range]")[k];
     slider.value = Number(slider.min) + share * (slider.max - slider.min);
@@ -80,8 +76,7 @@ def compare(shown, design, views, measures, limits=None):
             if isinstance(mark, Text) and found["words"]:
                 assert found["words"] == mark.words
         assert not marks
-    numbers = [m.text(m.one(analysis)).partition(" ")[0] for m in measures]
-    assert numbers == [text.replace("°", " °").partition(" ")[0] for text in shown["measures"]]
+    assert numbers_of(shown) == numbers_in(now, measures)
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -69,10 +69,10 @@ def try_everything(panel):
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
     measure, a view or what follows it could not be computed.
     """
-    controls = [c for c in _inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
-    count = len(controls) + sum(_try_page(app) for app in _inside(panel) if isinstance(app, Instrument))
+    controls = [c for c in inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
+    count = len(controls) + sum(_try_page(app) for app in inside(panel) if isinstance(app, Instrument))
     with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
-        for held in _inside(panel):
+        for held in inside(panel):
             if isinstance(held, Sheet):
                 quiet.enter_context(held.held())
             elif isinstance(held, w.Widget):
@@ -87,7 +87,7 @@ def try_everything(panel):
 
 
 def _try_page(app):
-    """Every slider and menu that the page has."""
+    """Every slider that the page has, and another option of every menu."""
     before, paths = app.design, sliders(app)
     for path in paths:
         if path in quantities_of(app.design):
@@ -97,7 +97,8 @@ def _try_page(app):
                 _refuse_failure(app)
         else:
             own = value_of(app.design, path)
-            for option in (*choices_of(app.design)[path].named, own):
+            other = next(name for name, option in choices_of(app.design)[path].named.items() if option != own)
+            for option in (other, own):  # each is recorded anew
                 choose(app, path, option)
                 _refuse_failure(app)
         app.load(before)
@@ -119,14 +120,14 @@ SAYS = {parts.Banner: "text", Banner: "value", Instrument: "message"}
 
 def _refuse_failure(panel):
     """``AssertionError`` if the panel says that a measure or a view raised an error of Python."""
-    for part in _inside(panel):
+    for part in inside(panel):
         said = next((getattr(part, name) for kind, name in SAYS.items() if isinstance(part, kind)), "")
         assert "cannot be computed:" not in said, said
         assert "The page computes" not in said, said
 
 
-def _inside(box):
+def inside(box):
     """Every widget inside ``box``, and every part of a sheet."""
     if isinstance(box, Sheet):
         return [box, *box.top.inside()]
-    return [box, *(c for child in getattr(box, "children", ()) for c in _inside(child))]
+    return [box, *(c for child in getattr(box, "children", ()) for c in inside(child))]

@@ -6,7 +6,6 @@ import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import anywidget
 import ipywidgets as w
@@ -110,20 +109,6 @@ class NumberRow:
         self._put(self.box, _six_digits(shown))
         self._put(self.slider, shown)
 
-    def between(self, low: float, high: float) -> None:
-        """Ends of the slider (SI), to the next step outward; a value outside is moved between them."""
-        step, factor = self.slider.step, self.declared.factor
-        ends = tuple(
-            round(to(end / factor / step) * step, 9) for to, end in ((math.floor, low + 1e-9), (math.ceil, high - 1e-9))
-        )
-        if ends != (self.slider.min, self.slider.max):
-            with self._quiet, self.slider.hold_sync():
-                with self.slider.hold_trait_notifications():
-                    self.slider.min, self.slider.max = ends
-                self.set(self.value)
-        if not ends[0] * factor <= self.value <= ends[1] * factor:
-            self.set(min(max(self.value, ends[0] * factor), ends[1] * factor))
-
     def _put(self, widget: w.Widget, shown: float) -> None:
         with self._quiet:
             widget.value = on_grid(widget, shown) if widget is self.slider else shown
@@ -176,51 +161,6 @@ def _six_digits(shown: float) -> float:
 def _decade(width: float) -> int:
     """The power of ten at or below ``width``."""
     return int(f"{width:e}".split("e")[1])
-
-
-class Menu:
-    """One choice among named options; ``value`` is the option itself."""
-
-    def __init__(self, name: str, declared: Choice, value: object, changed: Callable[[], None]) -> None:
-        self.declared, self._quiet = declared, Quiet()
-        self.menu = w.Dropdown(
-            options=self._options(value), value=value,
-            tooltip=declared.meaning, layout=w.Layout(flex="1 1 120px", width="auto"),
-        )  # fmt: skip
-        caption = w.HTML(label_html(name, declared), layout=w.Layout(flex=LABEL))
-        self.row = w.HBox([caption, self.menu], layout=w.Layout(align_items="center"))
-        self.row.add_class("camkit-knob")
-        self._quiet.hear(self.menu, lambda _: changed())
-
-    @property
-    def value(self) -> object:
-        """The chosen option."""
-        return self.menu.value
-
-    def set(self, value: object) -> None:
-        """Show ``value`` without telling anyone."""
-        with self._quiet:
-            if (options := self._options(value)) != list(self.menu.options):
-                self.menu.options = options
-            self.menu.value = value
-
-    def _options(self, value: Any) -> list[tuple[str, object]]:
-        """What the declaration offers, and ``value`` if it is something of one's own."""
-        own = {} if value in self.declared.options else {self.declared.text(value): value}
-        return list((self.declared.named | own).items())
-
-
-def control(
-    name: str,
-    declared: Quantity | Choice,
-    value: Any,
-    changed: Callable[[], None],
-    refused: Callable[[str], None],
-) -> NumberRow | Menu:
-    """The control that a declaration asks for."""
-    if isinstance(declared, Choice):
-        return Menu(name, declared, value, changed)
-    return NumberRow(name, declared, value, changed, refused)
 
 
 class Download(anywidget.AnyWidget):

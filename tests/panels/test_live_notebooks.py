@@ -1,0 +1,29 @@
+"""Every control of the live notebooks: it can be moved, and comes back."""
+
+from pathlib import Path
+
+import ipywidgets as w
+import matplotlib.pyplot as plt
+import nbformat
+import pytest
+from try_everything import inside, try_everything
+
+NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
+LIVE = sorted(path.name for path in NOTEBOOKS.glob("*.ipynb") if "widget-view" in path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LIVE)
+def test_every_control_moves_and_comes_back(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook
+    made = {"__name__": "__main__"}
+    for cell in nbformat.read(NOTEBOOKS / name, as_version=4).cells:
+        if cell.cell_type == "code":
+            exec(cell.source, made)
+    named = {id(panel): panel for panel in made.values() if isinstance(panel, w.DOMWidget)}
+    held = {id(part) for panel in named.values() for part in inside(panel)[1:]}
+    panels = [panel for panel in named.values() if id(panel) not in held]
+    assert sum(map(try_everything, panels)) > 0
+    for panel in panels:
+        getattr(panel, "settle", bool)()
+    plt.close("all")
