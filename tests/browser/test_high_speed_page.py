@@ -66,7 +66,7 @@ def test_sliders_coefficients_and_the_load_case_change_all_that_follows(book: Wo
     assert r > 30 * mm
     cam = START.replace(roller_radius=r)
     book.app.shows(cam, HIGH_SPEED_MEASURES)
-    book.app.type("rise law c1", "-0.15")
+    book.app.type("rise shape 2", "-0.15")
     book.app.shows(cam.replace(rise_law=SHAPED), HIGH_SPEED_MEASURES)
     book.app.choose("constant torque")
     book.app.shows(cam.replace(rise_law=SHAPED, load=ConstantTorque()), HIGH_SPEED_MEASURES)

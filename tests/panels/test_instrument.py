@@ -71,7 +71,7 @@ def test_a_choice_brings_its_quantities(app):
     shaped = app.design.motion.replace(segments=(rise.replace(law=ShapedLaw(c=(0.1, 0.0, 0.0, 0.0))), *others))
     app.load(app.design.replace(motion=shaped))
     names = [q["name"] for q in app.structure["quantities"]]
-    assert "motion rise law c0" in names
+    assert "rise shape 1" in names
     assert len(app.values) == len(names)
 
 
@@ -296,7 +296,7 @@ def test_a_free_quantity_that_a_law_takes_away_comes_back():
     assert not any(q["free"] for q in app.structure["quantities"])
     assert len(app.values) == len(app.structure["quantities"])
     app.design = shaped
-    assert [q["name"] for q in app.structure["quantities"] if q["free"]] == ["motion rise law c0"]
+    assert [q["name"] for q in app.structure["quantities"] if q["free"]] == ["rise shape 1"]
 
 
 def test_a_slider_of_its_own_makes_room_for_a_design_beyond_its_ends(app):
