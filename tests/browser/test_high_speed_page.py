@@ -43,7 +43,7 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
     open_notebook(page, "06_high_speed_cam.ipynb")
     run_all(page)
-    panels = page.locator(".camkit-panel")
+    panels = page.locator(".camkit-sheet")
     optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
     shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
     yield Workbook(page, Instrument(page), optimise.first, shorten.first)

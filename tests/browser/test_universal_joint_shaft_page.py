@@ -37,7 +37,7 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
     open_notebook(page, "12_universal_joint_shaft.ipynb")
     run_all(page)
-    bench = page.locator(".camkit-panel").filter(has=page.get_by_role("button", name="lightest, by formula"))
+    bench = page.locator(".camkit-sheet").filter(has=page.get_by_role("button", name="lightest, by formula"))
     yield Workbook(page, bench, Instrument(page), Instrument(page, "drive_app", 1))
     page.close()
     server.end_kernels()

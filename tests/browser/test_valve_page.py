@@ -21,7 +21,7 @@ from camkit.machines.valve_measures import (
 from camkit.machines.valve_train import ROLLER
 from camkit.quantities import quantities_of
 from camkit.search.minimise import minimise
-from lab import Instrument, LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import Instrument, LabServer, eventually, in_picture, kernel_value, open_notebook, run_all
 
 START = ValveCam()
 
@@ -44,9 +44,11 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
     open_notebook(page, "08_valve_cam.ipynb")
     run_all(page)
-    panels = page.locator(".camkit-panel")
+    panels = page.locator(".camkit-sheet")
     bench = panels.filter(has=page.get_by_role("button", name="Weakest spring"))
-    yield Workbook(page, bench, panels.filter(has_text="wear").first, Instrument(page))
+    yield Workbook(
+        page, bench, panels.filter(has=page.get_by_role("button", name="Load the optimum")).first, Instrument(page)
+    )
     page.close()
     server.end_kernels()
 
@@ -81,8 +83,7 @@ def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
 def test_a_weight_moves_the_optimum_and_a_click_loads_a_design(book: Workbook) -> None:
     book.plane.locator("select").select_option(label="sign as printed")
     for typed in ("0.5", "0.7"):
-        label = book.page.locator("span[title]", has_text=re.compile(r"(^|\s)fullness$"))
-        box = book.plane.locator(".camkit-knob").filter(has=label).get_by_role("spinbutton")
+        box = book.plane.get_by_role("textbox", name=re.compile("^fullness.*number")).first
         box.fill(typed)
         box.press("Enter")
         w = float(typed) / (float(typed) + 0.5)
@@ -92,11 +93,6 @@ def test_a_weight_moves_the_optimum_and_a_click_loads_a_design(book: Workbook) -
     book.plane.get_by_role("button", name="Load the optimum").click()
     book.app.shows(START.replace(n=20.0, m=20.0), VALVE_MEASURES)
 
-    x, y = book.value("plane.picture.axes[0].transData.transform((9.0, 12.0))")
-    width, height = book.value("plane.picture.figure.canvas.get_width_height()")
-    image = book.plane.locator("img.camkit-image")
-    box = image.bounding_box()
-    assert box
-    image.click(position={"x": x / width * box["width"], "y": (1 - y / height) * box["height"]})
+    book.page.mouse.click(*in_picture(book.plane, 9.0, 12.0))
     eventually(lambda: abs(book.value("app.design.n") - 9) < 0.1)
     assert book.value("app.design.m") == pytest.approx(12, abs=0.1)
