@@ -16,8 +16,9 @@ REPOSITORY = Path(__file__).parents[2]
 SAVE = "() => window.jupyterapp.commands.execute('docmanager:save')"
 RESTART = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
 STAND = f"""() => {{
-    const {{ values, history, ghost, tabs }} = {PAGE}, plain = (steps) => steps.map((step) => [...step]);
-    return [[...values], plain(history.past), plain(history.future), ghost && [...ghost.values], tabs.shown.name];
+    const {{ values, history, ghost, tabs, units }} = {PAGE}, plain = (steps) => steps.map((step) => [...step]);
+    const pinned = ghost && [...ghost.values];
+    return [units.name, [...values], plain(history.past), plain(history.future), pinned, tabs.shown.name];
 }}"""
 ARM = "lift arm, mm"
 
@@ -55,7 +56,8 @@ def work(page):
     page.locator(".camkit-play input[type=range]").first.press("ArrowRight")
     page.get_by_role("tab", name="Numbers").click()
     settled(page)
-    eventually(lambda: kernel_value(page, "app.page.get('tab')") == "Numbers")
+    page.get_by_label("units", exact=True).select_option("mm, rad, N")
+    eventually(lambda: kernel_value(page, "[app.page.get('tab'), app.page.get('units')]") == ["Numbers", "mm, rad, N"])
     return page.evaluate(STAND)
 
 

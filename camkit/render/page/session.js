@@ -1,14 +1,14 @@
-// What a page remembers beside its design: where it stands, what Undo goes back to, what is pinned; and what its kernel
-// offers of earlier.  A kernel that has ended leaves no control behind that does nothing.
+// What a page remembers beside its design: where it stands, what Undo goes back to, what is pinned, its units; and what
+// its kernel offers of earlier.  A kernel that has ended leaves no control behind that does nothing.
 import { make } from "./controls.js";
 
 const QUIET = 400; // ms of rest after which the kernel hears how the page was left
 
 /** How a panel stands, its design left out: plain numbers. @param {any} panel */
 export function standOf(panel) {
-  const { values, history, ghost, tabs } = panel, plain = (/** @type {Float64Array[]} */ steps) => steps.map((step) => [...step]);
+  const { values, history, ghost, tabs, units } = panel, plain = (/** @type {Float64Array[]} */ steps) => steps.map((step) => [...step]);
   return {
-    at: [...values.slice(history.count)], tab: tabs.shown?.name ?? "", pinned: ghost ? [...ghost.values] : null,
+    at: [...values.slice(history.count)], tab: tabs.shown?.name ?? "", units: units.name, pinned: ghost ? [...ghost.values] : null,
     past: plain(history.past), future: plain(history.future),
   };
 }
@@ -24,6 +24,7 @@ export async function stand(panel, left) {
   if (past.length + future.length) Object.assign(history, { past, future });
   if (numbers(left.at, length - count)) panel.put([...panel.values.slice(0, count), ...left.at]);
   history.now = panel.values.slice();
+  if (typeof left.units === "string") panel.use(left.units);
   if (typeof left.tab === "string") panel.showTab(left.tab);
   if (!numbers(left.pinned, length) || panel.ghost) return;
   const values = Float64Array.from(left.pinned), outputs = await panel.engine.run(values);
