@@ -50,3 +50,20 @@ def test_a_notebook_says_its_language_and_holds_no_state(path):
     assert metadata.keys() == {"kernelspec", "language_info"}
     assert metadata.kernelspec == {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
     assert metadata.language_info.file_extension == ".py"
+
+
+LIVE = [path for path in NOTEBOOKS if "_paper" not in path.stem and "widget-view+json" in path.read_text("utf-8")]
+
+
+@pytest.mark.parametrize("path", LIVE, ids=lambda path: path.stem)
+def test_a_live_notebook_is_one_paragraph_and_its_panel(path):
+    """What is behind it stands below; code that only shows something is folded, to be unfolded by whoever wants it."""
+    cells = nbformat.read(path, as_version=4).cells
+    panel = next(k for k, cell in enumerate(cells) if "widget-view+json" in str(cell.get("outputs")))
+    title, *_ = (cell.source for cell in cells[:panel] if cell.cell_type == "markdown")
+    assert title.startswith("# ")
+    assert title.count("\n\n") == 1
+    assert sum(cell.cell_type == "markdown" for cell in cells[:panel]) == 1
+    for cell in cells:
+        if cell.cell_type == "code" and (not cell.outputs or "image/png" in str(cell.outputs)):
+            assert cell.metadata.jupyter.source_hidden
