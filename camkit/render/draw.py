@@ -38,22 +38,23 @@ ROLES: dict[str, Role] = {
     "paper": Role("#ffffff", "#111417", "#ffffff", 7.0),
     "onto": Role("#1f2933", "#111417", "#000000", 1.5),
     "guide": Role("#7b8794", "#93a1af", "#6b6b6b", 1.0),
-    "ghost": Role("#c5ccd4", "#4a545e", "#bdbdbd", 1.0),
+    "ghost": Role("#8b949d", "#66727d", "#8f8f8f", 1.0),
     "body": Role("#e4e7eb", "#2a3138", "#e6e6e6", 1.0),
-    "profile": Role("#0072B2", "#4da3dd", "#004f7c", 2.4),
-    "flank": Role("#56B4E9", "#8ccbf2", "#3a8fbf", 1.4),
+    "profile": Role("#005a92", "#3590d0", "#004f7c", 2.4),
+    "flank": Role("#359cd8", "#bfe2fa", "#3a8fbf", 1.4),
     "pitch": Role("#7b8794", "#93a1af", "#6b6b6b", 1.0, "--"),
-    "follower": Role("#E69F00", "#f0ad3c", "#a87400", 2.2),
-    "position": Role("#0072B2", "#4da3dd", "#004f7c"),
-    "velocity": Role("#009E73", "#4cc38a", "#006e50"),
-    "acceleration": Role("#E69F00", "#f0ad3c", "#a87400"),
-    "jerk": Role("#CC79A7", "#e09cc2", "#99557b", 1.9, ":"),
-    "limit": Role("#D55E00", "#ff8a5c", "#a34700", 1.2),
-    "allowed": Role("#009E73", "#4cc38a", "#006e50", 1.0),
-    "trouble": Role("#D55E00", "#ff8a5c", "#a34700", 4.5),
+    "follower": Role("#c68800", "#f8c55c", "#b58100", 2.2),
+    "position": Role("#005a92", "#3590d0", "#004f7c"),
+    "velocity": Role("#00664a", "#35b377", "#006e50"),
+    "acceleration": Role("#c68800", "#f8c55c", "#b58100"),
+    "jerk": Role("#c9609f", "#d27bad", "#99557b", 1.9, ":"),
+    "limit": Role("#ae3400", "#f96f38", "#8f2f00", 1.2),
+    "allowed": Role("#00664a", "#35b377", "#006e50", 1.0),
+    "trouble": Role("#ae3400", "#f96f38", "#8f2f00", 4.5),
     "series": Role("", "", ""),
 }
-"""Okabe and Ito's colour-blind-safe palette; vermilion is kept for limits and trouble."""
+"""The hues of Okabe and Ito's colour-blind-safe palette, as dark (on black: as pale) as a line must be to be seen:
+its contrast with the paper is at least 3 : 1 (WCAG 2.2, 1.4.11). Vermilion is kept for limits and trouble."""
 
 SERIES = ("position", "follower", "velocity", "jerk", "flank")
 """The roles whose colours a series takes in turn: blue, orange, green, purple, sky."""
@@ -113,7 +114,7 @@ def colour(role: str, index: int = 0, theme: str = "light") -> str:
     """The colour of a role; a series has 20 that differ and begins anew.
 
     >>> colour("trouble"), len({colour("series", i) for i in range(20)})
-    ('#D55E00', 20)
+    ('#ae3400', 20)
     """
     if role != "series":
         return str(getattr(ROLES[role], theme))
@@ -121,6 +122,41 @@ def colour(role: str, index: int = 0, theme: str = "light") -> str:
     plain_colour = to_rgb(getattr(ROLES[SERIES[index % len(SERIES)]], theme))
     red, green, blue = ((1 - share) * c + share * towards for c in plain_colour)
     return to_hex((red, green, blue))
+
+
+def contrast(one: str, other: str) -> float:
+    """The contrast of two colours, from 1 to 21 (WCAG 2.2).
+
+    >>> contrast("#000000", "#ffffff"), round(contrast("#7b8794", "#ffffff"), 2)
+    (21.0, 3.66)
+    """
+    dark, pale = sorted(_luminance(each) for each in (one, other))
+    return (pale + 0.05) / (dark + 0.05)
+
+
+def _luminance(shade: str) -> float:
+    parts = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(shade))
+    return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), parts, strict=True))
+
+
+LEGIBLE = 4.5
+"""The contrast of letters with the paper that they stand on is at least this (WCAG 2.2, 1.4.3)."""
+
+
+def letter_colour(role: str, index: int = 0, theme: str = "light") -> str:
+    """The colour of letters in a role: the role's, as much nearer to ink as makes them legible on paper.
+
+    >>> letter_colour("follower"), letter_colour("limit")
+    ('#946b0f', '#ae3400')
+    """
+    tint, ink, paper = colour(role, index, theme), colour("ink", 0, theme), colour("paper", 0, theme)
+    if role in ("paper", "onto"):  # they stand on something else
+        return tint
+    steps = (
+        to_hex([(1 - s) * a + s * b for a, b in zip(to_rgb(tint), to_rgb(ink), strict=True)])
+        for s in np.linspace(0, 1, 21)
+    )
+    return next(shade for shade in steps if contrast(shade, paper) >= LEGIBLE)
 
 
 def plain(words: object) -> str:
@@ -161,9 +197,9 @@ def draw_picture(picture: shown.Picture, ax: Axes, theme: str = "light") -> None
 def _put(ax: Axes, mark: shown.Mark, artist: Any, theme: str) -> Artist:
     """The artist of ``mark``, made or moved."""
     style = {"alpha": mark.opacity, "label": plain(mark.label) if mark.label else f"_{mark.key}"}
-    tint = colour(mark.role, mark.index, theme)
     if isinstance(mark, shown.Text):
-        return _put_text(ax, mark, artist, {**style, "color": tint}, theme)
+        return _put_text(ax, mark, artist, {**style, "color": letter_colour(mark.role, mark.index, theme)}, theme)
+    tint = colour(mark.role, mark.index, theme)
     if isinstance(mark, Patch):
         return _put_patch(ax, mark, artist, {**style, "facecolor": tint, **_edge(mark, tint)})
     x, y = _places(mark)

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..program.page import MACHINE
-from .draw import ROLES, STROKES, colour
+from .draw import ROLES, STROKES, colour, letter_colour
 
 PAGE = Path(__file__).with_name("page")
 MODULES = (
@@ -21,16 +21,21 @@ STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.
 """How pages look."""
 DASHES: Mapping[str, Sequence[float]] = {"-": (), "--": (3.7, 1.6), ":": (1.0, 1.65), "-.": (6.4, 1.6, 1.0, 1.6)}
 """Of a line, in its widths."""
+THEMES = ("light", "dark")
+"""In which a page may be."""
 
 
 def look() -> object:
     """How roles look in each theme, and the strokes and dashes of lines, widths in points."""
+    plain = [name for name in ROLES if name != "series"]
     return {
         "roles": {
             name: {"light": role.light, "dark": role.dark, "width": role.width, "dashes": DASHES[str(role.dashes)]}
             for name, role in ROLES.items()
         },
-        "series": {theme: [colour("series", i, theme) for i in range(20)] for theme in ("light", "dark")},
+        "series": {theme: [colour("series", i, theme) for i in range(20)] for theme in THEMES},
+        "letters": {theme: {name: letter_colour(name, 0, theme) for name in plain} for theme in THEMES},
+        "seriesLetters": {theme: [letter_colour("series", i, theme) for i in range(20)] for theme in THEMES},
         "strokes": {name: _stroke(style) for name, style in STROKES.items()},
     }
 

@@ -1,14 +1,16 @@
 """The renderer: a picture is drawn once and moved afterwards, with one rule for legends and one table of roles."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from matplotlib import rc_context
-from matplotlib.colors import to_hex
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
 from camkit.render.draw import ROLES as LOOKS
-from camkit.render.draw import artist_of, colour, draw_picture, moving, theme_style
+from camkit.render.draw import artist_of, colour, contrast, draw_picture, letter_colour, moving, theme_style
 from camkit.views.picture import (
     ROLES,
     Area,
@@ -91,6 +93,47 @@ def test_every_role_has_a_look_in_every_theme(ax, theme):
     for role in ROLES:
         draw_picture(Picture.of(Axes(), Line("line", HERE, FAR, role=role)), ax, theme)
         assert to_hex(artist_of(ax, "line").get_color()) == to_hex(colour(role, theme=theme))
+
+
+LINES = ("profile", "flank", "follower", "position", "velocity", "acceleration", "jerk", "limit", "allowed", "trouble")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
+def test_lines_and_letters_have_the_contrast_that_wcag_asks_for(theme):
+    paper = colour("paper", theme=theme)
+    for role in (*LINES, "guide", "ghost", "pitch"):
+        assert contrast(colour(role, theme=theme), paper) >= 3, role
+    for role in set(ROLES) - {"paper", "onto"}:
+        for index in range(20 if role == "series" else 1):
+            assert contrast(letter_colour(role, index, theme), paper) >= 4.5, role
+
+
+# Machado, Oliveira, Fernandes 2009: what is seen without the cones for green and for red, of linear light.
+BLIND = {
+    "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+}
+
+
+def seen(shade, eyes):
+    """A colour in CIELAB, as such eyes see it."""
+    c = np.array(to_rgb(shade))
+    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(np.array(BLIND.get(eyes, np.eye(3))) @ linear, 0, 1)
+    xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]) @ linear
+    x, y, z = np.where((r := xyz / [0.9505, 1, 1.089]) > 0.008856, np.cbrt(r), 7.787 * r + 16 / 116)
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
+@pytest.mark.parametrize("eyes", ["all cones", "deutan", "protan"])
+def test_curves_differ_for_colour_blind_eyes_too(theme, eyes):
+    found = {
+        role: seen(colour(role, theme=theme), eyes)
+        for role in ("position", "velocity", "acceleration", "jerk", "limit")
+    }
+    for one, other in combinations(found, 2):
+        assert np.linalg.norm(found[one] - found[other]) >= 14, (one, other)
 
 
 def names(ax):
@@ -177,7 +220,7 @@ def test_the_name_of_a_limit_is_of_ink_in_a_frame_of_its_colour(ax, theme):
     draw_picture(field("limit", levels=(1.0,)), ax, theme)
     name = artist_of(ax, "circles name 0")
     assert to_hex(name.get_color()) == colour("ink", theme=theme)
-    assert to_hex(name.get_bbox_patch().get_edgecolor()) == colour("guide", theme=theme)
+    assert to_hex(name.get_bbox_patch().get_edgecolor()) == letter_colour("guide", theme=theme)
     assert to_hex(name.get_bbox_patch().get_facecolor()) == colour("paper", theme=theme)
 
 

@@ -17,8 +17,6 @@ export const one = (value, outputs) => { const v = found(value, outputs); return
 /** @param {any} value @param {ArrayLike<number>[]} outputs @returns {ArrayLike<number>} */
 export const many = (value, outputs) => { const v = found(value, outputs); return typeof v === "number" ? [v] : v; };
 export const real = Number.isFinite;
-/** Letters whose colour as a line would be too pale to read on white. @type {Record<string, string>} */
-export const READABLE = { guide: "#5b6875", pitch: "#5b6875", trouble: "#b03a00", limit: "#b03a00" };
 
 /** Where each coordinate of a mark may reach, as names of its fields. @type {Record<string, [string[], string[]]>} */
 export const REACH = {
@@ -123,7 +121,7 @@ export const DRAW = {
     chart.pen.stroke();
     return drawn;
   },
-  text(chart, mark, outputs, tint) {
+  text(chart, mark, outputs) {
     const { pen, box } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
     const small = chart.compact && !chart.axes.equal && !chart.axes.bare; // there is room for one line above a curve
     let p = chart.x(x);
@@ -146,7 +144,7 @@ export const DRAW = {
       if (mark.framed) { pen.lineWidth = 1; pen.strokeRect(left - 3, top - 1, wide + 6, tall + 2); }
       pen.globalAlpha = 1;
     }
-    pen.fillStyle = mark.framed ? chart.colour("ink") : READABLE[mark.role] ? chart.ink(mark.role) : tint;
+    pen.fillStyle = mark.framed ? chart.colour("ink") : chart.ink(mark.role, one(mark.index, outputs));
     const first = q - (upright === "top" ? 0 : upright === "bottom" ? tall - size * 1.25 : (tall - size * 1.25) / 2);
     pen.lineWidth = 3; pen.setLineDash([]); pen.strokeStyle = chart.colour("paper"); pen.lineJoin = "round";
     lines.forEach((line, k) => {

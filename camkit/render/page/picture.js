@@ -1,6 +1,6 @@
 // Draws pictures as data on a canvas: axes, and marks with roles.  It knows neither cams nor their numbers.
 import { format, pretty } from "./numbers.js";
-import { DRAW, FORMS, LETTERS, POINT, READABLE, REACH, circle, found, many, one, real, stroke, trace } from "./marks.js";
+import { DRAW, FORMS, LETTERS, POINT, REACH, circle, found, many, one, real, stroke, trace } from "./marks.js";
 import { between, degreeTicks, logTicks, scale, short, ticks } from "./scales.js";
 
 /**
@@ -81,7 +81,10 @@ export class Chart {
   }
 
   /** The colour of letters in a role. @param {string} role @param {number} [index] */
-  ink(role, index) { return (!this.how.dark && READABLE[role]) || this.colour(role, index); }
+  ink(role, index = 0) {
+    const theme = this.how.dark ? "dark" : "light";
+    return role === "series" ? this.look.seriesLetters[theme][index % 20] : this.look.letters[theme][role];
+  }
 
   /** Letters of a size. @param {number} size @param {number} [weight] */
   letters(size, weight = 400) { this.pen.font = `${weight} ${size * this.em}px ${LETTERS}`; }
