@@ -10,7 +10,7 @@ export function make(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
   }
-  if (["button", "canvas", "input", "select", "summary"].includes(tag)) element.setAttribute("data-lm-suppress-shortcuts", "true");
+  if (["button", "canvas", "input", "select", "summary"].includes(tag) || "tabindex" in attributes) element.setAttribute("data-lm-suppress-shortcuts", "true");
   element.append(...children);
   return element;
 }
