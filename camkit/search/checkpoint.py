@@ -24,7 +24,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from ..study.study import Study
 
@@ -65,6 +64,8 @@ def fingerprint(study: Study) -> str:
     >>> fingerprint(door_handle_study()) == fingerprint(door_handle_study())
     True
     """
+    from scipy.stats import qmc
+
     points = qmc.scale(qmc.Sobol(len(study.free), rng=0).random(PROBES), *study.bounds)
     evaluation = study.evaluate(points)
     names = [

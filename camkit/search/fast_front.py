@@ -16,7 +16,6 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from ..decision.choosers import normalised
 from ..quantities import D, counted
@@ -137,6 +136,8 @@ def _near(study: Study, start: Front | None) -> np.ndarray:
 
 def _everywhere(n: int, count: int) -> np.ndarray:
     """Shares all over the box: Sobol's, and the corners and middles, where limits of the box hold a front."""
+    from scipy.stats import qmc
+
     lattice = np.stack(np.meshgrid(*[[0, 0.5, 1]] * n), axis=-1).reshape(-1, n)
     return np.vstack([lattice, qmc.Sobol(n, rng=0).random(count)])
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from typing import Generic, SupportsIndex
 
 import numpy as np
-from scipy.stats import qmc
 
 from ..quantities import D, counted
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
@@ -124,6 +123,8 @@ def reference_point(study: Study, n: int = 256) -> np.ndarray:
 
     It depends on the study alone, so hypervolumes of different searches can be compared.
     """
+    from scipy.stats import qmc
+
     refuse_arguments(reference_point, locals())
     unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
     evaluation = study.evaluate(qmc.scale(unit, *study.bounds))

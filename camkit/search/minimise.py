@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import differential_evolution
-from scipy.stats import qmc
 
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
@@ -160,6 +159,8 @@ def _starts(study: Study, seed: int) -> Iterator[np.ndarray]:
 
     Every second crowd is drawn from the whole box, the others from a third of it around the start.
     """
+    from scipy.stats import qmc
+
     start, (low, high) = _start(study), study.bounds
     built = bool(np.isfinite(study.evaluate(start).f).all())
     if built:
@@ -186,6 +187,8 @@ WORST = 1e12
 
 
 def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
+    from scipy.stats import qmc
+
     looked = 0
 
     def told(x: np.ndarray) -> np.ndarray:

@@ -12,7 +12,6 @@ from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest, norm, qmc, sobol_indices, uniform
 
 from ..quantities import Measure, Paths, Quantity, counted, value_of, words
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
@@ -153,6 +152,8 @@ class Tolerances:
     @cached_property
     def _halves(self) -> np.ndarray:
         """Two independent halves of the parts, ``(2, parts / 2, n)``: Saltelli's matrices A and B."""
+        from scipy.stats import norm, qmc, uniform
+
         n = len(self.names)
         unit = qmc.Sobol(2 * n, rng=self.seed).random(self.parts // 2)
         low, high = self._box.bounds
@@ -215,6 +216,8 @@ class Tolerances:
     @property
     def interval(self) -> tuple[float, float]:
         """Wilson's 95 % confidence interval of the ``share``, as for random parts; Sobol points come closer."""
+        from scipy.stats import binomtest
+
         kept = binomtest(int(self.evaluation.feasible.sum()), self.parts)
         found = kept.proportion_ci(CONFIDENCE, method="wilson")
         return float(found.low), float(found.high)
@@ -242,6 +245,8 @@ class Tolerances:
 
         ``nan`` for a measure that does not vary, or that some part does not have.
         """
+        from scipy.stats import sobol_indices
+
         a, b = self._halves
         n, d = a.shape
         mixed = np.tile(a, (d, 1, 1))

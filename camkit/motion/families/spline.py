@@ -10,17 +10,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from math import factorial
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
-from scipy.sparse import csc_array, diags_array
-from scipy.sparse.linalg import spsolve
 
 from ...quantities import Quantity, numbered, row
 from ...quantities.kinds import a_number, listed, numbers, refuse_lengths, shown
 from ...quantities.types import Array, Value
 from ..law import Kinematics, Law, Peaks, law_peaks
 from .free import exact, given_at, of_values, piecewise, sized
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 MOST_KNOTS = 300
 """Of a spline in a file: the law is worked out as one curve for each."""
@@ -111,6 +112,8 @@ def _row(values: object, what: str) -> tuple[float, ...]:
 @lru_cache(maxsize=64)
 def _basis(knots: tuple[float, ...], given: int) -> Array:
     """The powers of the splines that have one of the points or end values 1 and all others 0, in their order."""
+    from scipy.interpolate import make_interp_spline
+
     points, orders = len(knots) + 2, range(1, given + 1)
     unit = np.eye(points + 2 * given)
     ends = [[(k, unit[points + i * given + k - 1]) for k in orders] for i in (0, 1)]
@@ -208,6 +211,8 @@ def _refuse_table(table: TableLaw) -> None:
 
 def _smoothed(u: Array, s: Array, tolerance: float) -> BSpline:
     """The smoothest spline within ``tolerance``: bisection on the weight of smoothness, most at first."""
+    from scipy.interpolate import make_interp_spline
+
     solve = _smoother(u, s)
     heavy, light = 3.0, -18.0  # powers of ten
     best = make_interp_spline(u, s, k=5, bc_type=([(1, 0.0), (2, 0.0)], [(1, 0.0), (2, 0.0)]))
@@ -224,6 +229,10 @@ def _smoother(u: Array, s: Array) -> Callable[[float], BSpline]:
 
     Dwell ends fix the first three coefficients of a clamped quintic at 0 and the last three at 1.
     """
+    from scipy.interpolate import BSpline
+    from scipy.sparse import csc_array
+    from scipy.sparse.linalg import spsolve
+
     t = np.concatenate([np.zeros(5), u, np.ones(5)])
     points = csc_array(BSpline.design_matrix(u, t, 5))
     jerks = _jerk_matrix(t)
@@ -245,6 +254,9 @@ def _smoother(u: Array, s: Array) -> Callable[[float], BSpline]:
 
 def _jerk_matrix(t: Array) -> Array:
     """From coefficients to jerk at Gauss points, weighed so that its square sums to the integral."""
+    from scipy.interpolate import BSpline
+    from scipy.sparse import diags_array
+
     derivative = diags_array(np.ones(len(t) - 6))
     for k in (5, 4, 3):
         n = derivative.shape[0]
