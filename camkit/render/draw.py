@@ -152,10 +152,8 @@ def letter_colour(role: str, index: int = 0, theme: str = "light") -> str:
     tint, ink, paper = colour(role, index, theme), colour("ink", 0, theme), colour("paper", 0, theme)
     if role in ("paper", "onto"):  # they stand on something else
         return tint
-    steps = (
-        to_hex([(1 - s) * a + s * b for a, b in zip(to_rgb(tint), to_rgb(ink), strict=True)])
-        for s in np.linspace(0, 1, 21)
-    )
+    ends = np.array([to_rgb(tint), to_rgb(ink)])
+    steps = (to_hex(tuple((np.array([1 - s, s]) @ ends).tolist())) for s in np.linspace(0, 1, 21))
     return next(shade for shade in steps if contrast(shade, paper) >= LEGIBLE)
 
 
