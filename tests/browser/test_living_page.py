@@ -359,9 +359,10 @@ class Truth(Evil):
 
 
 WIDGET = """([source, structure, answer, arrays]) => {
-    const state = { structure, program: new DataView(new ArrayBuffer(0)), message: "", values: [] }, heard = [];
+    const state = { structure, program: new DataView(new ArrayBuffer(0)), message: "", values: [], tabs: [], page: {} },
+        heard = [];
     const model = { get: (name) => state[name], set() {}, save_changes() {}, off() {},
-                    send: (asked) => questions.push(asked),
+                    send: (asked) => { if (asked.compute) questions.push(asked); },
                     on: (name, act) => { if (name === "msg:custom") heard.push(act); } };
     window.questions = [];
     window.answer = () => heard.forEach((act) => act({ ...answer, answer: questions.at(-1).number },
