@@ -93,7 +93,8 @@ def test_a_page_that_is_loaded_again_still_shows_the_search(running: Page) -> No
     running.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
     running.add_init_script(PATIENT)
     running.goto(f"/lab/tree/{NAME}")
-    running.wait_for_function("() => window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel")
+    loaded = "() => window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
+    running.wait_for_function(loaded, timeout=60_000)
     assert kernel_value(running, THREADS) == threads
     expect(cell(running, 1).get_by_text(LEFT)).to_be_visible(timeout=60_000)
     run_all(running)
