@@ -19,7 +19,7 @@ from camkit.machines.high_speed_measures import GEOMETRY, HIGH_SPEED_MEASURES, h
 from camkit.motion import ShapedLaw
 from camkit.quantities import quantities_of
 from camkit.search.minimise import minimise
-from lab import Instrument, LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, Instrument, LabServer, eventually, kernel_value, open_notebook, run_all
 
 START = HighSpeedCam()
 SHAPED = ShapedLaw(c=(0.0, -0.15, 0.0, 0.0))
@@ -43,7 +43,7 @@ def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
     page = context.new_page()
     open_notebook(page, "06_high_speed_cam.ipynb")
     run_all(page)
-    panels = page.locator(".camkit-sheet")
+    panels = page.locator(OWN_SHEETS)
     optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
     shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
     yield Workbook(page, Instrument(page), optimise.first, shorten.first)
