@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from textwrap import fill
 from typing import Unpack
 
 import numpy as np
@@ -15,7 +14,7 @@ from ..quantities import Measure, label
 from ..units import factor
 from .front import Judged
 from .parallel import Column, Designs, parallel_coordinates
-from .picture import Axes, Line, Mark, MarkStyle, Picture, Points, Polygon, Text, joined
+from .picture import Axes, Line, Mark, MarkStyle, Picture, Points, Polygon, Text, in_lines, joined
 
 MARKS = {
     "weighted sum": ("star", 20),
@@ -143,7 +142,7 @@ def front_winners(shown: ShownDecision) -> Picture:
 
 
 def _wrapped(words: str, width: int) -> str:
-    return fill(" ".join(words.split()), width, break_long_words=False)
+    return in_lines(words, width, 3)
 
 
 # ---------------------------------------------------------------- who wins at which weights
@@ -310,16 +309,19 @@ def _weight_shares(shown: ShownDecision) -> Picture:
 
 PITCH = 1.0
 """Room for the names above the bars of a judgement, where bars are 1 apart."""
+LINE = 0.75
+"""Room for each further line of names."""
 RATIOS = {1 / 9: "1/9", 1 / 5: "1/5", 1 / 3: "1/3", 1: "1", 3: "3", 5: "5", 9: "9"}
 
 
 def judgement_bars(shown: ShownDecision) -> Picture:
     """How far each judgement may move before another design wins, and which one wins then."""
-    step = len(shown.ranges) + PITCH
     pairs = next(iter(shown.ranges.values()))
+    names = [_wrapped(" : ".join(shown.names[i] for i in told.pair), 64) for told in pairs]
+    more = LINE * max((each.count("\n") for each in names), default=0)
+    step = len(shown.ranges) + PITCH + more
     marks: list[Mark] = [
-        Text(f"{p} names", 1, 0.42 - p * step, " : ".join(shown.names[i] for i in told.pair), anchor="bottom", size=9.5)
-        for p, told in enumerate(pairs)
+        Text(f"{p} names", 1, 0.42 - p * step, each, anchor="bottom", size=9.5) for p, each in enumerate(names)
     ]
     for r, (rule, ranges) in enumerate(shown.ranges.items()):
         for p, told in enumerate(ranges):
@@ -330,8 +332,8 @@ def judgement_bars(shown: ShownDecision) -> Picture:
         title="How far each judgement may move",
         xlabel="how many times the first matters\nmore than the second" if pairs else "",
         log="x",
-        xlim=(1 / 26, 26),
-        ylim=(0.4 - max(len(pairs), 1) * step, 1.1),
+        xlim=(1 / 70, 70),
+        ylim=(0.4 - max(len(pairs), 1) * step, 1.1 + more),
         xticks=RATIOS,
         yticks={},
     )
@@ -340,7 +342,7 @@ def judgement_bars(shown: ShownDecision) -> Picture:
 
 def _judgement_bar(key: str, shown: ShownDecision, rule: str, told: JudgementRange, y: float) -> list[Mark]:
     ends = told.below, told.above
-    below, above = ("stays" if design is None else f"next winner: design {design}" for design in ends)
+    below, above = ("stays" if design is None else f"next: design {design}" for design in ends)
     return [
         _bar(f"{key} scale", 1 / 9, 9, y, BAR / 2, role="body"),
         _bar(key, told.low, told.high, y, BAR / 2, **_look(shown, shown.winners[rule])),

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from textwrap import fill
 from typing import Any
 
 import numpy as np
 
 from ..quantities import Measure
 from ..units import mm
-from .picture import Axes, Line, Mark, Picture, Points
+from .picture import Axes, Line, Mark, Picture, Points, in_lines
 
 PLACES = "ABCDE"
 """A design keeps its letter and its place in the series as long as it is kept."""
@@ -61,6 +60,6 @@ def measures_overlaid(kept: Kept) -> Picture:
         title="Measures against the first design",
         xlabel="difference  [%]",
         ylim=(0.4 - len(measures), 0.6),
-        yticks={float(y): fill(m.name, 24) for y, m in zip(height, measures, strict=True)},
+        yticks={float(y): in_lines(m.name, 24, 2) for y, m in zip(height, measures, strict=True)},
     )
     return Picture.of(axes, marks)

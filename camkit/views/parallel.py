@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from textwrap import fill
 
 import numpy as np
 
-from .picture import Axes, Line, Mark, Picture, Polygon, Text
+from .picture import Axes, Line, Mark, Picture, Polygon, Text, in_lines
 
 
 @dataclass(frozen=True)
@@ -23,7 +22,7 @@ class Column:
         """Name in lines of ``width`` letters, unit and which way is better."""
         unit = f"\n[{self.unit}]" if self.unit else "\n"
         better = {1: "\n↓ better", -1: "\n↑ better", 0: "\n"}[self.sense]
-        return fill(self.name, width, break_long_words=False) + unit + better
+        return in_lines(self.name, width, 4) + unit + better
 
 
 @dataclass(frozen=True)

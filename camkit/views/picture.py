@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from textwrap import wrap
 from typing import Any, Self, TypedDict
 
 import numpy as np
@@ -255,6 +256,22 @@ View = Callable[..., Picture]
 def gaps(values: ArrayLike, where: ArrayLike) -> Array:
     """``values`` with ``nan`` where ``where`` does not hold, so that a curve shows there only."""
     return np.where(where, values, np.nan)
+
+
+def in_lines(words: str, width: int, most: int) -> str:
+    """Words in at most so many lines of ``width`` letters; where there are too many, some in the middle are left out.
+
+    >>> in_lines("maximum pressure angle of the worse curve, lift", 16, 2).splitlines()
+    ['maximum pressure', '… curve, lift']
+    """
+    every = words.split()
+    for gone in range(max(len(every) - 1, 1)):
+        start = (len(every) - gone + 1) // 2
+        kept = [*every[:start], "…", *every[start + gone :]] if gone else every
+        lines = wrap(" ".join(kept), width, break_long_words=False)
+        if len(lines) <= most:
+            break
+    return "\n".join(lines)
 
 
 def joined(pieces: Array) -> np.ndarray:

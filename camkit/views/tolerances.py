@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import fill
-
 import numpy as np
 
 from ..quantities import Measure, words
@@ -12,7 +10,7 @@ from ..quantities.types import Value
 from ..study.tolerances import AnalysisCurve, Tolerances
 from ..units import deg, factor
 from .front import Judged, shown_objectives
-from .picture import Area, Axes, Colour, Line, Mark, Picture, Points, Text, View, gaps
+from .picture import Area, Axes, Colour, Line, Mark, Picture, Points, Text, View, gaps, in_lines
 
 
 def band(curve: AnalysisCurve) -> View:
@@ -120,7 +118,7 @@ def sobol_bars(tolerances: Tolerances) -> Picture:
         xlabel="share of the variance  [%]",
         xlim=(0, 100),
         ylim=(0.5 - len(measures), 0.6),
-        yticks={-i: fill(measure.name, 20) for i, measure in enumerate(measures)},
+        yticks={-i: in_lines(measure.name, 22, 2) for i, measure in enumerate(measures)},
     )
     return Picture.of(axes, marks)
 

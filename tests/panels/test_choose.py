@@ -173,7 +173,7 @@ def test_bars_end_where_the_winner_changes():
             bar = xy(view, f"{p} {rule}")[0]
             assert_allclose((bar.min(), bar.max()), (told.low, told.high))
             assert_allclose(view[f"{p} {rule} now"].x, told.judged)
-            beyond = "stays" if told.above is None else f"next winner: design {told.above}"
+            beyond = "stays" if told.above is None else f"next: design {told.above}"
             assert view[f"{p} {rule} above"].words == beyond
 
 

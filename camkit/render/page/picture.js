@@ -268,7 +268,7 @@ export class Chart {
     }
     if (upward) {
       this.letters(10.5); pen.fillStyle = this.ink("guide"); pen.textAlign = "left";
-      pen.fillText(upward, 4, (15 * rows - 5) * em);
+      pen.fillText(upward, 4, (15 * rows - 5) * em, width - 8);
     }
     if (this.picture.still && !this.own) {
       pen.fillStyle = this.ink("guide"); pen.textAlign = "right";
