@@ -125,6 +125,19 @@ def test_a_fast_drag_never_queues_and_the_last_value_is_shown(page: Page, sheet:
     expect(sheet.get_by_role("textbox", name="arm, mm, number")).to_have_value(f"{held:.6g}")
 
 
+def test_a_text_that_is_being_typed_outlives_the_answers_to_what_was_done_before(page: Page, sheet: Locator) -> None:
+    box = sheet.get_by_role("textbox", name="arm, mm, number", exact=True)
+    slider = sheet.get_by_role("slider", name="arm, mm", exact=True)
+    answered = page.evaluate(f"() => {SHEET}.answered")
+    slider.press("ArrowRight")
+    box.fill("33")
+    page.wait_for_function(f"() => {SHEET}.answered > {answered}")
+    quiet(page)
+    expect(box).to_have_value("33")
+    box.press("Enter")
+    eventually(lambda: kernel_value(page, "sheet.arm.value") == pytest.approx(0.033))
+
+
 BOXES = [
     ("arm, mm, number", "48,5", "sheet.arm.value", 0.0485), ("arm, mm, number", "2 in", "sheet.arm.value", 0.0508),
     ("starts", "7", "sheet.starts.value", 7), ("lift, mm", "0.5 cm", "sheet.amount.value", 5.0),
@@ -146,9 +159,9 @@ def test_enter_takes_what_is_in_a_box(
 @pytest.mark.parametrize(
     ("name", "typed", "why"),
     [
-        ("arm, mm, number", "abc", "is no number"),
+        ("arm, mm, number", "abc", "'abc' is no number"),
         ("starts", "10", "a whole number from 1 to 9"),
-        ("lift, mm", "x", "is no number"),
+        ("lift, mm", "x", "'x' is no number"),
     ],
 )
 def test_what_is_no_number_is_refused_in_place(page: Page, sheet: Locator, name: str, typed: str, why: str) -> None:

@@ -27,6 +27,8 @@ export class Sheet {
     /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
     /** What waits to be sent: the newest of all that is done alike with a part. @type {Map<string, any>} */ this.waiting = new Map();
     root.classList.add("camkit-sheet");
+    /** The box that a person types in. @type {any} */ this.typing = null;
+    root.addEventListener("input", ({ target }) => { if (/** @type {any} */ (target).type === "text") this.typing = target; });
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.system.addEventListener("change", () => this.draw());
     this.theme = new MutationObserver(() => this.draw());
@@ -97,10 +99,17 @@ export class Sheet {
       this.parts.set(state.id, known);
     }
     const text = JSON.stringify(own), done = known.sent >= 0 && known.sent <= this.answered;
-    if (known.sent < 0 || state.kind === "picture" ? text !== known.text : done) { known.text = text; known.sent = -1; known.part.show(own); }
+    if (known.sent < 0 || state.kind === "picture" ? text !== known.text : done) { known.text = text; known.sent = -1; this._show(known.part, own); }
     known.part.element.hidden = !state.visible || (state.kind === "table" && !state.head.length);
     if (children) hold(known.part.element, children.map((/** @type {any} */ child) => this._part(child).element));
     return known.part;
+  }
+
+  /** Another state of a part; a text that is being typed stays. @param {any} part @param {any} state */
+  _show(part, state) {
+    const box = part.element.contains(this.typing) && this.typing.matches(":focus") ? this.typing : null, text = box?.value;
+    part.show(state);
+    if (box) box.value = text;
   }
 
   /** What a part needs of its sheet. @param {number} id */
@@ -110,6 +119,7 @@ export class Sheet {
       say: (/** @type {any} */ done, /** @type {ArrayBuffer[]} */ buffers = []) => {
         const known = this.parts.get(id), key = `${id} ${done.does ?? ""}`; // a click is not lost because a release comes after it
         if (known) known.sent = Infinity;
+        if (known?.part?.element.contains(this.typing)) this.typing = null; // it is taken
         this.waiting.delete(key);
         this.waiting.set(key, { id, done, buffers });
         this._sendNext();
