@@ -64,22 +64,5 @@ def _plain(text: str) -> str:
     return text.strip().translate(_MINUS)
 
 
-def typed_whole(text: str, low: float, high: float) -> int:
-    """The whole number from ``low`` to ``high`` that ``text`` says; ``ValueError`` in a sentence for everything else.
-
-    >>> typed_whole("200", 1, 1000)
-    200
-    """
-    plain = _plain(text)
-    wanted = f"a whole number from {low:.0f} to {high:.0f} is wanted"
-    if len(plain) > LONGEST or not re.fullmatch("[+-]?[0-9]+", plain):
-        raise ValueError(
-            f"{_short(text)} is no whole number; {wanted}" if plain else f"an empty box is no number; {wanted}"
-        )
-    if not low <= int(plain) <= high:
-        raise ValueError(f"{_short(text)} is out of range; {wanted}")
-    return int(plain)
-
-
 def _short(text: str) -> str:
     return repr(text if len(text) <= LONGEST else f"{text[:LONGEST]}...")

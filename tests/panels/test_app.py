@@ -12,8 +12,6 @@ import subprocess
 import sys
 import threading
 import time
-import tracemalloc
-import weakref
 from dataclasses import replace
 from functools import partial
 from itertools import combinations
@@ -24,7 +22,6 @@ import matplotlib.figure
 import numpy as np
 import pytest
 from hand import at, choose, move
-from matplotlib import _pylab_helpers
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 from sheets import alert, click, do, downloaded, parts, press, upload
@@ -56,18 +53,15 @@ from camkit.machines.door_handle import (
     stroke_radius,
 )
 from camkit.motion import Poly345
-from camkit.panels.kit import picture as live
-from camkit.panels.kit.controls import label_html
 from camkit.panels.kit.inputs import Input
-from camkit.panels.kit.picture import LivePicture
 from camkit.panels.kit.runner import time_left
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import pending
-from camkit.quantities import Quantity, quantities_of, value_of
+from camkit.quantities import quantities_of, value_of
 from camkit.search.checkpoint import read
 from camkit.search.protocol import Step, search
-from camkit.units import deg, in_unit, mm
-from camkit.views import curvature, mechanism, pressure_angle
+from camkit.units import in_unit, mm
+from camkit.views import pressure_angle
 from camkit.views.front import shown_objectives
 
 SLIDERS = ("lift_arm", "lift_start_angle", "relief_arm", "roller_radius", "motion_law", "friction.coefficient")
@@ -156,73 +150,6 @@ def found():
     run(panel)
     yield panel
     close(panel, panel.criteria, panel.importance, panel.explorer)
-
-
-# ---------------------------------------------------------------- pictures
-
-
-def a_picture(*views):
-    picture = LivePicture(views or (pressure_angle,), "Pictures of the door handle", width=4.0, height=2.6)
-    picture.show(DoorHandleCam().analyse())
-    return picture
-
-
-def test_a_picture_is_blitted_at_once_and_redrawn_when_all_is_quiet(monkeypatch):
-    monkeypatch.setattr(live, "SETTLE", 0.05)
-    picture = a_picture()
-    picture.show(DoorHandleCam(roller_radius=6 * mm).analyse())
-    picture.show(moved := DoorHandleCam(lift_arm=44 * mm).analyse())
-    assert picture.widget.mime == "image/jpeg"
-    frame = Image.open(io.BytesIO(picture.widget.data))
-    canvas = np.asarray(picture.figure.canvas.buffer_rgba())[..., :3]
-    assert np.abs(np.asarray(frame, float) - canvas).mean() < 3  # that frame, and not the one before
-    deadline = time.monotonic() + 5
-    while picture.widget.mime != "image/png" and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert picture.widget.mime == "image/png"
-    assert Image.open(io.BytesIO(picture.widget.data)).size == frame.size
-    x, y = picture.axes[0].get_ylim()
-    assert max(abs(x), abs(y)) >= np.abs(moved.lift.pressure_angle / deg).max()  # the axes fit again
-
-
-def test_slow_moves_wait_longer_for_the_full_drawing_which_would_delay_them(monkeypatch):
-    picture, at = a_picture(), [100.0]
-    monkeypatch.setattr(live.time, "monotonic", lambda: at[0])
-    waits = []
-    for after in (10.0, 0.02, 0.4, 0.9, 1.1):
-        at[0] += after
-        waits.append(picture._patience())
-    assert_allclose(waits, [live.SETTLE, live.SETTLE + 0.04, live.SETTLE + 0.8, live.SETTLE + 1.8, live.SETTLE])
-
-
-def test_the_picture_is_described_by_its_titles_and_numbers(monkeypatch):
-    picture = a_picture()
-    picture.said = lambda: "peak: 41 deg"
-    picture.describe()
-    assert picture.widget.description == "Pictures of the door handle\nPressure angle\npeak: 41 deg"
-
-
-def test_a_picture_that_moves_keeps_its_axes_true_to_scale_until_they_fit():
-    picture, cam = a_picture(partial(mechanism, turn=75 * deg), curvature), DoorHandleCam()
-
-    def axes():
-        return np.array([ax.transData.transform([(0, 0), (1, 0), (0, 1)]) for ax in picture.axes])
-
-    picture.show(cam.replace(roller_radius=33 * mm).analyse())
-    picture.settle()
-    large = axes()
-    picture.show(cam.analyse())
-    assert_allclose(axes(), large, rtol=1e-12)
-    picture.settle()
-    zero, across, up = axes()[0]
-    assert abs(axes()[0] - large[0]).max() > 1
-    assert across[0] - zero[0] == pytest.approx(up[1] - zero[1], rel=1e-9)
-
-
-def test_a_symbol_that_is_the_name_is_shown_once():
-    exponent, arm = Quantity("n", 3, 1, 9, "", "exponent"), Quantity("l_1", 50, 40, 60, "mm", "lift arm")
-    assert label_html("n", exponent) == "<span title='exponent' data-name='n'><i>n</i></span>"
-    assert label_html("lift_arm", arm).endswith("data-name='lift arm, mm'><i>l</i><sub>1</sub>&ensp;lift arm</span>")
 
 
 FILE = to_json(DoorHandleCam())
@@ -1267,42 +1194,6 @@ def figures():
 
 
 # ---------------------------------------------------------------- try_everything
-
-
-def test_a_picture_that_moves_leaves_nothing_behind():
-    picture, cams = a_picture(curvature), [DoorHandleCam(lift_arm=(44 + k / 5) * mm).analyse() for k in range(40)]
-
-    def show(times):
-        for i in range(times):
-            picture.show(cams[i % 40])
-        picture.settle()
-        gc.collect()
-
-    show(10)
-    before, threads = figures(), threading.active_count()
-    artists = sum(len(ax.get_children()) for ax in picture.axes)
-    tracemalloc.start()
-    show(5)
-    start = tracemalloc.get_traced_memory()[0]
-    show(200)
-    grown = tracemalloc.get_traced_memory()[0] - start
-    tracemalloc.stop()
-    assert figures() == before
-    assert _pylab_helpers.Gcf.get_all_fig_managers() == []
-    assert sum(len(ax.get_children()) for ax in picture.axes) == artists
-    assert grown < 1_000_000  # less than one curve for each move
-    time.sleep(0.05)
-    assert threading.active_count() <= threads + 1
-
-
-def test_a_picture_that_goes_takes_its_figure_with_it():
-    """Or every run of a notebook's cell would leave one behind."""
-    picture = a_picture()
-    figure = weakref.ref(picture.figure)
-    picture.widget.close()
-    del picture
-    gc.collect()
-    assert figure() is None
 
 
 def test_everything_can_be_tried(finder):

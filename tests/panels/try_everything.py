@@ -8,22 +8,14 @@ import ipywidgets as w
 from hand import at, choose, move, sliders
 
 from camkit.panels import Instrument
-from camkit.panels.kit import parts
-from camkit.panels.kit.banner import Banner
 from camkit.panels.kit.inputs import Check, Input, Menu, Number, Span, Typed, Whole
-from camkit.panels.kit.number import NumberBox
+from camkit.panels.kit.parts import Banner
 from camkit.panels.kit.sheet import Sheet
 from camkit.quantities import choices_of, quantities_of, value_of
 
-KINDS = (
-    w.FloatSlider, w.IntSlider, w.FloatRangeSlider, NumberBox, w.FloatText, w.BoundedIntText, w.Text,
-    w.Dropdown, w.SelectionSlider, w.Checkbox, Input,
-)  # fmt: skip
-"""What is moved; a button is not, for what it does may not be undone."""
 
-
-def _other_inputs(control):
-    """Values that what stands on a sheet can take besides its own."""
+def _others(control):
+    """Values that a control can take besides its own: a step up for a number, every option for a menu."""
     if isinstance(control, Menu):
         return [value for value in control.values if value != control.value]
     if isinstance(control, Check):
@@ -39,23 +31,6 @@ def _other_inputs(control):
     return [control.value + 1]
 
 
-def _others(control):
-    """Values that a control can take besides its own: a step up for a number, every option for a menu."""
-    if isinstance(control, Input):
-        return _other_inputs(control)
-    if isinstance(control, (w.Dropdown, w.SelectionSlider)):
-        return [v for v in (o[1] if isinstance(o, tuple) else o for o in control.options) if v != control.value]
-    if isinstance(control, w.Checkbox):
-        return [not control.value]
-    if isinstance(control, w.Text):
-        return ["" if control.value else "1"]
-    if isinstance(control, w.FloatRangeSlider):
-        return _narrower(control)
-    step, top = control.step or 1, getattr(control, "max", None)
-    up = round(control.value + step, 9)
-    return [up if top is None or up <= top else round(control.value - step, 9)]
-
-
 def _narrower(band):
     """The band without its lower, then without its upper half."""
     low, high = band.value
@@ -69,7 +44,7 @@ def try_everything(panel):
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
     measure, a view or what follows it could not be computed.
     """
-    controls = [c for c in inside(panel) if isinstance(c, KINDS) and not getattr(c, "disabled", False)]
+    controls = [c for c in inside(panel) if isinstance(c, Input) and not c.disabled]
     count = len(controls) + sum(_try_page(app) for app in inside(panel) if isinstance(app, Instrument))
     with ExitStack() as quiet:  # the page need not see the steps between, only where everything ends
         for held in inside(panel):
@@ -114,7 +89,7 @@ def _give(control, value):
         control.value = value
 
 
-SAYS = {parts.Banner: "text", Banner: "value", Instrument: "message"}
+SAYS = {Banner: "text", Instrument: "message"}
 """What tells a person in a sentence, and where it stands."""
 
 
