@@ -144,6 +144,14 @@ class Whole(Input):
     def __init__(self, value: int, low: int, high: int, description: str, **given: object) -> None:
         super().__init__(min=low, max=high, value=value, description=description, **given)
 
+    def take(self, message: Message) -> None:
+        """Another number in the range."""
+        value = message["value"]
+        if not self.min <= value <= self.max or value != int(value):
+            must = f"it must be a whole number from {self.min} to {self.max}"
+            raise ValueError(f"the {self.description} is {value:g}; {must}")
+        self.value = int(value)
+
     @traitlets.validate("value")
     def _between(self, proposal: Mapping[str, int]) -> int:
         return min(max(proposal["value"], self.min), self.max)
