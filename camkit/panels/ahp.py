@@ -85,7 +85,7 @@ class AhpPanel(Panel):
         """The weights of the criteria."""
         return self.judgements.weights
 
-    def load(self, judgements: Judgements | Sequence[Any]) -> None:
+    def load(self, judgements: Judgements | Sequence[object]) -> None:
         """Show other judgements of the same criteria: `Judgements`, a matrix or what is above its diagonal."""
         given = ahp(judgements)
         if len(given.names) != len(self.names):

@@ -71,7 +71,7 @@ class ContourPanel(Panel):
         self._key: Any = None
         self._searched = False
         self.later = Debounced(self._catch_up, QUIET)
-        self.take = Button("Load the optimum", lambda: self.load(self.optimum), disabled=True)
+        self.take = Button("Load the optimum", lambda: self.load(np.asarray(self.optimum)), disabled=True)
         self.picture = LivePicture((objective_plane,), "Objective over two quantities", width=7.4, height=6.6)
         self.picture.on_click(self.clicked)
         super().__init__(self._body())
@@ -171,7 +171,7 @@ class ContourPanel(Panel):
         told = [f"{m.name}: {_text(m, analysis)}" for m in (*parts, *(m for m, _, _ in study.limits))]
         return [f"optimum: {where}", *told]
 
-    def load(self, x: Any) -> None:
+    def load(self, x: Array) -> None:
         """Put free values into the sliders."""
         free = dict(zip(self.plane.study.free, map(float, x), strict=True))
         self.explorer.load(with_quantities(self.plane.study.around(self.explorer.design).start, free))

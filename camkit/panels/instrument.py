@@ -138,7 +138,7 @@ class Instrument(anywidget.AnyWidget):
             slider.min, slider.max = min(slider.min, value), max(slider.max, value)  # else it would move the design
             slider.value = value
 
-        def move(change: Any) -> None:
+        def move(change: traitlets.Bunch) -> None:
             if (
                 abs(change.new * declared.factor - value_of(self.design, path))
                 > 1e-12 * declared.most * declared.factor
@@ -155,7 +155,7 @@ class Instrument(anywidget.AnyWidget):
         Paths(self.start, ()).values(design)  # refuses another kind
 
     @traitlets.validate("design")
-    def _possible(self, proposal: Mapping[str, Any]) -> Any:
+    def _possible(self, proposal: Mapping[str, Analysable]) -> Analysable:
         """A design that can be computed and shown, with all that follows from it; else the last one stays whole."""
         design = proposal["value"]
         self._refuse_other(design)
@@ -166,7 +166,7 @@ class Instrument(anywidget.AnyWidget):
         self.analysis, self._now = analysis, now
         return design
 
-    def _recorded(self, design: Any, analysis: object) -> Living:
+    def _recorded(self, design: Analysable, analysis: object) -> Living:
         """Structure and program for a design; another law has other coefficients."""
         free = None if self._free is None else [path for path in self._free if path in declared_in(design)]
         position = self._stand(self._chosen or default_views(analysis))
@@ -174,7 +174,7 @@ class Instrument(anywidget.AnyWidget):
         made.structure  # noqa: B018  recorded here
         return made
 
-    def _shown(self, change: Any) -> None:
+    def _shown(self, change: traitlets.Bunch) -> None:
         """The page shows the new design; those that follow hear of it."""
         with self.hold_sync():
             self.message = ""
@@ -206,7 +206,7 @@ class Instrument(anywidget.AnyWidget):
         asked = {name for view in views for name in positions_of(view)}
         return {name: value for name, value in self._position.items() if name in asked}
 
-    def _settled(self, change: Any) -> None:
+    def _settled(self, change: traitlets.Bunch) -> None:
         """What the page shows becomes the design, if it can be built."""
         numbers = list(numbers_of(self.design).values())
         if len(change.new) == len(numbers) and change.new != numbers:
@@ -244,7 +244,7 @@ class Instrument(anywidget.AnyWidget):
                 self.message = f"What follows this panel cannot be computed: {raised(error)}."
 
     @traitlets.observe("computed")
-    def _compare(self, change: Any) -> None:
+    def _compare(self, change: traitlets.Bunch) -> None:
         """A visible error where page and kernel differ."""
         for measure, first, now, page in zip(self.measures, self._first, self._now, change.new, strict=False):
             size = np.nanmax(np.abs([first, now, 0.0])) if np.isfinite([first, now]).all() else abs(now)
@@ -337,7 +337,7 @@ class Instrument(anywidget.AnyWidget):
         turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
         return below(png, small_png(strip(self.analysis, turning[0], turns)))
 
-    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, object], dict[str, object]]:
         """The live panel for a kernel, the picture and the numbers where there is none."""
         data, about = super()._repr_mimebundle_(**wanted) or ({}, {})
         still = {"image/png": base64.b64encode(self.still()).decode("ascii"), "text/plain": self.summary()}

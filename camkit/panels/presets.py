@@ -64,7 +64,7 @@ class Presets(w.VBox):
             for offers in self.menus.values():
                 offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 
-    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, object]:
         """The live panel for a kernel, picture and numbers of the instrument where there is none."""
         still, _ = self.explorer._repr_mimebundle_()
         return super()._repr_mimebundle_(**wanted) | {kind: still[kind] for kind in ("image/png", "text/plain")}

@@ -276,11 +276,11 @@ def _refusals(program: Program) -> Json:
     return [{"at": places[ok], "words": _pieces(sentence, places)} for ok, sentence in program.refusals.items()]
 
 
-def _places(program: Program) -> dict[Any, int]:
+def _places(program: Program) -> dict[str | int, int]:
     return {name: place for place, name in enumerate(program.outputs)}
 
 
-def _pieces(template: Template, places: Mapping[Any, int]) -> list[Json]:
+def _pieces(template: Template, places: Mapping[str | int, int]) -> list[Json]:
     """Of a text: words, and an output with its format, or with the pieces that are there if it holds."""
     return [
         piece

@@ -35,7 +35,7 @@ class Kept(Protocol):
     """How the page stands beside its design, which the page alone reads."""
     message: str
 
-    def load(self, design: Any) -> None:
+    def load(self, design: object) -> None:
         """Show a design, or say why not."""
 
     def send(self, content: Mapping[str, object]) -> None:
@@ -123,7 +123,7 @@ class Keeper:
         offer = f"Continue with your last design, {self._differs(self._offers[0][1])}?" if self._offers else ""
         self._panel.send({"offer": offer, "named": list(self.named)})
 
-    def _differs(self, design: Any) -> str:
+    def _differs(self, design: object) -> str:
         """What a design has otherwise than the one that the panel began with."""
         start, told = self._panel.start, []
         for path, declared in declared_in(design).items():

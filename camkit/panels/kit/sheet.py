@@ -164,7 +164,7 @@ class Panel(Sheet):
     def settle(self) -> None:
         """Wait until everything that is shown belongs to what was asked for last."""
 
-    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, object], dict[str, object]]:
         """The live panel for a kernel, the picture and the numbers where there is none."""
         self.settle()
         data, about = super()._repr_mimebundle_(**wanted) or ({}, {})
