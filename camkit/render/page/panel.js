@@ -22,7 +22,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 /**
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
- *   file(kind: string): void, open(text: string): void}} Host what stands behind the page, if anything does
+ *   reset(): void, file(kind: string): void, open(text: string): void}} Host what stands behind the page, if anything does
  */
 
 export class Panel {
@@ -163,6 +163,7 @@ export class Panel {
     this.redoing = button("\u21B7", "Redo", () => this._redo());
     this.pinning = button("Pin to compare", "Pin this design to compare others with it", () => this._pin());
     const reset = button("Reset", "Back to the design that the page began with", () => {
+      if (structure.chosen && this.host) { this.host.reset(); return; } // another make of design has other numbers
       this.history.settle(this.values);
       this.put(this.inputs);
       this.history.settle(this.values);

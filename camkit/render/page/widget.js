@@ -43,6 +43,7 @@ async function render({ model, el }) {
   /** @type {any} */ let panel = null, saving = false;
   const host = {
     changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) { model.set({ values, computed }); model.save_changes(); },
+    reset: () => model.send({ reset: true }),
     choose: (/** @type {string} */ path, /** @type {string} */ option) => model.send({ choose: [path, option] }),
     file: (/** @type {string} */ kind) => { saving = true; model.send({ file: kind }); },
     open: (/** @type {string} */ text) => model.send({ open: text }),
