@@ -123,7 +123,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         picker = self.picker
         left = Group(
             self.mode,
-            Words(value=[bold("free quantities and their bounds")]),
+            Words(value=[bold("free quantities and their bounds")], look="hint"),
             Group(*(part for bounds in self.bounds.values() for part in bounds.parts), look="bounds"),
             row(self.population, self.generations, self.seed),
             self.runner.buttons(self.resume_button),
