@@ -193,9 +193,8 @@ class Instrument(anywidget.AnyWidget):
         return self._living
 
     def _send_structure(self) -> None:
-        own = {"files": files_of(self.analysis), "chosen": not alike(self.start, self._page.design)}
         with self.hold_sync():
-            self.structure, self.program = {**self._page.structure, **own}, self._page.packed
+            self.structure, self.program = {**self._page.structure, "files": files_of(self.analysis)}, self._page.packed
             self._push()
 
     def _push(self) -> None:

@@ -115,7 +115,7 @@ def test_counts_and_bounds_of_a_search_are_read_the_same_way(page: Page) -> None
     page.wait_for_function(HEARD)
     for typed in ("1.5", "2000", "12abc", "-4"):
         type_into(population, typed)
-        expect(panel.locator(".camkit-refusal").filter(has_text=re.compile("from 4 to 1000|no number"))).to_be_visible()
+        expect(panel.locator(".camkit-refusal").filter(has_text=re.compile("from 4 to 1000|not known"))).to_be_visible()
         assert kernel_value(page, "finder.population.value") == 60
     low = panel.get_by_label("lift arm, from, mm")
     type_into(low, "46,5")

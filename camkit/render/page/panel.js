@@ -163,10 +163,10 @@ export class Panel {
     this.redoing = button("\u21B7", "Redo", () => this._redo());
     this.pinning = button("Pin to compare", "Pin this design to compare others with it", () => this._pin());
     const reset = button("Reset", "Back to the design that the page began with", () => {
-      if (structure.chosen && this.host) { this.host.reset(); return; } // another make of design has other numbers
+      const count = structure.quantities.length, asked = this.host && !this.left; // it knows what was chosen, too
       this.history.settle(this.values);
-      this.put(this.inputs);
-      this.history.settle(this.values);
+      this.put(asked ? [...this.values.slice(0, count), ...this.inputs.slice(count)] : this.inputs);
+      if (asked) this.host.reset(); else this.history.settle(this.values);
     });
     this.chosen = make("select", { "aria-label": "units", onchange: () => this.use(this.chosen.value) },
       ...this.units.names.map((name) => make("option", { value: name }, name)));

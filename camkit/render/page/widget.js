@@ -71,7 +71,7 @@ async function render({ model, el }) {
     if (first) void stand(panel, model.get("page"));
     if (!known(model)) left();
   };
-  const left = () => { if (panel) alone(panel, model.get("program").byteLength > 0); };
+  const left = () => { if (panel) { panel.left = true; alone(panel, model.get("program").byteLength > 0); } };
   const moved = () => {
     const values = model.get("values"), shown = panel?.values ?? [];
     if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
