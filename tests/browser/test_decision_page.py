@@ -13,7 +13,7 @@ from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
 from camkit.decision import CHOOSERS, judgement_ranges, side_by_side, weighted_sum
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.views.decision import triangle
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
+from lab import OWN_SHEETS, LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
 PAPER, SPACE = DoorHandleCam(lift_load=ArmLoad(torque=10)), DOOR_HANDLE_SPACE
@@ -40,7 +40,7 @@ def _kept_if_it_fails(page: Page, request: pytest.FixtureRequest) -> Iterator[No
 
 
 def panel(page: Page, words: str) -> Any:
-    return page.locator(".camkit-sheet").filter(has_text=words)
+    return page.locator(OWN_SHEETS).filter(has_text=words)
 
 
 # Where a point of one of a sheet's pictures stands in the window.
