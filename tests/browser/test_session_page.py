@@ -89,6 +89,7 @@ def test_a_saved_notebook_reopens_with_a_page_that_computes(page, notebook, serv
     expect(page.locator(".camkit-note")).to_contain_text("No kernel knows this page: it computes by itself")
     page.get_by_role("tab", name="Curves").click()
     page.evaluate(DRAG, [0.4, 3])
+    page.get_by_label("units").select_option("mm, deg, N")  # those of the package's pictures
     settled(page)
     compare(of_page(page), STUDY.start, default_views(STUDY.start.analyse()), measures_of(STUDY.start), LIMITS)
     for control in page.locator(".camkit-page [data-asks]").all():
