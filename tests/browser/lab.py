@@ -300,7 +300,7 @@ class Instrument:
         return root
 
     def slider(self, label: str) -> Locator:
-        return self.root.get_by_label(label, exact=True)
+        return self.root.get_by_role("slider", name=label, exact=True).first  # those of its tabs come later
 
     def box(self, label: str) -> Locator:
         return self.root.get_by_label(f"{label}, number", exact=True)

@@ -17,7 +17,6 @@ from functools import partial
 from itertools import combinations
 from pathlib import Path
 
-import ipywidgets as w
 import matplotlib.figure
 import numpy as np
 import pytest
@@ -53,10 +52,12 @@ from camkit.machines.door_handle import (
     stroke_radius,
 )
 from camkit.motion import Poly345
-from camkit.panels.kit.inputs import Input
+from camkit.panels.kit.inputs import Amount, Input, Span, Typed
+from camkit.panels.kit.parts import Group, Words
 from camkit.panels.kit.runner import time_left
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import pending
+from camkit.panels.kit.sheet import Sheet
 from camkit.quantities import quantities_of, value_of
 from camkit.search.checkpoint import read
 from camkit.search.protocol import Step, search
@@ -1227,18 +1228,18 @@ def test_try_everything_bites_when_a_callback_raises():
 
 
 def test_try_everything_moves_bands_and_boxes_of_text_too():
-    band, words = w.FloatRangeSlider(value=(2.0, 8.0), min=0, max=10), w.Text("1/7")
+    band, words = Span(value=(2.0, 8.0), min=0.0, max=10.0), Typed(value="1/7")
     seen = []
     for control in (band, words):
         control.observe(lambda change: seen.append(change.new), "value")
-    assert try_everything(w.VBox([band])) == 1
-    assert try_everything(w.VBox([w.HBox([words]), w.HTML("no control")])) == 1
+    assert try_everything(Sheet(Group(band))) == 1
+    assert try_everything(Sheet(Group(Group(words), Words()))) == 1
     assert seen == [(5, 8), (2, 5), (2, 8), "", "1/7"]
-    assert try_everything(w.VBox()) == 0
+    assert try_everything(Sheet()) == 0
 
 
 def test_try_everything_bites_when_a_control_does_not_come_back():
-    sticky = w.FloatText(1.0, description="sticky")
+    sticky = Amount(value=1.0, description="sticky")
     sticky.observe(lambda change: setattr(sticky, "value", 7.0), "value")
     with pytest.raises(AssertionError, match="sticky did not come back"):
-        try_everything(w.VBox([sticky]))
+        try_everything(Sheet(sticky))
