@@ -85,7 +85,10 @@ class Instrument(anywidget.AnyWidget):
         self.analysis: Any = None
         self.measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
         self._limits = {"at_most": at_most, "at_least": at_least}
-        self._chosen, self._free = tuple(views), tuple(Paths(design, free).declared) if free else None
+        self._chosen, self._free = (
+            tuple(views),
+            tuple(Paths(design, free).declared) if free is not None and len(free) else None,
+        )
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
         self._followers: list[Callable[..., object]] = []
