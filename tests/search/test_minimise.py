@@ -169,7 +169,7 @@ def test_what_cannot_be_kept_is_said():
     assert not nothing.feasible
     assert nothing.f == np.inf
     assert nothing.active == ()
-    assert "No design was found for which there is a contact stress" in nothing.message
+    assert "No design was found for which there is a stress index F_sigma" in nothing.message
 
 
 def test_it_never_ends_worse_than_it_began():
