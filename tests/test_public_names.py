@@ -70,6 +70,7 @@ INSIDE = {
     "on_grid",
     "turn_range",
     "given_to",
+    "made_by",
     "saved",
 }
 """How a picture is put together, and a search."""

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..quantities import Design, Measure
-from ..quantities.applied import a_new_file, a_path
+from ..quantities.applied import a_path
 from ..quantities.kinds import kind_words, refuse_arguments, shown
 from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
@@ -35,7 +35,7 @@ class Read:
 
 def write(thing: object, path: str | Path) -> None:
     """Write a design, a front or a `Session` to a JSON file; one that is there stays until the new one is whole."""
-    text, path = to_json(thing), a_new_file(path)
+    text, path = to_json(thing), a_path(path)
     remove_parts(path)
     write_whole(path, text.encode())
 
