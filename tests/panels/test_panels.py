@@ -459,7 +459,7 @@ def test_the_views_that_nobody_chose_follow_what_a_menu_brings(monkeypatch):
     assert contact_pressure not in first
     app.load(app.design.replace(contact=pair))
     assert app.views == default_views(app.analysis) == (*first, contact_pressure)
-    assert [p["name"] for p in app.structure["pictures"]][-1] == "contact pressure"
+    assert [p["name"] for p in app.structure["pictures"]][-1] == "contact_pressure"
     app.load(app.start)
     assert app.views == first
 
