@@ -220,7 +220,6 @@ RESIDUAL = STUDY.replace(minimise=(missed,))
 DOOR, DOOR_SPACE = camkit.DoorHandleCam(), {"lift_arm": (0.04, 0.06)}
 SHAFT_SPACE = {"outer_diameter": (0.1, 0.15), "inner_diameter": (0.05, 0.103)}
 FRONT = [[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]
-PIECES = [(0.0, 1.0, 0.02, LAW), (1.0, 2.0, 0.0, LAW)]
 ROLLER, FLAT, ROCKER = TranslatingRollerCam(), camkit.TranslatingFlatCam(), camkit.OscillatingRollerCam()
 
 FUNCTIONS = {
@@ -232,8 +231,6 @@ FUNCTIONS = {
     camkit.decision.judgement_ranges: {"front": FRONT, "judgements": [3]},
     camkit.decision.winner_map: {"front": FRONT},
     camkit.contact.line_contact: {"force_per_length": 1e3, "curvature": 100.0, "modulus": 1e11},
-    camkit.motion.period_ratio: {"angle": 1.0, "speed": 10.0, "natural_frequency": 100.0},
-    camkit.motion.program_between: {"pieces": PIECES, "start": 0.0},
     camkit.motion.residual_vibration: {"law": LAW, "tau": 1.5, "damping": 0.1},
     camkit.study.weighted: {"name": "sum", "weights": {HEIGHT: 1.0}, "reference": (2.0,)},
     PROGRAM.__call__: {"cam_angle": 0.3},

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
-
 from ..motion import MotionProgram, Return, Rise, Segment
 from ..motion.segments import Move
-from ..quantities.types import Array
-
-if TYPE_CHECKING:
-    from .analysis import CamAnalysis
 
 
 def opposite(program: MotionProgram) -> MotionProgram:
@@ -30,15 +22,3 @@ def _opposite(segment: Segment) -> Segment:
         return segment
     other = Return if isinstance(segment, Rise) else Rise
     return other(segment.angle, segment.lift, segment.law, name=segment.name)
-
-
-class PairForces(NamedTuple):
-    """Contact forces of both cams of a pair without play and preload, N: one of them is 0."""
-
-    first: Array
-    second: Array
-
-
-def pair_forces(first: CamAnalysis, second: CamAnalysis) -> PairForces:
-    """What each cam of a pair gives, from both analyses: each pushes only, the one where the other cannot."""
-    return PairForces(np.maximum(first.contact_force, 0), np.maximum(second.contact_force, 0))

@@ -95,10 +95,6 @@ class TorqueBalance(NamedTuple):
     swing: Value
     """Between the largest and the least ``surplus``, J: what a flywheel has to store."""
 
-    def flywheel(self, speed: Value, unevenness: Value) -> Value:
-        """Moment of inertia with which the speed varies by the share ``unevenness`` of its mean, kg m^2."""
-        return self.swing / (unevenness * speed**2)
-
 
 def torque_balance(cam_angle: Value, torque: Value) -> TorqueBalance:
     """Mean and swing of a ``torque`` (N m) given over ``cam_angle`` (rad), by the trapezoid rule.

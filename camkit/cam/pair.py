@@ -20,7 +20,6 @@ from ..quantities import Design, choice, counted, declarations, quantity, words
 from ..quantities.types import Array, Value
 from ..units import rpm
 from .analysis import CamAnalysis
-from .conjugate import PairForces, pair_forces
 from .follower_measures import min_profile_radius
 from .loads import ArmLoad
 from .measures import base_radius, max_pressure_angle, mean_efficiency, peak_force, peak_torque
@@ -56,7 +55,7 @@ class ConjugatePair(Design):
     ``cam`` is the first with its follower and load.  Of the sizes of the second those count that its follower has.
 
     >>> pair = ConjugatePair().analyse()
-    >>> float(pair.first.contact_force.min()) < 0 < float(pair.contact_forces.second.max())
+    >>> float(pair.first.contact_force.min()) < 0 < float(pair.second.contact_force.max())
     True
 
     Raises ``ValueError`` for a size that cannot be built; `analyse` does where one of both cams cannot.
@@ -149,11 +148,6 @@ class ConjugatePairAnalysis:
     def curves(self) -> dict[str, CamAnalysis]:
         """Both cams by name."""
         return {"first": self.first, "second": self.second}
-
-    @property
-    def contact_forces(self) -> PairForces:
-        """What each cam gives without friction, N: 0 where the other one pushes."""
-        return pair_forces(self.first, self.second)
 
     @property
     def cam_torque(self) -> np.ndarray:

@@ -87,13 +87,8 @@ class UniversalJointShaft(Design):
 
     @property
     def torque(self) -> Value:
-        """In the shaft before the joint, ``M = 9550 K_A P / n`` with kW and rpm, N m; 0.0074 % above `exact_torque`."""
+        """In the shaft before the joint, ``M = 9550 K_A P / n`` with kW and rpm, N m: 0.0074 % above the exact one."""
         return TORQUE_NUMBER * self.service_factor * (self.power / kW) / (self.speed / rpm)
-
-    @property
-    def exact_torque(self) -> Value:
-        """``M = K_A P / omega`` in SI, N m."""
-        return self.service_factor * self.power / self.speed
 
     @property
     def tube_torque(self) -> Array:
@@ -178,9 +173,6 @@ PAPER_SPACE = {"outer_diameter": (108 * mm, 140 * mm), "inner_diameter": (87 * m
 
 PLANE_WINDOW = np.array([[104, 84], [150, 124]]) * mm
 """What a picture of both diameters shows: the paper's bounds and what lies beyond them, ``(2, 2)``, m."""
-
-WIDE_SPACE = {"outer_diameter": (60 * mm, 300 * mm), "inner_diameter": (20 * mm, 290 * mm)}
-"""Diameters far beyond the paper's, for other powers, lengths and materials."""
 
 
 def shaft_study(start: UniversalJointShaft | None = None, *, space: Space | None = None) -> Study:

@@ -198,16 +198,6 @@ class ValveAnalysis(CamAnalysis):
         """Speed of the camshaft with the speed margin, rad/s."""
         return self.cam.load.speed * (1 + self.cam.speed_margin)
 
-    @cached_property
-    def rate_needed(self) -> Value:
-        """Least spring rate that keeps the follower on the cam up to the speed margin with the given preload, N/m."""
-
-        def lacking(at: ValveAnalysis) -> Value:
-            lacks = at.needed_at(self.top_speed) - at.other_force - self.cam.load.preload
-            return np.maximum(lacks, 0) / np.where(at.lift > 0, at.lift, np.inf)
-
-        return self.highest(lacking).value
-
     @property
     def tables(self) -> dict[str, dict[str, np.ndarray]]:
         """What a workshop asks for, by its name: columns by heading."""

@@ -11,10 +11,10 @@ from .families.shaped import DEGREE9, SPLINE, ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
 from .law import Kinematics, Law, Peaks
-from .program import MotionProgram, motion_in, program_between
+from .program import MotionProgram, motion_in
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .transitions import ProgramPeaks, Transition
-from .vibration import period_ratio, residual_vibration
+from .vibration import residual_vibration
 
 __all__ = [
     "DEGREE9",
@@ -52,7 +52,5 @@ __all__ = [
     "TableLaw",
     "Transition",
     "motion_in",
-    "period_ratio",
-    "program_between",
     "residual_vibration",
 ]

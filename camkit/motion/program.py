@@ -1,6 +1,6 @@
 """A motion program: rises, returns and dwells in a row, against cam angle.
 
->>> from camkit.motion import Cycloidal
+>>> from camkit.motion import Cycloidal, Dwell, Return, Rise
 >>> from camkit.units import deg, mm
 >>> rise, back = Rise(120 * deg, 20 * mm, Cycloidal()), Return(180 * deg, 20 * mm, Cycloidal())
 >>> program = MotionProgram((rise, Dwell(60 * deg), back))
@@ -14,7 +14,7 @@ array([0.01, 0.02, 0.  ])
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, is_dataclass
 from functools import cached_property, reduce
 from itertools import accumulate
@@ -25,13 +25,13 @@ from numpy.typing import ArrayLike
 
 from ..geometry import end_to_end
 from ..quantities import Declared, Quantity, certain, floats, text_if, unless
-from ..quantities.kinds import a_number, finite, listed, numbers, one_number, refuse_arguments, refuse_lengths, shown
+from ..quantities.kinds import a_number, finite, listed, numbers, refuse_arguments, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import deg
 from .closing import TURN, closed, closing
 from .law import Kinematics
 from .resolution import Resolution, resolve
-from .segments import LIFT, Dwell, Return, Rise, Segment, degrees, kind_of, positive
+from .segments import LIFT, Segment, degrees, kind_of, positive
 from .transitions import ProgramPeaks, Transition, find_peaks, find_transitions
 
 SAME_ANGLE = 1e-9
@@ -78,7 +78,7 @@ class MotionProgram(Declared):
     program that spans 360 deg stays closed when its segments are given other values by path: the last dwell (the last
     segment, where there is none) takes up the angle and the last move the lift, so these two are no quantities.
 
-    >>> from camkit.motion import Cycloidal
+    >>> from camkit.motion import Cycloidal, Dwell, Return, Rise
     >>> from camkit.quantities import quantities_of, with_quantities
     >>> rise, back = Rise(120 * deg, 0.02, Cycloidal()), Return(120 * deg, 0.02, Cycloidal())
     >>> turn = MotionProgram((rise, Dwell(60 * deg), back, Dwell(60 * deg, name="rest")))
@@ -213,7 +213,7 @@ class MotionProgram(Declared):
         ``speed`` may be an array of shape ``(p, 1)``.  ``ValueError`` for one that is not finite
         or below 0 (a cam that turns back runs another program).
 
-        >>> from camkit.motion import SimpleHarmonic
+        >>> from camkit.motion import Rise, SimpleHarmonic
         >>> from camkit.units import deg, mm, rpm
         >>> rise = MotionProgram((Rise(120 * deg, 50 * mm, SimpleHarmonic()),))
         >>> rise.in_time(60 * deg, 100 * rpm).v.round(2)
@@ -281,41 +281,6 @@ class MotionProgram(Declared):
 def _along(u: Array, values: Any) -> Array:
     """``values`` at each of ``u``, also where a law gives one for all."""
     return values if np.shape(values)[-1:] == u.shape[-1:] else np.broadcast_to(values, u.shape)
-
-
-def program_between(
-    pieces: Sequence[tuple[Value, Value, Value, Callable[[Array], Kinematics]]], start: Value = 0.0
-) -> MotionProgram:
-    """A program from pieces ``(from, to, level, law)``: over those cam angles (rad) the follower goes to ``level``.
-
-    A piece whose level is the one before is a dwell.
-
-    >>> from camkit.motion import Cycloidal
-    >>> from camkit.units import deg, mm
-    >>> law = Cycloidal()
-    >>> pieces = [(0, 90 * deg, 20 * mm, law), (90 * deg, 120 * deg, 20 * mm, law), (120 * deg, 360 * deg, 0, law)]
-    >>> [type(segment).__name__ for segment in program_between(pieces).segments]
-    ['Rise', 'Dwell', 'Return']
-
-    Raises ``ValueError`` where pieces overlap, where angles are missing between them, and as `MotionProgram` does.
-    """
-    segments: list[Segment] = []
-    angle, level = 0.0, start
-    level = one_number(start, "the start of the program")
-    for piece in listed(pieces, "what the program is made of", "piece"):
-        if not isinstance(piece, (tuple, list)) or len(piece) != 4:
-            raise ValueError(f"a piece of the program is {shown(piece)}; it must be (from, to, level, law)")
-        *given, law = piece
-        begin, end, to = (one_number(value, "an angle or a level of a piece") for value in given)
-        if abs(begin - angle) > ROUNDED:
-            what = "overlaps the one before, which ends at" if begin < angle else "leaves angles missing after"
-            raise ValueError(f"the piece from {degrees(begin)} to {degrees(end)} {what} {degrees(angle)}")
-        change = to - level
-        segments.append(
-            Dwell(end - begin) if change == 0 else (Rise if change > 0 else Return)(end - begin, abs(change), law)
-        )
-        angle, level = end, to
-    return MotionProgram(tuple(segments), start)
 
 
 def _meant(program: MotionProgram) -> str:

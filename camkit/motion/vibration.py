@@ -50,19 +50,6 @@ class Vibration(NamedTuple):
     """Largest acceleration of the mass during and after the rise, in the unit of ``Ca``."""
 
 
-def period_ratio(angle: Value, speed: Value, natural_frequency: Value) -> Value:
-    """``tau`` of a rise over the cam ``angle`` (rad) at a shaft ``speed`` (rad/s); natural frequency in rad/s.
-
-    >>> from camkit.units import rpm
-    >>> round(period_ratio(np.pi / 2, 600 * rpm, 2 * np.pi * 100), 6)
-    2.5
-    """
-    must = "be a finite number above 0"
-    beta = a_number(angle, "the angle of the rise", must, lambda x: x > 0)
-    frequency = a_number(natural_frequency, "the natural frequency", must, lambda x: x > 0)
-    return beta * frequency / (2 * np.pi * a_number(speed, "the speed of the shaft", must, lambda x: x > 0))
-
-
 @dataclass(frozen=True)
 class _Whole:
     """A program run once, over a time of 1 for its span."""
@@ -85,6 +72,7 @@ class _Whole:
 def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.0) -> Vibration:
     """Vibration of a follower that is one mass on a spring, at each ``tau`` ``(r,)`` (or one number).
 
+    A rise over the angle ``beta`` at the shaft's ``omega`` has ``tau = (beta / omega) (omega_n / 2 pi)``.
     Of a motion program ``tau`` is the time of its whole span over the natural period; it is run once, from rest, and
     ``residual`` is what still swings when it is over.
 

@@ -245,16 +245,6 @@ def test_a_torque_without_a_way_is_refused_in_a_sentence(given):
         torque_balance(*given)
 
 
-def test_a_flywheel_evens_the_speed_out():
-    """The kinetic energy between slowest and fastest is the swing: ``J (w_1^2 - w_2^2) / 2``."""
-    phi = np.linspace(0, 2 * np.pi, 721)
-    balance = torque_balance(phi, 40 * np.sin(phi))
-    speed, unevenness = 300 * rpm, 0.02
-    fast, slow = speed * (1 + unevenness / 2), speed * (1 - unevenness / 2)
-    J = balance.flywheel(speed, unevenness)
-    assert J * (fast**2 - slow**2) / 2 == pytest.approx(balance.swing, rel=1e-12)
-
-
 @every_cam
 def test_mass_spring_and_weight_give_back_what_they_take(cam):
     analysis = cam.analyse(7201)

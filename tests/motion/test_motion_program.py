@@ -28,7 +28,6 @@ from camkit.motion import (
     Rise,
     SimpleHarmonic,
     Skewed,
-    program_between,
 )
 from camkit.units import deg, mm, rpm
 
@@ -456,35 +455,5 @@ def test_single_precision_closes_the_turn():
     assert program.periodic
 
 
-def test_pieces_that_were_rounded_join():
-    law = Cycloidal()
-    third = 2.094395  # a hand calculator's
-    pieces = [(0, third, 20 * mm, law), (2.0943951, 4.18879, 20 * mm, law), (4.18879, 6.283185, 0, law)]
-    assert program_between(pieces).periodic
-
-
 def test_a_part_of_a_turn_need_not_close():
     assert MotionProgram((Rise(359 * deg, 1.0, law),)).span == pytest.approx(359 * deg)
-
-
-def test_pieces_between_angles_make_the_same_program():
-    law = Cycloidal()
-    pieces = [(0, 90 * deg, 20 * mm, law), (90 * deg, 120 * deg, 20 * mm, law), (120 * deg, 2 * np.pi, 0, law)]
-    expected = MotionProgram(
-        (Rise(90 * deg, 20 * mm, law), Dwell(30 * deg), Return(2 * np.pi - 120 * deg, 20 * mm, law))
-    )
-    phi = np.linspace(0, 2 * np.pi, 91)
-    np.testing.assert_allclose(program_between(pieces)(phi), expected(phi), rtol=1e-12, atol=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("begin", "sentence"),
-    [
-        (80, "the piece from 80 deg to 120 deg overlaps the one before, which ends at 90 deg"),
-        (100, "the piece from 100 deg to 120 deg leaves angles missing after 90 deg"),
-    ],
-)
-def test_overlapping_and_missing_angles_are_refused(begin, sentence):
-    pieces = [(0, 90 * deg, 20 * mm, Cycloidal()), (begin * deg, 120 * deg, 0, Cycloidal())]
-    with pytest.raises(ValueError, match=f"^{sentence}$"):
-        program_between(pieces)

@@ -23,7 +23,7 @@ from camkit.motion import (
     Skewed,
     TableLaw,
 )
-from camkit.motion.vibration import period_ratio, residual_vibration
+from camkit.motion.vibration import residual_vibration
 from camkit.units import deg, mm, rpm
 
 TAU = np.linspace(0.13, 20.13, 161)
@@ -136,7 +136,7 @@ def test_vibration_of_a_program_is_that_of_the_equation_of_motion_in_time(segmen
         **options,
     ).y  # fmt: skip
     after = abs(2 * zeta * frequency * y[1] + frequency**2 * (y[0] - level)).max()
-    found = residual_vibration(program, period_ratio(program.span, speed, frequency), zeta)
+    found = residual_vibration(program, program.span / speed * frequency / (2 * np.pi), zeta)
     assert_allclose(found.residual, abs(y[0] - level).max(), rtol=2e-6, atol=1e-11)
     assert_allclose(found.during, during, rtol=3e-3)
     assert_allclose(found.acceleration, max(forced, after) * (program.span / speed) ** 2, rtol=3e-3)
@@ -201,11 +201,6 @@ def test_shapes_of_numbers_ratios_and_populations():
     assert many.residual.shape == (3, 3)
     one = residual_vibration(Skewed(Cycloidal(), 0.4), [0.5, 1.5, 3.7]).residual
     assert_allclose(many.residual[0], one, rtol=1e-10)
-
-
-def test_period_ratio_is_rise_time_over_natural_period():
-    time, period = (90 * deg) / (1500 * rpm), 1 / 80
-    assert period_ratio(90 * deg, 1500 * rpm, 2 * np.pi * 80) == pytest.approx(time / period)
 
 
 @pytest.mark.parametrize("tau", [0.0, -1.0, np.nan, [1.0, np.inf]])

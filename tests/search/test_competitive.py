@@ -6,7 +6,7 @@ from pymoo.core.problem import Problem
 from pymoo.optimize import minimize
 from pymoo.problems import get_problem
 
-from camkit.machines.shaft import WIDE_SPACE, lightest_shaft, shaft_study
+from camkit.machines.shaft import lightest_shaft, shaft_study
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.units import mm
@@ -20,6 +20,7 @@ from known_problems import (
 )
 
 OPTIMUM = lightest_shaft().analyse().area
+WIDE_SPACE = {"outer_diameter": (60 * mm, 300 * mm), "inner_diameter": (20 * mm, 290 * mm)}
 
 
 def search(study, cycles: int = 100, seed: int = 1, **parameters) -> CompetitiveAlgorithm:
