@@ -56,6 +56,20 @@ def test_the_maths_imports_numpy_and_scipy_only() -> None:
     python("-c", ONLY_NUMPY_AND_SCIPY, *maths(), cwd=REPOSITORY)
 
 
+OPENING = """
+import sys
+import camkit.papers
+from camkit import DoorHandleCam, ahp_panel, explore, pareto_panel
+from camkit.machines import door_handle
+app, criteria = explore(DoorHandleCam()), ahp_panel(door_handle.PAPER_JUDGEMENTS)
+print(*sorted({"scipy.optimize", "scipy.sparse", "scipy.spatial", "scipy.stats", "pymoo"} & set(sys.modules)))
+"""
+
+
+def test_a_panel_opens_without_what_only_searches_need() -> None:
+    assert python("-c", OPENING, cwd=REPOSITORY).strip() == ""
+
+
 GROUND = {"units", "quantities", "geometry", "contact", "extrema", "data"}
 WINGS = {*("motion", "cam", "linkage", "machines", "study", "search", "decision"), *("files", "papers", "views"),
          *("program", "render", "panels")}  # fmt: skip

@@ -58,11 +58,7 @@ RESULTS = NOT_MADE_BY_HAND | {
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
-    "few_colours",
-    "pixels",
-    "encoded",
     "small_png",
-    "below",
     "strip",
     "layout",
     "draw",

@@ -7,12 +7,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 BLOCK = 256
 """How many points are compared with all faces at once."""
+
+
+def _near(points: np.ndarray) -> cKDTree:
+    """A tree that finds the nearest of points ``(2, n)``; scipy.spatial takes half a second to load."""
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points.T)
 
 
 @dataclass(frozen=True)
@@ -24,7 +34,7 @@ class Roller:
 
     @cached_property
     def _tree(self) -> cKDTree:
-        return cKDTree(self.centres.T)
+        return _near(self.centres)
 
     def depth(self, points: np.ndarray) -> np.ndarray:
         """How deep points lie in a roller, < 0 outside of all, m."""
@@ -32,7 +42,7 @@ class Roller:
 
     def gaps(self, rows: np.ndarray, left: np.ndarray) -> np.ndarray:
         """How far the rollers of ``rows`` are from touching the points that are ``left``, m."""
-        return np.asarray(cKDTree(left.T).query(self.centres[:, rows].T)[0] - self.radius)
+        return np.asarray(_near(left).query(self.centres[:, rows].T)[0] - self.radius)
 
 
 @dataclass(frozen=True)

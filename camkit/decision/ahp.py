@@ -11,7 +11,6 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from scipy.sparse.csgraph import connected_components
 
 from ..quantities import counted
 from ..quantities.kinds import listed, refuse_arguments, shown
@@ -283,8 +282,11 @@ def _rounded_reciprocal(more: float, less: float) -> bool:
 
 def _groups(a: np.ndarray) -> tuple[int, np.ndarray]:
     """How many groups of criteria the judgements connect, and the group of each criterion."""
-    count, group = connected_components(~np.isnan(a), directed=False)
-    return int(count), group
+    joined = ~np.isnan(a) | np.eye(len(a), dtype=bool)
+    for _ in range(len(a).bit_length()):  # each time over ways twice as long
+        joined = joined @ joined
+    firsts, group = np.unique(joined.argmax(-1), return_inverse=True)
+    return len(firsts), group
 
 
 def _unjudged(a: np.ndarray, pair: tuple[int, int]) -> np.ndarray:

@@ -13,7 +13,7 @@ from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
-from ..render.picture import below, picture
+from ..render.picture import picture, small_png
 from ..search.front import Front
 from ..views.decision import (
     MARKS,
@@ -271,9 +271,7 @@ class ChoosePanel(Panel):
     def still(self) -> bytes:
         """All four views, two below two; without a front there is nothing to see."""
         rows = (brushed_designs, front_winners), (winners_by_weight, judgement_bars)
-        return below(
-            *(picture(self.shown, *views, width=12.6, height=4.5)._repr_png_() for views in rows if self.shown)
-        )
+        return small_png(*(picture(self.shown, *views, width=12.6, height=4.5) for views in rows if self.shown))
 
 
 def _numbers_of(front: Judged) -> tuple[object, ...]:

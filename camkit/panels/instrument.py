@@ -31,7 +31,7 @@ from ..quantities.applied import a_new_file, raised
 from ..quantities.kinds import refuse_arguments, shown
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
-from ..render.picture import Still, below, picture, positions_of, small_png, strip, turn_range
+from ..render.picture import Still, picture, positions_of, small_png, strip, turn_range
 from ..study.study import refuse_limits
 from ..units import in_unit
 from ..views.defaults import default_views
@@ -334,13 +334,12 @@ class Instrument(anywidget.AnyWidget):
 
     def still(self) -> bytes:
         """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
-        png = self.figure()._repr_png_()
         turning = [view for view in self.views if "turn" in positions_of(view)]
         if not turning or "azimuth" in positions_of(turning[0]):
-            return png
+            return small_png(self.figure())
         _, low, high = turn_range(self.analysis)
         turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
-        return below(png, small_png(strip(self.analysis, turning[0], turns)))
+        return small_png(self.figure(), strip(self.analysis, turning[0], turns))
 
     def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, object], dict[str, object]]:
         """The live panel for a kernel, the picture and the numbers where there is none."""

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binomtest, mannwhitneyu
 
 from ..data import load
 from ..quantities.kinds import listed, one_number, refuse_arguments, refuse_empty
@@ -43,6 +42,8 @@ class Trials:
 
     def success_interval(self, target: float) -> tuple[float, float]:
         """Between which shares the true rate of success lies, 95 % confidence (Wilson 1927)."""
+        from scipy.stats import binomtest
+
         interval = binomtest(self.successes(target), len(self.to(target))).proportion_ci(method="wilson")
         return float(interval.low), float(interval.high)
 
@@ -74,6 +75,8 @@ def probability_faster(first: Trials, second: Trials, target: float) -> tuple[fl
     (1.0, 0.1)
     """
     refuse_arguments(probability_faster, locals())
+    from scipy.stats import mannwhitneyu
+
     a, b = first.to(target), second.to(target)
     share = float(np.mean((a[:, None] < b) + 0.5 * (a[:, None] == b)))
     if len(np.unique(np.concatenate([a, b]))) == 1:

@@ -245,7 +245,9 @@ def _put_patch(ax: Axes, mark: Patch, artist: Any, style: dict[str, Any]) -> Art
     if artist is None:
         over = {"x": ax.get_yaxis_transform, "y": ax.get_xaxis_transform}
         place = {"transform": over[mark.along]()} if isinstance(mark, shown.Band) else {}
-        artist = ax.add_patch(Polygon(corners, closed=True, gid=mark.key, **place))
+        artist = ax.add_artist(Polygon(corners, closed=True, gid=mark.key, **place))
+    along = getattr(mark, "along", "")
+    ax.update_datalim(corners, updatex=along != "x", updatey=along != "y")  # add_patch would look at every corner
     artist.set_xy(corners)
     if isinstance(mark, shown.Band):
         style |= {"facecolor": (*to_rgb(style["facecolor"]), mark.opacity), "alpha": None}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import io
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -27,38 +28,35 @@ from .draw import draw_picture, theme_style
 
 LARGEST = 100
 """No figure is wider or higher, inches."""
+STRIP = {"left": 0.01, "right": 0.99, "bottom": 0.02, "top": 0.9, "wspace": 0.04}
+"""Where pictures side by side stand, shares of the figure and of a picture's width."""
 
 
 class Still(Figure):
     """A figure that shows itself in a notebook, as a small file; pyplot never sees it, so none is left behind."""
 
     def _repr_png_(self) -> bytes:
-        with rc_context(theme_style()):
-            self.canvas.draw()
         return small_png(self)
 
 
-def small_png(figure: Figure) -> bytes:
-    """The pixels of a drawn figure as a PNG file of 256 colours: a third of the usual size."""
-    return encoded(few_colours(pixels(figure).convert("RGB")), "PNG", optimize=True)
-
-
-def few_colours(image: Image.Image) -> Image.Image:
-    """``image`` in 256 colours."""
-    return image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-
-
-def pixels(figure: Figure) -> Image.Image:
-    """What the canvas of ``figure`` holds, not copied; its fourth channel, opaque, is not used."""
-    buffer = figure.canvas.buffer_rgba()  # type: ignore[attr-defined]
-    return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1)
-
-
-def encoded(image: Image.Image, kind: str, **options: object) -> bytes:
-    """``image`` as a file of a ``kind`` that Pillow knows."""
+def small_png(*figures: Figure) -> bytes:
+    """Figures of the same width, each below the one before, as a PNG file of 256 colours; a white dot of none."""
+    images = [*map(_pixels, figures)] or [Image.new("RGB", (1, 1), "white")]
+    whole = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
+    for i, image in enumerate(images):
+        whole.paste(image, (0, sum(above.height for above in images[:i])))
     out = io.BytesIO()
-    image.save(out, kind, **options)
+    few_colours = whole.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)  # a third of the usual size
+    few_colours.save(out, "PNG", optimize=True)
     return out.getvalue()
+
+
+def _pixels(figure: Figure) -> Image.Image:
+    """What a figure looks like; the fourth channel of its canvas, opaque, is not used."""
+    with rc_context(theme_style()):
+        figure.canvas.draw()
+    buffer = figure.canvas.buffer_rgba()  # type: ignore[attr-defined]
+    return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1).convert("RGB")
 
 
 def layout(views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100) -> tuple[Still, list[Axes]]:
@@ -173,30 +171,24 @@ def picture(
 
 
 def strip(analysis: object, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Still:
-    """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale."""
+    """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale.
+
+    Only what is drawn, and the angle: the large picture has the scales and the legend.
+    """
+    turns = tuple(turns)
     with rc_context(theme_style()):
-        turns = tuple(turns)
-        figure = Still(figsize=(width, height), dpi=100, layout="constrained")
+        figure = Still(figsize=(width, height), dpi=100)
         FigureCanvasAgg(figure)
-        axes = figure.subplots(1, len(turns))
+        axes = figure.subplots(1, len(turns), gridspec_kw=STRIP)
         for ax, turn in zip(axes, turns, strict=True):
-            draw(analysis, [ax], [view], turn=turn)
-            _bare(ax, f"{turn / deg:.0f}°")
+            made = made_by(view, analysis, {"turn": turn})
+            marks = tuple(replace(mark, label="") for mark in made.marks)
+            draw_picture(Picture(replace(made.axes, bare=True, title=f"{turn / deg:.0f}°"), marks), ax)
         limits = [np.array([ax.get_xlim(), ax.get_ylim()]) for ax in axes]
         low, high = np.min(limits, axis=0)[:, 0], np.max(limits, axis=0)[:, 1]
         for ax in axes:
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), adjustable="box")
-        figure.canvas.draw()
     return figure
-
-
-def _bare(ax: Axes, title: str) -> None:
-    """Only what is drawn, and a title: the large picture has the scales and the legend."""
-    ax.set_title(title)
-    ax.set_axis_off()
-    legend = ax.get_legend()
-    if legend:
-        legend.remove()
 
 
 def saved(figure: Figure, kind: str) -> bytes:
@@ -205,12 +197,3 @@ def saved(figure: Figure, kind: str) -> bytes:
     with rc_context(theme_style() | {"svg.hashsalt": "camkit"}):
         figure.savefig(out, format=kind, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind))
     return out.getvalue()
-
-
-def below(*pictures: bytes) -> bytes:
-    """Pictures (PNG files) of the same width, each below the one before, as one; a white dot of none."""
-    images = [Image.open(io.BytesIO(data)).convert("RGB") for data in pictures] or [Image.new("RGB", (1, 1), "white")]
-    whole = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
-    for i, image in enumerate(images):
-        whole.paste(image, (0, sum(above.height for above in images[:i])))
-    return encoded(few_colours(whole), "PNG", optimize=True)

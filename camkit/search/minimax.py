@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize
 
 from ..quantities import Measure, PeakMeasure
 from ..study.study import KEPT, Study, WeightedSum
@@ -152,6 +151,8 @@ class Epigraph:
         return Descent(u, steps, False)
 
     def _slsqp(self, u: np.ndarray, t: np.ndarray, seen: np.ndarray, precision: float) -> Any:
+        from scipy.optimize import minimize
+
         slope = np.concatenate([np.zeros_like(u), np.ones_like(t)])
         by_t = (self.owner[seen, None] == np.arange(len(t))).astype(float)
 

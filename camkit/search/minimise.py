@@ -12,7 +12,6 @@ from itertools import count, islice
 from typing import Any
 
 import numpy as np
-from scipy.optimize import differential_evolution
 
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
@@ -187,6 +186,7 @@ WORST = 1e12
 
 
 def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
+    from scipy.optimize import differential_evolution
     from scipy.stats import qmc
 
     looked = 0

@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
 
 from ..quantities import Measure, counted
 from ..quantities.declaration import Quantity
@@ -114,6 +113,8 @@ class DesignMap:
         SLSQP, started from the best design of a coarse grid over the bounds; what ends within rounding of a bound
         lies on it.
         """
+        from scipy.optimize import minimize
+
         coarse = np.stack(np.meshgrid(*np.linspace([0, 0], [1, 1], 21, axis=1)), axis=-1).reshape(-1, 2)
         start = coarse[self._first(self._at(coarse))]
         size = abs(self._at(start).f[0, 0])

@@ -11,7 +11,7 @@ import traitlets
 from ...quantities.applied import applied
 from ...quantities.types import Array
 from ...render.living import plain_picture
-from ...render.picture import below, given_to, picture
+from ...render.picture import given_to, picture, small_png
 from ...views.picture import Picture, View
 from .parts import Message, Part
 
@@ -70,7 +70,7 @@ class LivePicture(Part):
     def png(self) -> bytes:
         """The picture as a PNG file."""
         if not self._last:
-            return below()
+            return small_png()
         thing, asked = self._last
         return picture(thing, *self.views, width=self.size[0], height=self.size[1], **asked)._repr_png_()  # type: ignore[arg-type]
 
