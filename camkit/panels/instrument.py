@@ -316,7 +316,7 @@ class Instrument(anywidget.AnyWidget):
     def html(self) -> str:
         """The page of the design as it is now, as one file."""
         docks = [{"title": tab["title"], "sheets": [sheet.stored() for sheet in tab["sheets"]]} for tab in self.tabs]
-        return replace(self._page, design=self.design).html(docks)
+        return replace(self._page, design=self.design).html(docks, self._keeper.alike)
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

@@ -193,8 +193,8 @@ class Living:
         text = numbers(self.program, steady=len(self.program.inputs) - len(self.first))
         return gzip.compress(text.encode(), 6, mtime=0)
 
-    def html(self, docks: Sequence[Json] = ()) -> str:
-        """One file, without any outside address; ``docks`` are the sheets in its tabs.
+    def html(self, docks: Sequence[Json] = (), named: Sequence[Json] = ()) -> str:
+        """One file, without any outside address: ``docks`` are the sheets in its tabs, ``named`` designs with a name.
 
         `CannotRecord` where there is no program.
         """
@@ -202,7 +202,7 @@ class Living:
             raise CannotRecord(self._recorded[2])
         parts = {
             "style": STYLE,
-            "structure": in_html(self.structure | {"docks": docks}),
+            "structure": in_html(self.structure | {"docks": docks, "named": named}),
             "program": base64.b64encode(self.packed).decode("ascii"),
             "script": script("page.js"),
         }

@@ -16,9 +16,10 @@ from camkit import DoorHandleCam, Measure, TranslatingRollerCam, mm
 from camkit.cam import max_pressure_angle, min_profile_radius
 from camkit.panels import explore
 from camkit.panels.kit import kept_designs, running
+from camkit.panels.kit.changes import numbers_of
 from camkit.panels.kit.kept_designs import KeptDesigns, Last
 from camkit.panels.kit.search_files import FOLDER
-from camkit.quantities import quantities_of, value_of
+from camkit.quantities import choices_of, quantities_of, value_of
 from camkit.views import mechanism
 
 KINDS = "TranslatingRollerCam-*.designs"
@@ -131,9 +132,9 @@ def test_a_published_page_keeps_nothing(run, monkeypatch):
     app = run()
     assert offered(app) == ""
     leave(app, 51 * mm)
-    say(app, keep="mine")
+    say(app, keep=["mine", app.values])
     assert files()[0].read_bytes() == before
-    assert app.sent[-1]["named"] == ["mine"]  # as long as the page is open
+    assert [name for name, _ in app.sent[-1]["named"]] == ["mine"]  # as long as the page is open
 
 
 def test_each_cell_each_notebook_and_each_panel_has_its_own(run, monkeypatch):
@@ -153,26 +154,50 @@ def test_a_design_has_a_name_until_it_is_removed(run):
     app = run()
     offered(app)
     leave(app, 48 * mm)
-    say(app, keep="flat")
+    say(app, keep=["flat", app.values])
     leave(app, 51 * mm)
     again = run()
     offered(again)
-    assert again.sent[-1]["named"] == ["flat"]
+    ((name, values),) = again.sent[-1]["named"]
+    assert (name, values) == ("flat", pytest.approx([*numbers_of(app.design.replace(base_radius=48 * mm)).values()]))
     say(again, show="flat")
     assert again.design.base_radius == 48 * mm
-    say(again, forget="flat")
+    say(again, rename=["flat", "low"])
+    assert json.loads(files()[0].read_text())["named"].keys() == {"low"} == again._keeper.named.keys()
+    say(again, forget="low")
     assert json.loads(files()[0].read_text())["named"] == {}
-    for wrong in ({"show": "flat"}, {"keep": ""}, {"keep": 5}, {"forget": []}, {"else": 1}):
+    wrongs = ({"show": "flat"}, {"keep": ["", again.values]}, {"keep": 5}, {"keep": ["a", [0.1]]}, {"forget": []})
+    for wrong in (*wrongs, {"rename": ["flat", "low"]}, {"else": 1}):
         say(again, **wrong)
         assert again.message.endswith(".")
         again.message = ""
+
+
+def test_a_name_keeps_what_the_page_shows_and_what_can_be_built(run):
+    app = run()
+    offered(app)
+    wide, cannot = (dict(numbers_of(app.design), base_radius=radius) for radius in (52 * mm, -1.0))
+    say(app, keep=["wide", list(wide.values())])  # the page's last move is still on its way
+    assert app._keeper.named["wide"].base_radius == 52 * mm != app.design.base_radius
+    say(app, keep=["other", app.values])
+    say(app, keep=["never", list(cannot.values())])
+    say(app, rename=["wide", "other"])
+    assert app.message == "Another design is called 'other' already."
+    assert app._keeper.named.keys() == {"wide", "other"}
+    page = app.html()
+    assert '"named":[["wide",' in page
+    path, choice = next(iter(choices_of(app.design).items()))
+    app._handle_custom_msg({"choose": [path, next(name for name in choice.named if name != choice.default)]}, [])
+    offered(app)
+    assert app.sent[-1]["named"] == [("wide", None), ("other", None)]  # another make
+    assert '"named":[]' in app.html()
 
 
 def test_names_of_two_kernels_are_both_kept(run):
     panels = [run() for _ in range(2)]
     for app, name in zip(panels, ("one", "other"), strict=True):
         offered(app)
-        say(app, keep=name)
+        say(app, keep=[name, app.values])
     assert json.loads(files()[0].read_text())["named"].keys() == {"one", "other"}
 
 
@@ -269,7 +294,7 @@ def test_there_is_room_for_so_many_names(run):
     offered(app)
     for k in range(kept_designs.MOST_NAMED):
         app._keeper.named[f"design {k}"] = app.design
-    say(app, keep="one more")
+    say(app, keep=["one more", app.values])
     assert app.message == "50 designs have a name, and no more can be kept; remove one first."
     many = {str(k): "" for k in range(kept_designs.MOST_NAMED + 1)}
     with pytest.raises(ValueError, match="would be too large"):

@@ -21,7 +21,10 @@ def numbers_of(design: Analysable) -> dict[str, float]:
 
 def alike(one: Analysable, other: Analysable) -> bool:
     """Whether designs differ in their quantities alone, so that one recording is for both."""
+    values = {
+        path: 1.0 * value for path, value in numbers_of(other).items()
+    }  # new numbers: what closes a turn follows in both
     try:
-        return bool(changed(one, numbers_of(other)) == other)
+        return bool(changed(one, values) == changed(other, values))
     except ValueError:  # another make, or an array in it
         return False

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import uuid
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,6 +16,7 @@ from ...files import designs
 from ...quantities import declared_in, value_of, words
 from ...quantities.kinds import shown
 from ...search.checkpoint import why
+from .changes import alike, changed, numbers_of
 from .kept_designs import MOST, MOST_NAMED, KeptDesigns, Last, file_of, notebook, published, read, update
 from .running import Place, here
 
@@ -55,7 +56,7 @@ class Keeper:
         self._said = ""
 
     def answer(self, asked: object) -> None:
-        """What the page asks: ``hello`` when it opens, ``continue`` or not, ``keep``, ``forget`` or ``show`` a name."""
+        """``hello`` when a page opens, ``continue`` or not; of a name ``keep``, ``rename``, ``forget`` or ``show``."""
         for what, act in self._answers.items():
             if isinstance(asked, Mapping) and what in asked:
                 act(asked[what])
@@ -67,7 +68,8 @@ class Keeper:
         return {
             "hello": lambda _: self._hello(),
             "continue": self._continue,
-            "keep": self._keep_as,
+            "keep": lambda asked: self._keep_as(*asked),
+            "rename": lambda names: self._rename(*names),
             "forget": self._forget,
             "show": lambda name: self._panel.load(self._known(name)),
         }
@@ -121,7 +123,18 @@ class Keeper:
 
     def _tell(self) -> None:
         offer = f"Continue with your last design, {self._differs(self._offers[0][1])}?" if self._offers else ""
-        self._panel.send({"offer": offer, "named": list(self.named)})
+        self._panel.send({"offer": offer, "named": self._known_here})
+
+    @property
+    def _known_here(self) -> list[tuple[str, list[float] | None]]:
+        """Each name, and the quantities of its design if the page can show it by them alone."""
+        now = self._panel.design
+        return [(name, [*numbers_of(d).values()] if alike(now, d) else None) for name, d in self.named.items()]
+
+    @property
+    def alike(self) -> list[tuple[str, list[float] | None]]:
+        """Named designs that differ from the one shown in their quantities alone."""
+        return [(name, values) for name, values in self._known_here if values is not None]
 
     def _differs(self, design: object) -> str:
         """What a design has otherwise than the one that the panel began with."""
@@ -149,20 +162,37 @@ class Keeper:
             raise ValueError(f"no design is called {shown(name)} here; there are {', '.join(self.named) or 'none'}")
         return self.named[str(name)]
 
-    def _keep_as(self, name: object) -> None:
+    def _keep_as(self, name: object, values: Sequence[float]) -> None:
+        """The design with these values of its quantities: those of the page, which may be newer than the panel's."""
+        kept = self._name(name)
+        if len(self.named) >= MOST_NAMED and kept not in self.named:
+            raise ValueError(f"{MOST_NAMED} designs have a name, and no more can be kept; remove one first")
+        now = self._panel.design
+        design = changed(now, dict(zip(numbers_of(now), map(float, values), strict=True)))
+        design.analyse()  # what cannot be built is not kept
+        self._put({**self.named, kept: design})
+
+    def _rename(self, old: object, name: object) -> None:
+        self._known(old)
+        if (new := self._name(name)) in self.named:
+            raise ValueError(f"another design is called {shown(new)} already")
+        self._put({new if n == old else n: design for n, design in self.named.items()})
+
+    def _name(self, name: object) -> str:
         if not isinstance(name, str) or not name.strip() or len(name) > LONGEST_NAME:
             raise ValueError(f"{shown(name)} is no name for a design; it has up to {LONGEST_NAME} letters")
-        if len(self.named) >= MOST_NAMED and name not in self.named:
-            raise ValueError(f"{MOST_NAMED} designs have a name, and no more can be kept; remove one first")
-        text = designs.to_json(self._panel.design)
-        self.named[name] = self._panel.design
-        self._update(lambda kept: replace(kept, named={**kept.named, name: text}))
-        self._tell()
+        return name
 
     def _forget(self, name: object) -> None:
         self._known(name)
-        del self.named[str(name)]
-        self._update(lambda kept: replace(kept, named={n: t for n, t in kept.named.items() if n != name}))
+        self._put({n: design for n, design in self.named.items() if n != name})
+
+    def _put(self, named: dict[str, Any]) -> None:
+        """Other names; what another kernel has changed in the file stays."""
+        gone = self.named.keys() - named.keys()
+        fresh = {n: designs.to_json(design) for n, design in named.items() if design is not self.named.get(n)}
+        self.named = named
+        self._update(lambda kept: replace(kept, named={n: t for n, t in kept.named.items() if n not in gone} | fresh))
         self._tell()
 
 

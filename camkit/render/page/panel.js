@@ -7,6 +7,7 @@ import { History } from "./history.js";
 import { Around } from "./around.js";
 import { Idle } from "./idle.js";
 import { Table, judged, told } from "./measures.js";
+import { Names } from "./names.js";
 import { listen } from "./pointer.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
@@ -22,7 +23,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 /**
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
- *   reset(): void, file(kind: string): void, open(text: string): void}} Host what stands behind the page, if anything does
+ *   reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what stands behind the page, if anything does
  */
 
 export class Panel {
@@ -170,8 +171,9 @@ export class Panel {
     });
     this.chosen = make("select", { "aria-label": "units", onchange: () => this.use(this.chosen.value) },
       ...this.units.names.map((name) => make("option", { value: name }, name)));
+    this.names = new Names(this, structure.named ?? [], this.host && ((asked) => this.host.name(asked)));
     return make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1" }, structure.name),
-      this.undoing, this.redoing, reset, this.pinning, make("span", { class: "camkit-space" }),
+      this.names.element, this.undoing, this.redoing, reset, this.pinning, make("span", { class: "camkit-space" }),
       this.chosen, ...filesOf(structure.files, this.host), ...screenOf(this.root));
   }
 

@@ -47,6 +47,7 @@ async function render({ model, el }) {
     choose: (/** @type {string} */ path, /** @type {string} */ option) => model.send({ choose: [path, option] }),
     file: (/** @type {string} */ kind) => { saving = true; model.send({ file: kind }); },
     open: (/** @type {string} */ text) => model.send({ open: text }),
+    name: (/** @type {any} */ asked) => model.send({ session: asked }),
   };
   const docks = new Docks();
   const dock = async () => {
@@ -69,6 +70,7 @@ async function render({ model, el }) {
     panel.say(model.get("message"));
     moved(); // the design may have moved since the structure was made
     if (first) void stand(panel, model.get("page"));
+    session.ask();
     if (!known(model)) left();
   };
   const left = () => { if (panel) { panel.left = true; alone(panel, model.get("program").byteLength > 0); } };
@@ -90,6 +92,7 @@ async function render({ model, el }) {
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
       if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); saved(message.file); } // not in every view
       if (message.offer !== undefined) session.offer(message.offer);
+      if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
       if (message.still) panel?.redraw(message.pictures, arrays(buffers));
     },
@@ -98,7 +101,6 @@ async function render({ model, el }) {
   const session = new Session(root, model, () => panel);
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
   await begin();
-  session.ask();
   return () => { session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
