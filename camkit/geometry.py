@@ -48,7 +48,7 @@ class Outline(Body):
     def at(self, i: SupportsIndex) -> np.ndarray:
         """Its points in the machine's frame at position ``i``, ``(2, k)``, m."""
         x, y, angle = (_at(value, i) for value in (self.x, self.y, self.angle))
-        return rotated(self.points, angle) + np.stack(np.broadcast_arrays(x, y))[:, None]
+        return rotated(self.points, angle) + vector(x, y)[:, None]
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,11 @@ class Disc(Body):
 def _at(value: Value, i: Any) -> Value:
     """A number, or that of several which stands for position ``i``."""
     return np.take(value, i, axis=-1) if np.ndim(value) else value
+
+
+def vector(*components: Value) -> np.ndarray:
+    """Vectors ``(d, ...)`` from their components, of which one may be a number and another a column or a curve."""
+    return np.stack(np.broadcast_arrays(*components))
 
 
 def end_to_end(*stretches: Array) -> Array:
@@ -87,7 +92,7 @@ def rotated(points: Array, angle: Value) -> np.ndarray:
     """
     x, y = points
     c, s = np.cos(angle), np.sin(angle)
-    return np.stack(np.broadcast_arrays(c * x - s * y, s * x + c * y))
+    return vector(c * x - s * y, s * x + c * y)
 
 
 def polar_angle(point: Sequence[Value] | Array) -> Value:

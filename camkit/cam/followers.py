@@ -7,6 +7,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
+from ..geometry import vector
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities.types import Array, Value
 from ..units import deg
@@ -47,12 +48,12 @@ class SlidingAnalysis(CamAnalysis):
     @property
     def foot(self) -> np.ndarray:
         """The lower end of the follower on its axis, machine's frame, ``(2, n)``, m."""
-        return np.stack(np.broadcast_arrays(self.cam.offset, self.height))
+        return vector(self.cam.offset, self.height)
 
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The follower: the mouth of its guide ``(2,)`` and its foot ``(2, n)``, machine's frame, m."""
-        return {"follower": (np.stack([self.cam.offset, self.bearing.mouth]), self.foot)}
+        return {"follower": (vector(self.cam.offset, self.bearing.mouth), self.foot)}
 
     @property
     def bearing(self) -> Guide:

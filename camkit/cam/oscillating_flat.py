@@ -19,7 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Body, Outline
+from ..geometry import Body, Outline, vector
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, quantity, text_if
 from ..quantities.kinds import a_number
@@ -226,7 +226,7 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The arm: its pivot ``(2,)`` and where its face is touched ``(2, n)``, machine's frame, m."""
-        return {"arm": (np.stack([self.cam.centre_distance, 0.0]), self.contact_point())}
+        return {"arm": (vector(self.cam.centre_distance, 0.0), self.contact_point())}
 
     @property
     def follower(self) -> tuple[Body, ...]:

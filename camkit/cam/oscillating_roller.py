@@ -17,7 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Body
+from ..geometry import Body, vector
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, quantity, text_if
 from ..quantities.kinds import a_number
@@ -125,7 +125,7 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Every rocking arm by its name: its pivot ``(2,)`` and its roller's centre ``(2, n)``, machine's frame, m."""
-        return {"arm": (np.stack([self.cam.centre_distance, 0.0]), self.roller_centre)}
+        return {"arm": (vector(self.cam.centre_distance, 0.0), self.roller_centre)}
 
     @property
     def follower(self) -> tuple[Body, ...]:
@@ -183,13 +183,13 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
     def roller_centre(self) -> np.ndarray:
         """The roller's centre in the frame of the machine, m."""
         a, l = self.cam.centre_distance, self.cam.arm_length
-        return np.stack(np.broadcast_arrays(a - l * self._cos, l * self._sin))
+        return vector(a - l * self._cos, l * self._sin)
 
     @cached_property
     def normal(self) -> np.ndarray:
         """The contact normal, a unit vector from cam to roller in the frame of the machine."""
         a, l = self.cam.centre_distance, self.cam.arm_length
-        direction = np.stack(np.broadcast_arrays(a - l * self._gain * self._cos, l * self._gain * self._sin))
+        direction = vector(a - l * self._gain * self._cos, l * self._gain * self._sin)
         return direction / self._size
 
     @property

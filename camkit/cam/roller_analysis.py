@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..extrema import Extreme
-from ..geometry import offset_curvature
+from ..geometry import offset_curvature, vector
 from ..quantities import certain
 from ..quantities.types import Array, Value
 from . import groove
@@ -97,7 +97,7 @@ class RollerAnalysis(CamAnalysis):
         """Where the roller touches the inner flank (+1) or the outer one (-1), machine's frame, m."""
         away = flank * self.cam.roller_radius
         (x, y), (across, along) = self.roller_centre, self.normal
-        return np.stack(np.broadcast_arrays(x - away * across, y - away * along))
+        return vector(x - away * across, y - away * along)
 
     @property
     def groove(self) -> bool:

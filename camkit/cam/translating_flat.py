@@ -15,7 +15,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Body, Outline
+from ..geometry import Body, Outline, vector
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, quantity, unless
 from ..quantities.kinds import a_number
@@ -142,7 +142,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
 
     def contact_point(self, flank: Value = 1) -> np.ndarray:
         """Where face and cam touch, machine's frame, m: ``(sigma v, r_0 + s)``; ``nan`` for an outer flank."""
-        return np.stack(np.broadcast_arrays(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank)))
+        return vector(self.cam.rotation * self.velocity + 0.0 * self.height, self._on(flank))
 
     def _on(self, flank: Value) -> Value:
         return np.where(np.greater(flank, 0), self.height, np.nan)
@@ -161,7 +161,7 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
     def face(self) -> np.ndarray:
         """Both ends of the narrowest face in the frame of the machine, ``(2, 2, ...)``: x, y of each end, m."""
         ends = (self.cam.offset + np.expand_dims(x, -1) for x in self.face_reach)
-        return np.stack([np.stack(np.broadcast_arrays(x, self.height)) for x in ends], axis=1)
+        return np.stack([vector(x, self.height) for x in ends], axis=1)
 
     @property
     def follower(self) -> tuple[Body, ...]:

@@ -16,7 +16,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Body
+from ..geometry import Body, vector
 from ..motion import MotionProgram, motion_in
 from ..quantities import Design, choice, quantity, text_if, unless
 from ..quantities.kinds import a_number
@@ -218,7 +218,7 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
     @cached_property
     def normal(self) -> np.ndarray:
         """The contact normal, a unit vector from cam to roller in the frame of the machine."""
-        direction = np.stack(np.broadcast_arrays(-self.cam.rotation * self.across, self.height))
+        direction = vector(-self.cam.rotation * self.across, self.height)
         return direction / self._size
 
     @property

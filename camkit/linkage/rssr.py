@@ -15,6 +15,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
+from ..geometry import vector
 from ..quantities import Design, Quantity, counted, declarations, quantity, unless
 from ..quantities.kinds import numbers, one_number, shown
 from ..quantities.known import certain
@@ -31,10 +32,6 @@ def _angles(crank_angle: Value) -> np.ndarray:
     """Crank angles as an array, ``nan`` for those that are not finite."""
     angles = numbers(crank_angle, "the crank angles")
     return angles if certain(np.isfinite(angles)) else np.where(np.isfinite(angles), angles, np.nan)
-
-
-def _vector(*components: Value) -> np.ndarray:
-    return np.stack(np.broadcast_arrays(*components))
 
 
 @dataclass(frozen=True)
@@ -167,32 +164,32 @@ class RSSR(Links):
     @cached_property
     def crank_root(self) -> np.ndarray:
         """Where the crank stands on its axis, ``(3,)``, m."""
-        return _vector(0.0, 0.0, self.crank_offset)
+        return vector(0.0, 0.0, self.crank_offset)
 
     @cached_property
     def rocker_root(self) -> np.ndarray:
         """Where the rocker stands on its axis, ``(3,)``, m."""
         s3, L = self.rocker_offset, self.axis_angle
-        return _vector(self.axis_distance, s3 * np.sin(L), s3 * np.cos(L))
+        return vector(self.axis_distance, s3 * np.sin(L), s3 * np.cos(L))
 
     @property
     def crank_axis(self) -> np.ndarray:
         """Direction of the crank's axis."""
-        return _vector(0.0, 0.0, 1.0)
+        return vector(0.0, 0.0, 1.0)
 
     @cached_property
     def rocker_axis(self) -> np.ndarray:
         """Direction of the rocker's axis."""
-        return _vector(0.0, np.sin(self.axis_angle), np.cos(self.axis_angle))
+        return vector(0.0, np.sin(self.axis_angle), np.cos(self.axis_angle))
 
     def crank_direction(self, angle: Value) -> np.ndarray:
         """Unit vector across the crank's axis at ``angle`` about it."""
-        return _vector(np.cos(angle), np.sin(angle), 0.0)
+        return vector(np.cos(angle), np.sin(angle), 0.0)
 
     def rocker_direction(self, angle: Value) -> np.ndarray:
         """Unit vector across the rocker's axis at ``angle`` about it."""
         sin, L = np.sin(angle), self.axis_angle
-        return _vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
+        return vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
 
     def analyse(
         self, crank_angle: Value = 361, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False

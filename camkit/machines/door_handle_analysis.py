@@ -15,7 +15,7 @@ from ..cam import bodies, groove
 from ..cam.analysis import OFFERS, CamAnalysis
 from ..cam.oscillating_roller import OscillatingRollerAnalysis
 from ..cam.undercut import undercut_in_words
-from ..geometry import Body, end_to_end, rotated
+from ..geometry import Body, end_to_end, rotated, vector
 from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class DoorHandleAnalysis:
     @property
     def cranks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Both cranks by name: pivot ``(2,)`` and roller centre ``(2, n)`` in the machine's frame, m."""
-        pivot = self.from_relief(np.stack([self.cam.relief_centre_distance, 0.0]))
+        pivot = self.from_relief(vector(self.cam.relief_centre_distance, 0.0))
         lift = self.lift.cranks["arm"]
         return {"lift": lift, "relief": (pivot, self.from_relief(self.relief.roller_centre))}
 
