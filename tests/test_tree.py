@@ -293,7 +293,7 @@ def test_a_population_over_any_paths_equals_its_members_one_by_one():
 
 
 def test_a_front_of_a_cam_that_no_module_names():
-    torque, force = (m for m in FLAT_CURVE if m.name in ("peak cam torque", "minimum contact force"))
+    torque, force = (m for m in FLAT_CURVE if m.name in ("peak cam torque without friction", "minimum contact force"))
     free = {path: bounds for path, bounds in FREE.items() if path != "motion.rise.angle"}
     found = quick_front(Study(own_cam(), free, (torque, -force), angles=121), size=30)
     assert len(found) == 30

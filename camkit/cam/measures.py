@@ -98,7 +98,7 @@ groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groov
 it is an estimate from above, and where nothing but neighbours along the curve is near it tells of them, up to 1.14
 radii."""
 peak_force = Measure("peak contact force", "N", peak(lambda a: abs(a.contact_force)))
-peak_torque = Measure("peak cam torque", "N mm", peak(lambda a: abs(a.cam_torque)))
+peak_torque = Measure("peak cam torque without friction", "N mm", peak(lambda a: abs(a.cam_torque)))
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "efficiency"))
 published_mean_efficiency = Measure(
     "mean efficiency, published formula", "%", lambda a: mean_over(a, "published_efficiency")
