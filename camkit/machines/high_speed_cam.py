@@ -24,8 +24,7 @@ from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
 from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
-from ..quantities import Design, choice, counted, quantities_of, quantity, unless
-from ..quantities.design import refuse_population
+from ..quantities import Design, choice, counted, quantity, unless
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
@@ -58,13 +57,6 @@ class FreeLawCam(Design):
     return_law: Any = choice("a'", ShapedLaw(), LAW_MENU, "law by which the arm swings back", c="d")
     contact: ContactPair = field(default_factory=lambda: ContactPair(width=20 * mm))
     """The materials of cam and roller and the length of the line on which they touch."""
-
-    def ready_for(self, paths: Iterable[str]) -> Self:
-        """The same cam; a law without a coefficient that is free becomes one that coefficients shape, all of them 0."""
-        refuse_population(self, "the design")
-        lacking = {path.partition(".")[0] for path in {*paths} - quantities_of(self).keys()}
-        laws = {name: ShapedLaw(getattr(self, name)) for name in ("rise_law", "return_law") if name in lacking}
-        return self.replace(**laws)
 
 
 @dataclass(frozen=True)
@@ -149,7 +141,7 @@ class HighSpeedCam(FreeLawCam):
         self._keep(reaches & starts & clear)
 
     def ready_for(self, paths: Iterable[str]) -> Self:
-        """The same cam, its laws shaped where they are free; a spring that is free has a rate, the weakest that holds.
+        """The same cam (see `Design.ready_for`); a spring that is free has a rate, the weakest that holds.
 
         Where none holds, because the arm passes its start, it is the strongest that a slider offers.
         """

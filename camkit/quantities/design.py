@@ -12,7 +12,7 @@ from .declaration import Choice, Declared, Quantity, declarations
 from .kinds import columns, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, letters, table, words
 from .measure import Measure
-from .tree import a_design, choices_of, declared_in, label, value_of
+from .tree import a_design, choices_of, declared_in, label, value_of, with_quantities
 
 
 @runtime_checkable
@@ -58,11 +58,22 @@ class Design(Declared):
         refuse_lengths(self)
 
     def ready_for(self, paths: Iterable[str]) -> Self:
-        """The same design, made so that the quantities at ``paths`` can vary from where they stand: as it is.
+        """The same design, made so that the quantities at ``paths`` can vary from where they stand.
 
-        One that lacks some of them, or has a number that stands for "whatever is needed", says here what it becomes.
+        Where it lacks one because of what is chosen, it gets the option that has it and can be made ``around`` the
+        chosen one: in place of a plain motion law that law as coefficients shape it, all of them 0.  A design with a
+        number that stands for "whatever is needed" says here what it becomes.
         """
-        return self
+        refuse_population(self, "the design")
+        lacking = {*paths} - declared_in(self).keys()
+        made = {}
+        for path, choice in choices_of(self).items() if lacking else ():
+            names = {lacked.removeprefix(f"{path}.") for lacked in lacking if lacked.startswith(f"{path}.")}
+            chosen = value_of(self, path)
+            for option in choice.options if names and isinstance(chosen, Declared) else ():
+                if hasattr(option, "around") and names <= declared_in(option).keys():
+                    made[path] = option.around(chosen)
+        return with_quantities(self, made) if made else self
 
     def _repr_mimebundle_(self, **wanted: object) -> dict[str, str]:
         """In a notebook: declared numbers in their units, six digits, as a table and as plain text."""

@@ -10,12 +10,14 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import camkit
 from camkit import Friction, Measure, Study, TranslatingRollerCam, minimise
+from camkit.cam.measures import worst
 from camkit.linkage import DoubleUniversalJoint
 from camkit.linkage.load import RockerLoad
 from camkit.linkage.measures import swing
 from camkit.linkage.rssr import RSSR
 from camkit.linkage.universal_joint import fluctuation
-from camkit.quantities import Design, Quantity, declarations, quantity
+from camkit.motion import LAWS, Cycloidal, ShapedLaw
+from camkit.quantities import Design, Quantity, declarations, quantity, value_of, with_quantities
 from camkit.study import weighted
 from camkit.study.study import WeightedSum
 from camkit.units import mm
@@ -253,6 +255,34 @@ def test_a_measure_gives_real_numbers(value):
     for study in (a_study(minimise=(odd,)), a_study(at_most={odd: 1.0})):
         with pytest.raises(ValueError, match=r"^the odd gives .*; a measure gives real numbers, one or an array$"):
             study.evaluate([[0.03]])
+
+
+@pytest.mark.parametrize(
+    ("cam", "path", "stress"),
+    [
+        (TranslatingRollerCam(), "motion.rise.law", camkit.cam.peak_torque),
+        (camkit.OscillatingFlatCam(), "motion.return.law", camkit.cam.peak_torque),
+        (camkit.DoorHandleCam(), "motion_law", worst(camkit.cam.peak_torque, ("lift", "relief"))),
+    ],
+)
+def test_a_law_that_lacks_what_is_free_is_shaped(cam, path, stress):
+    """Whatever law a menu chooses: it stays what it is, and coefficients can move it from there."""
+    study = Study(with_quantities(cam, {path: "shaped"}), [f"{path}.c0"], [stress])
+    for law in LAWS[2:]:
+        chosen = with_quantities(cam, {path: law})
+        ready = study.around(chosen)
+        assert value_of(ready.start, path) == ShapedLaw(law)
+        assert ready.x0 == [0.0]
+        assert stress(ready.start.analyse(31)) == stress(chosen.analyse(31))
+    assert study.around(study.start) == study
+    assert study.around(cam).freeing({f"{path}.c1": (-0.1, 0.1)}).x0 == [0.0]
+
+
+def test_a_law_that_is_a_function_cannot_be_shaped():
+    cam = with_quantities(TranslatingRollerCam(), {"motion.rise.law": "shaped"})
+    study = Study(cam, ["motion.rise.law.c0"], [camkit.cam.max_pressure_angle])
+    with pytest.raises(ValueError, match=r"^'motion\.rise\.law\.c0' is no quantity of TranslatingRollerCam"):
+        study.around(with_quantities(cam, {"motion.rise.law": Cycloidal().at}))
 
 
 def test_a_study_goes_around_another_design():

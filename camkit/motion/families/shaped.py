@@ -76,6 +76,10 @@ class ShapedLaw(Law):
         wide = self.family.wide
         return {"c": numbered("c", replace(COEFFICIENT, low=-wide, high=wide))}
 
+    def around(self, law: Law) -> ShapedLaw:
+        """``law`` as coefficients can shape it, all of them 0."""
+        return replace(self, base=law, c=(0.0,) * len(self.c))
+
     @property
     def _plain(self) -> bool:
         """Whether no coefficient adds anything to the law."""
