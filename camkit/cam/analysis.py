@@ -17,11 +17,12 @@ import numpy as np
 from .. import extrema
 from ..extrema import Extreme
 from ..geometry import Body, rotated
-from ..motion import Kinematics, MotionProgram
+from ..motion import Kinematics, Law, MotionProgram
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
-from ..quantities import counted, unless
+from ..quantities import counted, quantities_of, unless
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
+from ..study import AnalysisCurve
 from . import bodies, statics
 from .force_closure import ContactPair, contact_along
 from .undercut import undercut_in_words
@@ -47,11 +48,20 @@ class CamAnalysis(ABC):
     cam_angle: np.ndarray
     rough: bool = field(default=False, kw_only=True)
     """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
+    acceleration_unit: ClassVar[str] = "mm/rad^2"
+    """In which the follower's acceleration by the cam angle is shown."""
 
     @property
-    def offers(self) -> tuple[str, ...]:
+    def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
-        return (*OFFERS, *self.cam.contact.offers)
+        return (*OFFERS, *self.shaped, *self.cam.contact.offers)
+
+    @property
+    def shaped(self) -> tuple[AnalysisCurve, ...]:
+        """The curve of its acceleration, where a motion law has coefficients: they shape it."""
+        laws = (getattr(segment, "law", None) for segment in self.cam.motion.segments)
+        coefficients = any(isinstance(law, Law) and quantities_of(law) for law in laws)
+        return (AnalysisCurve("acceleration", self.acceleration_unit, "acceleration"),) if coefficients else ()
 
     @property
     def trouble(self) -> str:

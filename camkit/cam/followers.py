@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from functools import cached_property, reduce
+from typing import ClassVar
 
 import numpy as np
 
@@ -80,6 +81,8 @@ class SlidingAnalysis(CamAnalysis):
 
 class RockingAnalysis(CamAnalysis):
     """A cam under a follower on an arm of the ``arm_length`` about a pivot on the x axis at the ``centre_distance``."""
+
+    acceleration_unit: ClassVar[str] = "1/rad"
 
     @property
     @abstractmethod

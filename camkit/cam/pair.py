@@ -18,6 +18,7 @@ from ..geometry import Body, Outline
 from ..motion.resolution import Resolution
 from ..quantities import Design, choice, counted, declarations, quantity, words
 from ..quantities.types import Array, Value
+from ..study import AnalysisCurve
 from ..units import rpm
 from .analysis import CamAnalysis
 from .follower_measures import min_profile_radius
@@ -124,14 +125,19 @@ class ConjugatePairAnalysis:
     """Whether peaks may be a few tenths of a per cent off, as in the first rounds of a search."""
 
     @property
-    def offers(self) -> tuple[str, ...]:
+    def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses; a force below 0 is that of the other cam."""
-        return (*OFFERS, *self.cam.first.contact.offers)
+        return (*OFFERS, *self.shaped, *self.cam.first.contact.offers)
 
     @property
     def trouble(self) -> str:
         """What is lost of either profile, in a sentence; empty if nothing is."""
         return undercut_in_words(self)
+
+    @property
+    def shaped(self) -> tuple[AnalysisCurve, ...]:
+        """The curve of the follower's acceleration, where a motion law has coefficients: they shape it."""
+        return tuple(replace(curve, name=f"first.{curve.name}") for curve in self.first.shaped)
 
     @cached_property
     def first(self) -> CamAnalysis:

@@ -23,10 +23,10 @@ from ..geometry import Body, Outline, rotated
 from ..quantities import Measure, known, quantity, unless, unremarked
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
-from ..study.study import Study
+from ..study import AnalysisCurve, Study
 from ..units import mm
 from .high_speed_analysis import HighSpeedAnalysis
-from .high_speed_cam import FreeLawCam, HighSpeedCam
+from .high_speed_cam import ACCELERATION, FreeLawCam, HighSpeedCam
 from .high_speed_load import SliderLoad
 from .high_speed_measures import (
     CLEAR,
@@ -73,7 +73,16 @@ class CamLever(FreeLawCam):
     pivot_height: float = quantity("B", 180, 50, 300, "mm", "cam axis to lever pivot, upright")
     force_curve: Table | Callable[[Value], Value] = ()
 
-    offers: ClassVar[tuple[str, ...]] = ("bodies", "motion", "pressure_angle", "stress", "wear", "pressure", "way")
+    offers: ClassVar[tuple[str | AnalysisCurve, ...]] = (
+        "bodies",
+        "motion",
+        ACCELERATION,
+        "pressure_angle",
+        "stress",
+        "wear",
+        "pressure",
+        "way",
+    )
     """The shapes and curves that are shown of its analysis where nobody chooses, in this order."""
 
     def __post_init__(self) -> None:

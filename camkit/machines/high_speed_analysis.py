@@ -22,6 +22,7 @@ from ..motion.resolution import STEPS, along, between
 from ..quantities import members
 from ..quantities.known import certain
 from ..quantities.types import Array, Value
+from ..study import AnalysisCurve
 from ..units import mm
 from . import high_speed_curves as curves
 
@@ -49,9 +50,9 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     """The design that was analysed: the cam, or what it drives; it says what is shown and drawn of it."""
 
     @property
-    def offers(self) -> tuple[str, ...]:
+    def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
-        offers: tuple[str, ...] = self.machine.offers
+        offers: tuple[str | AnalysisCurve, ...] = self.machine.offers
         return offers
 
     @property

@@ -26,6 +26,7 @@ from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, quantity, unless
 from ..quantities.types import Array, Value
+from ..study import AnalysisCurve
 from ..units import deg, mm
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_load import ConstantTorque, InertialSpringLoad, SliderLoad
@@ -34,6 +35,8 @@ HAIR = 1e-9
 """Share of an interval by which its last angle lies before the dwell, so that the law still speaks there."""
 
 
+ACCELERATION = AnalysisCurve("acceleration", "1/rad", "acceleration")
+"""Of the arm by the cam angle; the coefficients of the laws shape it."""
 STRONG = 12.0
 """The strongest closing spring ``K`` that a slider or a study offers."""
 LOADS = InertialSpringLoad(), ConstantTorque(), SliderLoad()
@@ -89,9 +92,10 @@ class HighSpeedCam(FreeLawCam):
     )
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
 
-    offers: ClassVar[tuple[str, ...]] = (
+    offers: ClassVar[tuple[str | AnalysisCurve, ...]] = (
         "bodies",
         "motion",
+        ACCELERATION,
         "pressure_angle",
         "stress_coefficient",
         "wear_coefficient",

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from ..motion import Law
 from ..program import CannotRecord, Program, record, unrecorded
 from ..program.page import numbers
 from ..program.texts import Template
@@ -334,10 +335,12 @@ def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, o
 def _structure(design: Analysable, free: Sequence[str] | None) -> dict[str, Json]:
     """What the page says of the design: its quantities, in the order of the program's inputs, and what is chosen."""
     shown = None if free is None else set(Paths(design, free).declared)
+    laws = {path for path in choices_of(design) if isinstance(value_of(design, path), Law)}
     return {
         "name": re.sub(r"(?<=[a-z])(?=[A-Z][a-z])", " ", type(design).__name__).capitalize(),
         "quantities": [
-            _quantity(path, d, value_of(design, path)) | {"free": shown is None or path in shown}
+            _quantity(path, d, value_of(design, path))
+            | {"free": shown is None or path in shown, "shapes": path.rpartition(".")[0] in laws}
             for path, d in quantities_of(design).items()
         ],
         "choices": [

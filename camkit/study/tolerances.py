@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure, Paths, Quantity, counted, value_of, words
+from ..quantities import Measure, Paths, Quantity, counted, floats, value_of, words
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor, mm
 from .study import Evaluation, Study
@@ -71,7 +71,7 @@ class AnalysisCurve:
     def values(self, analysis: object) -> np.ndarray:
         """The curve, ``(m,)`` or for a population ``(p, m)``, SI."""
         try:
-            return np.asarray(attrgetter(self.name)(analysis), dtype=float)
+            return floats(attrgetter(self.name)(analysis))
         except AttributeError:
             raise ValueError(f"the analysis has no curve {self.name!r}") from None
 
@@ -81,7 +81,7 @@ class AnalysisCurve:
         owner = attrgetter(head)(analysis) if head else analysis
         for name in ANGLES:
             if hasattr(owner, name):
-                return words(name), np.asarray(getattr(owner, name))
+                return words(name), floats(getattr(owner, name))
         raise ValueError(f"the curve {self.name!r} has no {' or '.join(map(words, ANGLES))} over which it can be drawn")
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
 from . import cam, event, intervals, shafts, sizes, space
@@ -66,18 +64,23 @@ def default_views(analysis: object) -> tuple[View, ...]:
 
 
 def curve_view(curve: AnalysisCurve) -> View:
-    """A view of one curve of an analysis over its angle, with its limits."""
+    """A view of one curve of an analysis over its angle, with its limits.
+
+    A velocity, an acceleration or a jerk, by the name of the attribute, has the role of one.
+    """
+    attribute = curve.name.rpartition(".")[2]
+    role = attribute if attribute in cam.MOTION else "position"
 
     def view(analysis: object) -> Picture:
         name, angle = curve.angle(analysis)
         x, unit = angle / deg, factor(curve.unit)
         limits = [
-            Line(f"limit {i}", np.asarray(x)[[0, -1]], [limit / unit] * 2, role="limit")
-            for i, limit in enumerate(curve.limits)
+            Line(f"limit {i}", x[[0, -1]], [limit / unit] * 2, role="limit") for i, limit in enumerate(curve.limits)
         ]
         title = curve.label[:1].upper() + curve.label[1:]
         axes = Axes(title=title, xlabel=f"{name}  [deg]", ylabel=f"[{curve.unit}]")
-        return Picture.of(axes, limits, Line("curve", x, curve.values(analysis) / unit, role="position"))
+        shaped = role == "acceleration"
+        return Picture.of(axes, limits, Line("curve", x, curve.values(analysis) / unit, role=role, shaped=shaped))
 
     view.__name__ = curve.label.replace(" ", "_")
     return view

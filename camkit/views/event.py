@@ -78,7 +78,7 @@ def velocity(analysis: Any) -> Picture:
 def acceleration(analysis: Any) -> Picture:
     """Acceleration of the follower at the camshaft's speed."""
     event = analysis.event
-    curve = Line("acceleration", event.cam_angle / deg, event.in_time.a, role="acceleration")
+    curve = Line("acceleration", event.cam_angle / deg, event.in_time.a, role="acceleration", shaped=True)
     return _over_event(analysis.cam.half_angle, "Acceleration", "a  [m/s^2]", curve)
 
 

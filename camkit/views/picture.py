@@ -119,6 +119,8 @@ class Line(Mark):
     """How it is drawn, if not as its role: "thin", "dashed", "dotted", "bold", "arm", "bar", or two of them."""
     steps: bool = field(kw_only=True, default=False)
     """Whether each value holds up to the next place."""
+    shaped: bool = field(kw_only=True, default=False)
+    """Whether it is the acceleration of a follower, on which a page has a handle for each coefficient of a law."""
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,12 @@
-"""What cannot become a page is refused in one sentence that says why."""
+"""What a page is told of a design; what cannot become one is refused in one sentence that says why."""
 
 import pytest
 
-from camkit import TranslatingRollerCam, explore, picture
+from camkit import TranslatingRollerCam, ValveCam, explore, picture
+from camkit.machines import CamLever
+from camkit.quantities import with_quantities
 from camkit.render import to_html
+from camkit.render.living import living
 
 
 def nothing_seen(analysis):
@@ -22,3 +25,24 @@ def test_a_folder_that_is_not_there_is_named(tmp_path):
     for write in (app.to_html, lambda path: to_html(TranslatingRollerCam(), path=path)):
         with pytest.raises(ValueError, match=r"^there is no folder '.*absent' to write 'cam.html' into$"):
             write(path)
+
+
+@pytest.mark.parametrize(
+    ("design", "path", "coefficients"),
+    [
+        (CamLever(), "return_law.", 4),
+        (with_quantities(TranslatingRollerCam(), {"motion.rise.law": "skewed"}), "motion.rise.law.", 1),
+        (TranslatingRollerCam(), "motion.rise.law.", 0),
+    ],
+)
+def test_a_page_knows_coefficients_of_laws_and_the_curve_that_they_shape(design, path, coefficients):
+    structure = living(design).structure
+    names = [q["symbol"] for q in structure["quantities"] if q["shapes"]]
+    assert len(names) == coefficients * (2 if path == "return_law." else 1)
+    curves = [(p["name"], p["still"]) for p in structure["pictures"] if any(m.get("shaped") for m in p["marks"])]
+    assert curves == ([("acceleration", "")] if coefficients else [])
+
+
+def test_the_acceleration_of_a_valve_is_a_curve_that_laws_would_shape():
+    marks = [m for p in living(ValveCam()).structure["pictures"] for m in p["marks"] if m.get("shaped")]
+    assert [mark["key"] for mark in marks] == ["acceleration"]

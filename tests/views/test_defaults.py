@@ -18,8 +18,10 @@ from camkit import (
     mm,
     picture,
 )
+from camkit.cam.pair import ConjugatePair
 from camkit.linkage import DoubleUniversalJoint
 from camkit.machines import CabinDoorLinkage, CamLever
+from camkit.quantities import with_quantities
 from camkit.study import AnalysisCurve
 from camkit.views.defaults import VIEW_OF, default_views
 
@@ -41,11 +43,12 @@ every_design = pytest.mark.parametrize("design", DESIGNS, ids=lambda design: typ
 @every_design
 def test_every_analysis_has_what_it_offers_and_a_view_of_it(design):
     analysis = design.analyse()
-    for name in analysis.offers:
+    names = [offered.name if isinstance(offered, AnalysisCurve) else offered for offered in analysis.offers]
+    for name in names:
         assert all(hasattr(part, name) for part in (analysis, *getattr(analysis, "curves", {}).values())[-1:]), name
     views = default_views(analysis)
-    assert views == tuple(VIEW_OF[name] for name in analysis.offers)
-    for view in views:
+    for view, offered in zip(views, analysis.offers, strict=True):
+        assert view is VIEW_OF[offered] if isinstance(offered, str) else view.__name__ == offered.label
         assert view(analysis).marks, view.__name__
 
 
@@ -62,6 +65,20 @@ def test_a_mechanism_of_ones_own_offers_curves():
     assert shown.axes.title == "Travel"
     (ax,) = picture(own).axes
     assert ax.get_title(loc="left") == "Travel"
+
+
+def test_coefficients_shape_the_acceleration_that_a_cam_then_offers():
+    plain = OscillatingRollerCam()
+    shaped = with_quantities(plain, {"motion.rise.law": "shaped"})
+    assert "acceleration" not in [view.__name__ for view in default_views(plain.analyse(91))]
+    (view,) = [view for view in default_views(shaped.analyse(91)) if view.__name__ == "acceleration"]
+    curve = view(shaped.analyse(91))["curve"]
+    assert (curve.role, curve.shaped) == ("acceleration", True)
+    assert_allclose(curve.y, shaped.analyse(91).acceleration)
+    sliding = with_quantities(TranslatingRollerCam(), {"motion.return.law": "shaped"})
+    (pair,) = ConjugatePair(sliding).analyse(91).shaped
+    assert (pair.name, pair.unit) == ("first.acceleration", "mm/rad^2")
+    assert_allclose(pair.values(ConjugatePair(sliding).analyse(91)), sliding.analyse(91).acceleration)
 
 
 def test_what_offers_nothing_needs_views():

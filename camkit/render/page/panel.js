@@ -3,6 +3,7 @@ import { Chart } from "./picture.js";
 import { make } from "./controls.js";
 import { fill, format } from "./numbers.js";
 import { button, filesOf, screenOf } from "./bar.js";
+import { Handles } from "./handles.js";
 import { History } from "./history.js";
 import { Around } from "./around.js";
 import { Idle } from "./idle.js";
@@ -54,7 +55,7 @@ export class Panel {
 
   /** Leave the page. */
   end() {
-    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop();
+    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop(); this.handles.end();
     this.positions.playing = false; this.ended = true;
     this.root.replaceChildren();
   }
@@ -154,6 +155,7 @@ export class Panel {
     root.replaceChildren(this._bar(), this.note, ...this.verdict.elements, this.quantities.element, this.middle,
       this.tabs.element, this.positions.element, this.tabs.row, this.tip, this.why.element);
     for (const chart of this.charts) listen(this, chart);
+    this.handles = new Handles(this, moved);
     this.quantities.element.addEventListener("toggle", () => this._paint(), { capture: true }); // a group was opened
     root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._key(event), { signal: this.leaving.signal });
   }
