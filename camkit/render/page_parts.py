@@ -14,7 +14,7 @@ PAGE = Path(__file__).with_name("page")
 MODULES = (
     *("numbers", "units", "marks", "scales", "picture", "spans", "controls", "files", "parts", "sheet", "docks"),
     *("engine", "idle", "bar", "history", "measures", "around", "verdict", "quantities", "positions", "pointer"),
-    *("tabs", "why", "handles", "names", "panel", "session"),
+    *("tabs", "why", "handles", "places", "names", "panel", "session"),
 )
 """What every page is made of, each on those before it."""
 STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))

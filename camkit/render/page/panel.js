@@ -9,6 +9,7 @@ import { Around } from "./around.js";
 import { Idle } from "./idle.js";
 import { Table, judged, told } from "./measures.js";
 import { Names } from "./names.js";
+import { Places } from "./places.js";
 import { listen } from "./pointer.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
@@ -138,7 +139,10 @@ export class Panel {
     this.rows = [...this.quantities.rows, ...this.positions.rows];
     const explain = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => this.why.explain(element, measure);
     this.why = new Why(this);
-    this.verdict = new Verdict(explain);
+    this.places = new Places(this);
+    this.verdict = new Verdict(explain, (element, measure) => { // a click goes there, or says why
+      if (this.places.go(measure)) this.why.hide(); else this.why.show(element, measure);
+    }, (sentence) => this.places.goTo(sentence));
     this.table = new Table(explain);
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
     this.over = make("div", { class: "camkit-over", role: "alert", hidden: true });

@@ -6,10 +6,13 @@ import { told } from "./measures.js";
 const MOST = 5; // chips, if few have a limit
 
 export class Verdict {
-  /** @param {(element: HTMLElement, measure: () => any) => void} explain what shows why a measure is what it is */
-  constructor(explain) {
-    this.explain = explain;
-    this.trouble = make("div", { class: "camkit-trouble camkit-chip camkit-bad", hidden: true });
+  /** @param {(element: HTMLElement, measure: () => any) => void} explain what shows why a measure is what it is
+   * @param {(element: HTMLElement, measure: any) => void} go what a click on a measure does
+   * @param {(sentence: string) => void} goTo what a click on a sentence does */
+  constructor(explain, go, goTo) {
+    Object.assign(this, { explain, go });
+    this.trouble = pressed(make("div", { class: "camkit-trouble camkit-chip camkit-bad", role: "button", "data-lm-suppress-shortcuts": true, hidden: true }),
+      () => goTo(this.told));
     this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures" });
     this.said = make("div", { class: "camkit-said", role: "status" });
     this.elements = [this.trouble, this.chips, this.said];
@@ -19,6 +22,7 @@ export class Verdict {
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled
    * @param {import("./units.js").Units} units */
   tell(rows, trouble, settled, units) {
+    this.told = trouble;
     const limited = rows.filter(({ m }) => m.limit !== undefined).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
@@ -27,6 +31,7 @@ export class Verdict {
     if (this.written === written) return; // else the page would be laid out anew in every frame
     this.written = written;
     this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
+    if (trouble) this.trouble.tabIndex = 0; else this.trouble.removeAttribute("tabindex");
     this._fill(told.map(({ m }) => m), chips);
   }
 
@@ -48,6 +53,7 @@ export class Verdict {
     const words = new Text(""), more = make("small"), element = make("span", { role: "button" }, words, more);
     const made = { element, words, more, m: null };
     this.explain(element, () => made.m);
+    pressed(element, () => this.go(element, made.m));
     return made;
   }
 
@@ -58,6 +64,17 @@ export class Verdict {
     const verdict = [trouble, limits].filter(Boolean).join("; ");
     if (this.said.textContent !== verdict) this.said.textContent = verdict;
   }
+}
+
+/** A button that is no native one, as its words may stand in lines. @param {HTMLElement} element @param {() => void} act */
+function pressed(element, act) {
+  element.addEventListener("click", act);
+  element.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault(); event.stopPropagation();
+    act();
+  });
+  return element;
 }
 
 /** Kind, words and limit, or the number of what has none. @param {import("./measures.js").Judged} row
