@@ -35,7 +35,7 @@ from .kit.quiet import Quiet
 from .kit.sheet import Panel
 
 NO_FRONT = "There is no front to choose from yet: run a search."
-HINT = "Drag along an axis to keep a band of it; click into the band to drop it; click a line to load its design."
+HINT = "Drag along an axis to keep a band, click it to drop it; click a line to load it."
 
 
 @runtime_checkable
@@ -78,9 +78,11 @@ class ChoosePanel(Panel):
         self.picture.on_pointer(self.pointed)
         self.map.on_click(self.map_clicked)
         self.picture.pixels = self.points.pixels = self.map.pixels = 240
-        loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS))
+        hint = Words(value=[HINT], look="hint")
+        loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS), hint)
         designs = Group(self.points, self.picture, look="beside")
-        self._decided = Group(self.numbers, loads, designs, self._brush(), self.map, self._verdict)
+        sure = Group(self.map, self._verdict, look="room", description="Who wins at which weights")
+        self._decided = Group(self.numbers, loads, designs, self._brush(), sure)
         super().__init__(self.banner, self._decided)
         self.take_up()
         source.on_front(self.take_up)
@@ -94,7 +96,7 @@ class ChoosePanel(Panel):
         self._quiet.hear(self.axis, lambda _: self._show_band())
         self._quiet.hear(self.band, lambda band: self.keep(self.axis.value, band))
         clear = Button("Keep all", lambda: self._brush_with({}), tooltip="drop every band")
-        return Group(row(self.count, Words(value=[HINT], look="hint")), row(self.axis, self.band, clear))
+        return row(self.count, self.axis, self.band, clear)
 
     def _load_button(self, rule: str) -> Button:
         return Button(rule, lambda: self.source.select(self.shown.winners[rule]) if self.shown else None)

@@ -41,7 +41,7 @@ class Shortlist(Panel):
             measure.one(explorer.analysis)
         self._measures = every[:MOST_MEASURES]
         self.picture = LivePicture(views, "Kept designs", width=12.6, height=4.8)
-        self.picture.pixels = max(240, 60 + 26 * len(self._measures))
+        self.picture.pixels = min(60 + 26 * len(self._measures), 250)
         keep = Button("Keep this design", self.keep, primary=True)
         files = [
             Download("Save as Markdown", "designs.md", "text/markdown", self.markdown),

@@ -9,10 +9,11 @@ import numpy as np
 
 from ..quantities import Quantity, value_of, words
 from ..quantities.kinds import refuse_arguments
+from ..render.picture import picture, small_png
 from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
-from ..views.picture import Picture, View
+from ..views.picture import Picture
 from ..views.tolerances import cloud, deviation, sobol_bars
 from .instrument import Instrument
 from .kit.drawn import LivePicture
@@ -66,9 +67,10 @@ class TolerancePanel(Panel):
         self.spread = Menu(SPREADS, "spread")
         self.spread.observe(lambda _: self._moved(), "value")
         self._later = Debounced(self._make_many, QUIET)
-        views: tuple[View, ...] = (self._cloud, sobol_bars, *map(deviation, curves))
-        self.picture = LivePicture(views, f"Tolerances of the {type(explorer.design).__name__}")
-        self.picture.pixels = 220
+        kind = type(explorer.design).__name__
+        self.picture = LivePicture((self._cloud, sobol_bars), f"Tolerances of the {kind}")
+        self.bands = LivePicture(tuple(map(deviation, curves)), f"Deviations of the {kind}")
+        self.picture.pixels, self.bands.pixels = 225, 155
         super().__init__(*self._body(), heading="Tolerances")
         self._show(self.tolerances)
         explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
@@ -86,7 +88,7 @@ class TolerancePanel(Panel):
         knobs = Group(*self.knobs.values(), look="grid")
         reset = Button("Reset", self.reset, tooltip="back to the first tolerances")
         settings = row(self.spread, reset, Words(value=[HINT], look="hint"))
-        return knobs, settings, self.banner, self.picture, self.numbers
+        return self.banner, Group(Group(knobs, settings), self.picture, look="beside"), self.bands, self.numbers
 
     def _cloud(self, tolerances: Tolerances) -> Picture:
         front = self._front.front if isinstance(self._front, HasFront) else self._front
@@ -134,13 +136,30 @@ class TolerancePanel(Panel):
             return
         with self.held():
             try:
-                self.picture.show(made)
+                for part in self._drawn:
+                    part.show(made)
             except IMPOSSIBLE as refusal:
                 self.refuse_picture(f"This cannot be made: {refusal}.")
                 return
             self.tolerances = made
             self.numbers.put(HEADS, self._rows())
             self.refuse_picture("")
+
+    @property
+    def _drawn(self) -> list[LivePicture]:
+        """What is drawn; without curves there are no bands."""
+        return [self.picture, self.bands] if self.bands.views else [self.picture]
+
+    def refuse_picture(self, sentence: str) -> None:
+        """Show a sentence in place of the pictures and the numbers; an empty one brings them back."""
+        with self.held():
+            super().refuse_picture(sentence)
+            self.bands.visible = not sentence
+
+    def still(self) -> bytes:
+        """All pictures in one."""
+        views = [view for part in self._drawn for view in part.views]
+        return small_png(picture(self.tolerances, *views))
 
     def _rows(self) -> list[tuple[str, str, str, str, str]]:
         """Every measure in words: its name, as drawn, where 2.5 % are below and above, which share misses a limit."""

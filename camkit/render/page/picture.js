@@ -145,7 +145,7 @@ export class Chart {
     this.letters(10.5);
     const names = Object.values(axes.yticks ?? {}).flatMap((words) => this.how.words(words).split("\n"));
     const ticked = Math.max(0, ...names.map((line) => this.pen.measureText(line).width)), below = bare ? 6 : (named ? 34 : 18) * em;
-    const left = bare ? 6 : axes.yticks ? Math.min(10 + ticked, 0.45 * width) : 44 * em;
+    const left = bare ? 6 : axes.yticks ? Math.min(10 + ticked, 0.48 * width) : 44 * em;
     const box = { left, right: width - 8, top: this.heading.rows * 15 * em + 7, bottom: height - below };
     let ends = { x, y };
     if (axes.equal) {
@@ -195,7 +195,7 @@ export class Chart {
       if (axes.grid) stroke(pen, grid, [[box.left, p], [box.right, p]]);
       pen.fillStyle = ink;
       const lines = words.split("\n"), first = p - ((lines.length - 1) / 2) * 12.5 * em;
-      lines.forEach((/** @type {string} */ line, /** @type {number} */ k) => pen.fillText(line, box.left - 5, first + k * 12.5 * em));
+      lines.forEach((/** @type {string} */ line, /** @type {number} */ k) => pen.fillText(line, box.left - 5, first + k * 12.5 * em, box.left - 7));
     }
     if (!this.compact && axes.xlabel && !axes.equal) {
       pen.textAlign = "right"; pen.textBaseline = "bottom";
@@ -236,7 +236,9 @@ export class Chart {
   /** Where title and names stand, in rows as wide as the canvas. @param {number} width */
   _heading(width) {
     const { pen, axes } = this, unit = UNIT.exec(axes.ylabel);
-    const title = axes.equal || axes.bare || !unit ? axes.title : `${axes.title}  [${unit[1]}]`;
+    const up = axes.equal || axes.bare || axes.yticks ? "" : axes.ylabel.replace(/\s*\[.*?\]/, "").toLowerCase();
+    const upward = this.compact || axes.title.toLowerCase().includes(up) ? "" : axisName(axes.ylabel);
+    const title = axes.equal || axes.bare || !unit || upward ? axes.title : `${axes.title}  [${unit[1]}]`; // said once
     this.letters(12, 600);
     let at = pen.measureText(title).width + 16, row = 0;
     this.letters(11);
@@ -248,8 +250,6 @@ export class Chart {
       at += wide;
     }
     const rows = Math.min(row + 1, this.compact ? 2 : 6);
-    const up = axes.equal || axes.bare || axes.yticks ? "" : axes.ylabel.replace(/\s*\[.*?\]/, "").toLowerCase();
-    const upward = this.compact || title.toLowerCase().includes(up) ? "" : axisName(axes.ylabel);
     return { title, names: names.filter((name) => name.row < rows), upward, rows: rows + (upward ? 1 : 0) };
   }
 

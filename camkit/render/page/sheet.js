@@ -15,6 +15,8 @@ const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b
 /** How long a question waits for its answer before another one is asked, ms. */
 const PATIENCE = 10_000;
 
+const ROOM = 850; // pixels of a window that has room for what else stands folded
+
 const GONE = "The kernel has ended: run the cell again to go on.";
 
 export class Sheet {
@@ -101,7 +103,7 @@ export class Sheet {
     const text = JSON.stringify(own), done = known.sent >= 0 && known.sent <= this.answered;
     if (known.sent < 0 || state.kind === "picture" ? text !== known.text : done) { known.text = text; known.sent = -1; this._show(known.part, own); }
     known.part.element.hidden = !state.visible || (state.kind === "table" && !state.head.length);
-    if (children) hold(known.part.element, children.map((/** @type {any} */ child) => this._part(child).element));
+    if (children) hold(known.part.inside, children.map((/** @type {any} */ child) => this._part(child).element));
     return known.part;
   }
 
@@ -156,11 +158,13 @@ function hold(parent, children) {
 
 /** Parts that only a sheet has. @type {Record<string, (state: any, sheet: any) => any>} */
 const KINDS = {
-  group() {
-    const element = make("div", {});
-    return { element, show(/** @type {any} */ { row, look, description }) {
-      element.className = `camkit-group ${row ? "camkit-line" : ""} ${look && `camkit-${look}`}`;
-      if (description) { element.setAttribute("role", "group"); element.setAttribute("aria-label", description); }
+  group({ look: kind }, { sheet }) {
+    const inside = make("div", {}), folds = ["fold", "room"].includes(kind), name = make("summary", { tabindex: "0" });
+    const element = folds ? make("details", { class: "camkit-fold", open: kind === "room" && innerHeight >= ROOM, ontoggle: () => sheet.draw() }, name, inside) : inside;
+    return { element, inside, show(/** @type {any} */ { row, look, description }) {
+      inside.className = `camkit-group ${row ? "camkit-line" : ""} ${look && !folds ? `camkit-${look}` : ""}`;
+      if (folds) name.textContent = description;
+      else if (description) { element.setAttribute("role", "group"); element.setAttribute("aria-label", description); }
     } };
   },
 
@@ -171,6 +175,7 @@ const KINDS = {
       for (const chart of part.charts) {
         if (!chart.canvas.clientWidth) continue;
         chart.em = parseFloat(getComputedStyle(element).fontSize) / 13;
+        chart.compact = chart.canvas.clientHeight < 165 * chart.em;
         chart.draw(chart.own, { dark: dark(), settled: true, words: (/** @type {any} */ text) => (typeof text === "string" ? text : fill(text, chart.own)) });
         chart.canvas.setAttribute("aria-label", chart.describe());
       }
@@ -182,7 +187,7 @@ const KINDS = {
         element.replaceChildren(...part.charts.map((/** @type {Chart} */ chart) => chart.canvas), tip);
       }
       part.pointing = pointing;
-      element.style.setProperty("--tall", `${pixels}px`);
+      element.style.setProperty("--tall", String(pixels));
       element.setAttribute("role", "group"); element.setAttribute("aria-label", description);
       part.charts.forEach((/** @type {Chart} */ chart, /** @type {number} */ k) => {
         const { axes } = made[k].picture, named = (/** @type {any} */ of) => JSON.stringify([of.xlabel, of.ylabel]);

@@ -1,0 +1,131 @@
+"""Sheets by themselves, as a laptop's notebook shows them: each fits into its window, and nothing is cut off."""
+
+import json
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+from camkit import (
+    ArmLoad,
+    Cycloidal,
+    DoorHandleCam,
+    Dwell,
+    Judgements,
+    MotionProgram,
+    Return,
+    Rise,
+    Session,
+    ahp_panel,
+    choose_panel,
+    deg,
+    door_handle_study,
+    edit_program,
+    explore,
+    mm,
+    pareto_panel,
+    shortlist,
+    tolerance_panel,
+)
+from camkit.search import front_of
+from camkit.study import AnalysisCurve
+
+PAGE = """<!doctype html><meta charset=utf-8><style>{style} body {{ margin: 0; }}</style><div id=sheet></div>
+<script type=module>
+const packed = (v) => Array.isArray(v) ? v.map(packed) : v === null || typeof v !== "object" ? v
+  : "base64" in v ? new DataView(Uint8Array.from(atob(v.base64), (c) => c.charCodeAt(0)).buffer)
+  : Object.fromEntries(Object.entries(v).map(([name, part]) => [name, packed(part)]));
+const state = packed({state}), el = document.getElementById("sheet"), sent = [];
+const model = {{ get: (name) => state[name], on() {{}}, off() {{}}, send: (message) => sent.push(message) }};
+const widget = await import(URL.createObjectURL(new Blob([{script}], {{ type: "text/javascript" }})));
+widget.default.render({{ model, el }});
+Object.assign(globalThis, {{ sheet: el.camkit, sent }});
+</script>"""
+STUDY = door_handle_study(
+    DoorHandleCam(lift_arm=45 * mm, lift_start_angle=27 * deg, relief_cam_angle=45 * deg, lift_load=ArmLoad(torque=10))
+)
+CUT = """() => [...document.querySelectorAll(".camkit-sheet :is(button, label > span, summary, th, td)")]
+    .filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== "inline")
+    .map((e) => e.textContent)"""
+
+
+def instrument():
+    return explore(STUDY.start, at_most=STUDY.at_most, at_least=STUDY.at_least)
+
+
+def decision():
+    """A choice among three wishes of a front."""
+    study = STUDY.replace(minimise=(*STUDY.minimise, *STUDY.at_most))
+    lows, highs = np.array(study.bounds)
+    x = lows + (highs - lows) * np.random.default_rng(1).random((300, len(lows)))
+    judged = ahp_panel(Judgements([m.name for m in study.minimise], [2, 1, None]))
+    finder = pareto_panel(instrument(), {"three wishes": study}, importance=judged)
+    finder.load(Session(study, study.start, front=front_of(study.evaluate(x), study)))
+    return choose_panel(finder)
+
+
+def tray():
+    app = instrument()
+    kept = shortlist(app, study=STUDY)
+    for arm in (45, 50, 52):
+        app.design = app.design.replace(lift_arm=arm * mm)
+        kept.keep()
+    return kept
+
+
+def tolerances():
+    curves = [
+        AnalysisCurve("lift.pressure_angle", "deg", "pressure angle"),
+        AnalysisCurve("lift.contact_force", "N", "contact force"),
+        AnalysisCurve("lift.curvature", "1/mm", "curvature"),
+    ]
+    return tolerance_panel(instrument(), STUDY, curves=curves)
+
+
+def editor():
+    moves = Rise(100 * deg, 20 * mm, Cycloidal()), Dwell(40 * deg), Return(100 * deg, 20 * mm, Cycloidal())
+    return edit_program(MotionProgram((*moves, Dwell(120 * deg))))
+
+
+def opened(browser, sheet, width, height):
+    """A page of a sheet alone, without a kernel."""
+    page = browser.new_page(viewport={"width": width, "height": height})
+    page.heard = []
+    page.on("pageerror", lambda error: page.heard.append(str(error)))
+    state = {**sheet.stored(), "setting": sheet.setting}
+    written = (json.dumps(part).replace("</", "<\\/") for part in (state, str(sheet._esm)))
+    state, script = written
+    page.set_content(PAGE.format(style=sheet._css, state=state, script=script))
+    page.wait_for_function("() => globalThis.sheet && !sheet.frame")
+    return page
+
+
+@pytest.mark.parametrize("make", [decision, tray, tolerances, editor])
+def test_a_sheet_fits_into_a_laptops_notebook(browser, make, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    sheet = make()
+    page = opened(browser, sheet, 934, 600)
+    assert page.locator(".camkit-sheet").bounding_box()["height"] <= 600
+    assert page.evaluate(CUT) == []
+    assert all(box["height"] >= 140 for box in map(lambda c: c.bounding_box(), page.locator("canvas:visible").all()))
+    page.set_viewport_size({"width": 500, "height": 900})
+    page.wait_for_function("() => !sheet.frame && !document.querySelector('.camkit-wide')")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 500
+    assert page.heard == []
+    page.close()
+
+
+def test_a_map_is_folded_where_there_is_no_room(browser, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    sheet = decision()
+    page = opened(browser, sheet, 934, 600)
+    pictures = page.locator("canvas:visible")
+    expect(pictures).to_have_count(2)
+    page.get_by_text("Who wins at which weights", exact=True).first.click()
+    expect(pictures).to_have_count(4)
+    expect(page.get_by_text("stays while one judgement moves alone").first).to_be_visible()
+    page.close()
+    page = opened(browser, sheet, 1920, 1080)
+    expect(page.locator("canvas:visible")).to_have_count(4)
+    assert page.locator(".camkit-sheet").bounding_box()["height"] <= 1080
+    page.close()
