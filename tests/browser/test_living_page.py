@@ -207,6 +207,34 @@ def test_the_scale_only_makes_room_while_it_turns_and_the_pinned_design_turns_to
     assert pinned[-1] == pytest.approx(2.9)
 
 
+TURNED = """async () => {
+    const k = camkit.structure.quantities.length, chart = camkit.charts[2];
+    const move = async (row, value) => {
+        camkit.rows[row]._take(value, false);
+        await new Promise((resolve) => camkit.root.addEventListener("camkit-shown", resolve, { once: true }));
+        return { list: chart.list, words: chart.heading.names.map((name) => name.words) };
+    };
+    await move(k, 0.4);
+    const second = await move(k, 0.5), third = await move(k, 0.6);
+    const copied = chart.canvas.toDataURL();
+    chart.from = null;
+    chart.draw(camkit.outputs, chart.how);
+    const anew = chart.canvas.toDataURL(), other = await move(0, 0.048);
+    return [second.list === third.list, copied === anew, third.list === other.list, third.words];
+}"""
+
+
+def test_curves_are_drawn_once_while_only_the_mechanism_turns(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    once, copied, other, words = page.evaluate(TURNED)
+    assert once  # they are copied from where they were drawn beside the canvas ...
+    assert copied  # ... and look as if they were drawn anew
+    assert not other  # the shape has changed
+    lift, relief = (np.interp(np.rad2deg(0.6), m.x, m.y) for m in pressure_angle(design.analyse()).marks)
+    assert words == [f"lift {lift:.4g}", f"relief {relief:.4g}"]
+
+
 def test_trouble_is_named_where_it_is_and_symbols_have_lowered_indices(opened):
     design = MACHINES["door handle"]
     page = opened(design)

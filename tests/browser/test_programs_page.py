@@ -115,3 +115,17 @@ def test_what_rests_while_steady_inputs_stay_is_not_done_again_and_comes_out_the
     ((*found,),) = page.evaluate(run_in_turn, [[numbers(program, steady=2), given]])
     for one, row in zip(found, inputs, strict=True):
         same(one[0], value(*row))
+
+
+def test_an_output_that_stays_is_the_same_array_and_what_changes_is_another_one(page):
+    inputs, sizes = {"still": 1.0, "turn": 1.0}, np.array([1.0, 2.0])
+    program = recorded(lambda x: {"shape": x["still"] * sizes, "place": x["turn"] * x["still"] * sizes}, inputs)
+    found = page.evaluate(
+        f"""text => {{ const f = ({MACHINE})(...JSON.parse(text));
+        const [first, turned, moved] = [[2, 3], [2, 4], [5, 4]].map(x => f(x));
+        return [first[0] === turned[0], first[1] === turned[1], first[0] === moved[0], [first, turned, moved]
+            .map(outputs => outputs.map(array => [...array]))]; }}""",
+        numbers(program, steady=1),
+    )
+    assert found[:3] == [True, False, False]
+    assert found[3] == [[[2, 4], [6, 12]], [[2, 4], [8, 16]], [[5, 10], [20, 40]]]

@@ -18,6 +18,30 @@ export const one = (value, outputs) => { const v = found(value, outputs); return
 export const many = (value, outputs) => { const v = found(value, outputs); return typeof v === "number" ? [v] : v; };
 export const real = Number.isFinite;
 
+/** The numbers of the outputs that anything in a picture is made of. @param {any} thing @returns {Set<number>} */
+export function given(thing, places = new Set()) {
+  if (thing === null || typeof thing !== "object") return places;
+  if ("at" in thing) places.add(thing.at);
+  if (Array.isArray(thing) && typeof thing[0] === "number" && typeof thing[1] !== "number") places.add(thing[0]); // of a text
+  for (const part of Object.values(thing)) given(part, places);
+  return places;
+}
+
+/** Widths of texts by font and text, any digit for each digit. @type {Map<string, number>} */
+const widths = new Map(), rule = document.createElement("canvas").getContext("2d");
+const KEPT = 2000; // so many of them
+
+/** How wide a text is, with digits as wide as 0: then nothing moves beside a number that runs. @param {string} font @param {string} text */
+export function widthOf(font, text) {
+  const words = text.replace(/\d/g, "0"), key = `${font} ${words}`, known = widths.get(key);
+  if (known !== undefined) return known;
+  if (widths.size > KEPT) widths.clear();
+  rule.font = font;
+  const { width } = rule.measureText(words);
+  widths.set(key, width);
+  return width;
+}
+
 /** Where each coordinate of a mark may reach, as names of its fields. @type {Record<string, [string[], string[]]>} */
 export const REACH = {
   line: [["x"], ["y"]], points: [["x"], ["y"]], polygon: [["x"], ["y"]], area: [["x"], ["low", "high"]],
@@ -31,18 +55,31 @@ export function stroke(pen, tint, points) {
   pen.stroke();
 }
 
-/** A path through points; what is no number parts it.
+const BEND = 0.1; // pixels
+
+/** A path through points; what is no number parts it.  Points are left out where a straight line stands for them: the area
+ * between it and the path is at most `BEND` times its length.
  * @param {Chart} chart @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {boolean} [steps] */
 export function trace(chart, x, y, steps = false) {
   const { pen } = chart, n = Math.max(x.length, y.length);
+  let down = false, fromX = 0, fromY = 0, lastX = 0, lastY = 0, area = 0; // twice what is between line and path
+  const end = () => { if (down && (lastX !== fromX || lastY !== fromY)) pen.lineTo(lastX, lastY); down = false; };
   pen.beginPath();
-  for (let i = 0, down = false, last = 0; i < n; i++) {
+  for (let i = 0; i < n; i++) {
     const p = chart.x(x.length === 1 ? x[0] : x[i]), q = chart.y(y.length === 1 ? y[0] : y[i]);
-    if (!real(p) || !real(q)) { down = false; continue; }
-    if (down && steps) pen.lineTo(p, last);
-    if (down) pen.lineTo(p, q); else pen.moveTo(p, q);
-    down = true; last = q;
+    if (!real(p) || !real(q)) { end(); continue; }
+    const along = p - fromX, up = q - fromY, before = lastX - fromX, below = lastY - fromY;
+    const more = area + Math.abs(before * up - below * along), back = before * (p - lastX) + below * (q - lastY) < 0;
+    if (!down) { pen.moveTo(p, q); down = true; area = 0; fromX = p; fromY = q; } else if (steps) {
+      pen.lineTo(p, lastY); pen.lineTo(p, q);
+      fromX = p; fromY = q;
+    } else if (back || more * more > 4 * BEND * BEND * (along * along + up * up)) {
+      pen.lineTo(lastX, lastY);
+      area = 0; fromX = lastX; fromY = lastY;
+    } else area = more;
+    lastX = p; lastY = q;
   }
+  end();
 }
 
 /** @param {Chart} chart @param {Mark} mark @param {ArrayLike<number>[]} outputs */
@@ -129,10 +166,10 @@ export const DRAW = {
     if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
     const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
     const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
-    pen.font = `${mark.bold ? 600 : 400} ${size}px ${LETTERS}`;
+    const font = pen.font = `${mark.bold ? 600 : 400} ${size}px ${LETTERS}`;
     pen.textAlign = /** @type {CanvasTextAlign} */ (across); pen.textBaseline = /** @type {CanvasTextBaseline} */ (upright);
     const lines = small ? [words.split("\n").join(" ")] : words.split("\n");
-    const wide = Math.max(...lines.map((line) => pen.measureText(line).width)), tall = lines.length * size * 1.25;
+    const wide = Math.max(...lines.map((line) => widthOf(font, line))), tall = lines.length * size * 1.25;
     if (small) {
       const before = across === "left" ? 0 : across === "right" ? wide : wide / 2;
       p = Math.max(Math.min(p, box.right - wide + before), box.left + before);

@@ -46,11 +46,16 @@ export class Panel {
     this.system.addEventListener("change", () => this.ask(true), { signal: this.leaving.signal });
     this.theme = new MutationObserver(() => this.ask(true));
     this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
-    this.resized = new ResizeObserver(() => {
-      root.classList.toggle("camkit-narrow", root.clientWidth < NARROW * this.letter);
-      this.ask(true);
-    });
+    this.resized = new ResizeObserver(() => this._resize());
     for (const part of [root, this.middle, this.tabs.element]) this.resized.observe(part);
+    this.ask(true);
+  }
+
+  /** Other sizes: they are read now and not in every picture, which would lay the page out twice. */
+  _resize() {
+    this.letter = parseFloat(getComputedStyle(this.root).fontSize);
+    this.root.classList.toggle("camkit-narrow", this.root.clientWidth < NARROW * this.letter);
+    for (const chart of this.charts) chart.size = null;
     this.ask(true);
   }
 
@@ -72,6 +77,9 @@ export class Panel {
     const pictures = this.charts.map((/** @type {Chart} */ chart) => chart.shown());
     return { pictures, measures: this.numbers, sentence: this.sentence, values: [...this.values] };
   }
+
+  /** What the measures are: name, value, text. */
+  get numbers() { return this.judged?.map(({ m, now }) => ({ name: m.name, value: now, text: told(m, now, this.units) })); }
 
   /** Take other values, as undo does. @param {ArrayLike<number>} values */
   put(values) {
@@ -108,9 +116,6 @@ export class Panel {
 
   /** Whether the mechanism is turning. */
   get playing() { return this.positions.playing; }
-
-  /** The size of letters, pixels. */
-  get letter() { return parseFloat(getComputedStyle(this.root).fontSize); }
 
   get dark() {
     const light = document.body.dataset.jpThemeLight;
@@ -153,7 +158,7 @@ export class Panel {
     this.middle = make("div", { class: "camkit-middle" }, ...(first ? [first] : []), this.over);
     this.tabs = new Tabs();
     const framed = curves.map((/** @type {HTMLElement} */ canvas) => make("div", { class: "camkit-curve" }, canvas));
-    this.addTab("Curves", make("div", { class: "camkit-curves" }, ...framed), () => this.ask(true));
+    this.addTab("Curves", make("div", { class: "camkit-curves" }, ...framed), () => this._resize());
     this.addTab("Numbers", this.table.element, () => this.ask(true), true);
     root.classList.add("camkit-page");
     root.replaceChildren(this._bar(), this.note, ...this.verdict.elements, this.quantities.element, this.middle,
@@ -266,9 +271,9 @@ export class Panel {
   _report() {
     const values = [...this.values].slice(0, this.structure.quantities.length);
     if (!this.host || (this.reported && values.every((value, k) => value === this.reported[k]))) return;
-    const first = !this.reported, number = (/** @type {any} */ m) => (Number.isFinite(m.value) ? m.value : null);
+    const first = !this.reported, number = (/** @type {any} */ { now }) => (Number.isFinite(now) ? now : null);
     this.reported = values;
-    if (!first) this.host.changed(values, this.sentence ? [] : this.numbers.map(number));
+    if (!first) this.host.changed(values, this.sentence ? [] : this.judged.map(number));
   }
 
   /** Paint on each track in sight what can be built, when nothing has moved for a moment.  What is painted holds as long
@@ -300,12 +305,13 @@ export class Panel {
     if (!refused) this.outputs = outputs;
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
-    const { words, dark, playing, units } = this, em = this.letter / 13;
+    if (settled) this.letter = parseFloat(getComputedStyle(this.root).fontSize);
+    const { words, dark, playing, units } = this, em = this.letter / 13, low = 190 * em;
     this.root.classList.toggle("camkit-dark", dark);
     for (const chart of this.charts) {
       const pinned = (this.looked ?? this.ghost)?.outputs, cursor = this._cursorOf(chart);
-      const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor };
-      Object.assign(chart, { compact: chart.canvas.clientHeight < 190 * em, em });
+      chart.em = em;
+      const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor, low };
       chart.draw(chart.own ?? this.outputs, how);
       if (settled && chart.list) this._describe(chart);
     }
@@ -343,7 +349,7 @@ export class Panel {
   _tell(outputs, settled) {
     this.first ??= outputs;
     const rows = judged(this.structure, outputs, this.ghost?.outputs ?? this.first);
-    this.numbers = rows.map(({ m, now }) => ({ name: m.name, value: now, text: told(m, now, this.units) }));
+    this.judged = rows;
     this.verdict.tell(rows, this.words(this.structure.trouble), settled, this.units);
     if (!this.table.element.hidden) this.table.fill(rows, this.ghost ? "pinned" : "start", this.units);
   }

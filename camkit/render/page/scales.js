@@ -36,9 +36,9 @@ export function degreeTicks(low, high, count) {
 
 /** Places of a scale: from numbers to pixels and back. @param {Ends} ends @param {number} from @param {number} to */
 export function scale(ends, from, to) {
-  const f = ends.log ? Math.log10 : Number, low = f(ends.low), span = f(ends.high) - low || 1;
+  const f = ends.log ? Math.log10 : Number, low = f(ends.low), span = f(ends.high) - low || 1, per = (to - from) / span;
   /** @param {number} value */
-  const place = (value) => from + ((to - from) * (f(value) - low)) / span;
+  const place = (value) => from + per * ((ends.log ? Math.log10(value) : value) - low);
   /** @param {number} pixel */
   place.back = (pixel) => { const v = low + ((pixel - from) * span) / (to - from); return ends.log ? 10 ** v : v; };
   return place;

@@ -175,8 +175,8 @@ const KINDS = {
       for (const chart of part.charts) {
         if (!chart.canvas.clientWidth) continue;
         chart.em = parseFloat(getComputedStyle(element).fontSize) / 13;
-        chart.compact = chart.canvas.clientHeight < 165 * chart.em;
-        chart.draw(chart.own, { dark: dark(), settled: true, words: (/** @type {any} */ text) => (typeof text === "string" ? text : fill(text, chart.own)) });
+        const words = (/** @type {any} */ text) => (typeof text === "string" ? text : fill(text, chart.own));
+        chart.draw(chart.own, { dark: dark(), settled: true, words, low: 165 * chart.em });
         chart.canvas.setAttribute("aria-label", chart.describe());
       }
     };
