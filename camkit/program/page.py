@@ -45,7 +45,7 @@ H.set(X,constants.length);
 for(let i=0;i<L.length;i+=10)F[L[i]](L[i+1],L[i+2],L[i+3],L[i+4],L[i+5],L[i+6],L[i+7],L[i+8],L[i+9]);
 return last=outputs.map(([at,n],k)=>last[k]&&alike(last[k],at)?last[k]:H.slice(at,at+n))}"""
 """One loop after the other is done, or where the steady inputs stay, each that depends on others; what its operation
-does not take it is given in vain.  An output that is as it was is the same array once more, by which a page knows it."""
+does not take it is given in vain.  An output that is as it was is the same array once more: so a page knows it."""
 NAMES = "opaqbrcs"
 """What the operations' functions call addresses and steps, of the result first."""
 

@@ -8,13 +8,14 @@ import pytest
 import camkit.render
 
 SOURCE = Path(camkit.render.__file__).parent / "page/marks.js"
-TRACE = """([source, x, y]) => import(URL.createObjectURL(new Blob([source], {type: "text/javascript"}))).then(({trace}) => {
+TRACE = """async ([source, x, y]) => {
+    const { trace } = await import(URL.createObjectURL(new Blob([source], {type: "text/javascript"})));
     const parts = [], pen = {
         beginPath() {}, moveTo(...p) { parts.push([p]); }, lineTo(...p) { parts.at(-1).push(p); },
     };
     const numbers = (values) => values.map((v) => v ?? NaN);
     trace({ pen, x: (v) => v, y: (v) => v }, numbers(x), numbers(y));
-    return parts; })"""
+    return parts; }"""
 SEEN = 0.2  # pixels
 
 
