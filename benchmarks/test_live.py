@@ -34,8 +34,8 @@ import matplotlib.pyplot as plt
 from ipywidgets import FloatSlider, interact
 from matplotlib import rc_context
 from camkit import mm
-from camkit.render.draw import theme_style
-from camkit.render.picture import draw
+from camkit.render.artists import theme_style
+from camkit.render.still import draw
 
 still = app.figure()
 still.draw_without_rendering()

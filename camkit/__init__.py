@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from .panels.presets import presets as presets
     from .panels.shortlist import shortlist as shortlist
     from .render.living import to_html as to_html
-    from .render.picture import picture as picture
+    from .render.still import picture as picture
     from .search.nsga2 import nsga2 as nsga2
 
 __version__ = "0.1.0"
@@ -76,7 +76,7 @@ _LATER = {
     "nsga2": "search.nsga2",
     "optimise_panel": "panels",
     "pareto_panel": "panels",
-    "picture": "render.picture",
+    "picture": "render.still",
     "presets": "panels",
     "shortlist": "panels",
     "to_html": "render.living",

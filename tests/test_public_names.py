@@ -20,7 +20,7 @@ from camkit import Judgements, Measure, PeakMeasure, Study, TranslatingRollerCam
 from camkit.linkage import Box
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
-from camkit.render.picture import draw, layout
+from camkit.render.still import draw, layout
 from camkit.search.front import front_of
 from camkit.search.nsga2 import nsga2_steps
 from camkit.study import AnalysisCurve
@@ -42,7 +42,7 @@ WINGS = [
     "search.front",
     "search.nsga2",
     "study.design_map",
-    "render.picture",
+    "render.still",
     "search.polish",
     "machines.shaft",
     "study.sweep",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
-from ..render.picture import picture, small_png
 from ..search.front import Front
 from ..views.decision import (
     MARKS,
@@ -26,6 +25,7 @@ from ..views.decision import (
 )
 from ..views.front import Judged
 from ..views.parallel import Designs
+from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.drawn import LivePicture
 from .kit.front_picker import objective_texts, place_on
@@ -44,7 +44,7 @@ class FrontSource(Protocol):
 
     front: Front
     explorer: Instrument
-    importance: Any
+    importance: AhpPanel | None
 
     def select(self, index: int | None) -> None:
         """Load a design of the front."""
@@ -123,8 +123,7 @@ class ChoosePanel(Panel):
     def _judgements(self, front: Judged) -> Judgements | None:
         """The judgements of the front's objectives."""
         panel = self.source.importance
-        fits = panel is not None and len(panel.names) == len(front.study.minimise)
-        return panel.judgements if fits else None
+        return panel.judgements if panel and len(panel.names) == len(front.study.minimise) else None
 
     def _keep_bands(self, fresh: ShownDecision) -> None:
         """Take up another decision; bands stay if it has the same columns."""
@@ -272,6 +271,8 @@ class ChoosePanel(Panel):
 
     def still(self) -> bytes:
         """All four views, two below two; without a front there is nothing to see."""
+        from ..render.still import picture, small_png
+
         rows = (brushed_designs, front_winners), (winners_by_weight, judgement_bars)
         return small_png(*(picture(self.shown, *views, width=12.6, height=4.5) for views in rows if self.shown))
 

@@ -119,5 +119,13 @@ class CycleTimePanel(JobPanel):
         return f"problem: {self.problem.value}\n{self.step.message if self.step else 'not run yet'}"
 
 
-cycle_time_panel = CycleTimePanel
-"""A panel that finds how short the intervals may be."""
+def cycle_time_panel(
+    explorer: Instrument,
+    studies: Study | Mapping[str, Study],
+    limit: float,
+    shortest: float,
+    longest: float,
+    intervals: Sequence[str] = INTERVALS,
+) -> CycleTimePanel:
+    """A panel that finds how short the intervals of the design in ``explorer`` may be (see `CycleTimePanel`)."""
+    return CycleTimePanel(explorer, studies, limit, shortest, longest, intervals)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import anywidget
 import ipywidgets as w
@@ -31,21 +30,25 @@ from ..quantities.applied import a_new_file, raised
 from ..quantities.kinds import refuse_arguments, shown
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
-from ..render.picture import Still, picture, positions_of, small_png, strip, turn_range
+from ..render.positions import positions_of, turn_range
 from ..study.study import refuse_limits
 from ..units import in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import alike, changed, numbers_of
 from .kit.design_files import FILES, files_of, remarked
+from .kit.displayed import Displayed
 from .kit.keeper import Keeper
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
+
+if TYPE_CHECKING:
+    from ..render.still import Still
 
 AGREED = 1e-9
 """Page and kernel differ by less than such a share of a measure's size."""
 
 
-class Instrument(anywidget.AnyWidget):
+class Instrument(Displayed, anywidget.AnyWidget):
     """A design under sliders; the page computes and draws it, the kernel is told what a person settles on.
 
     ``design`` is what is shown, the last one that could be built; setting it moves the page.  ``on_change(f)`` calls
@@ -329,23 +332,21 @@ class Instrument(anywidget.AnyWidget):
 
     def figure(self) -> Still:
         """The views of the design, as a figure of matplotlib."""
+        from ..render.still import picture
+
         limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
         return picture(self.analysis, *self.views, limits=limits, **self._stand(self.views))
 
     def still(self) -> bytes:
         """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
+        from ..render.still import small_png, strip
+
         turning = [view for view in self.views if "turn" in positions_of(view)]
         if not turning or "azimuth" in positions_of(turning[0]):
             return small_png(self.figure())
         _, low, high = turn_range(self.analysis)
         turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
         return small_png(self.figure(), strip(self.analysis, turning[0], turns))
-
-    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, object], dict[str, object]]:
-        """The live panel for a kernel, the picture and the numbers where there is none."""
-        data, about = super()._repr_mimebundle_(**wanted) or ({}, {})
-        still = {"image/png": base64.b64encode(self.still()).decode("ascii"), "text/plain": self.summary()}
-        return data | still, about
 
 
 def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:

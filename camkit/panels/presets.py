@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 import ipywidgets as w
 
 from ..quantities import D
 from ..quantities.kinds import refuse_arguments
 from .instrument import Instrument
+from .kit.displayed import Displayed
 from .kit.inputs import Menu
 from .kit.parts import Banner, Button, row
 from .kit.quiet import Quiet
@@ -20,7 +20,7 @@ Change = Callable[[D], D]
 """From the design in the sliders to the one that is offered; ``ValueError`` in a sentence where there is none."""
 
 
-class Presets(w.VBox):
+class Presets(Displayed, w.VBox):
     """An `Instrument` under a row of menus and buttons, each of which changes its design.
 
     ``menus`` maps a menu's name to its options, ``buttons`` a button's words to what it does: a function from the
@@ -64,10 +64,13 @@ class Presets(w.VBox):
             for offers in self.menus.values():
                 offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 
-    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, object]:
-        """The live panel for a kernel, picture and numbers of the instrument where there is none."""
-        still, _ = self.explorer._repr_mimebundle_()
-        return super()._repr_mimebundle_(**wanted) | {kind: still[kind] for kind in ("image/png", "text/plain")}
+    def still(self) -> bytes:
+        """The picture of the instrument."""
+        return self.explorer.still()
+
+    def summary(self) -> str:
+        """The numbers of the instrument."""
+        return self.explorer.summary()
 
 
 def _leads_to(change: Change, design: object) -> bool:

@@ -44,7 +44,7 @@ from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
 from .contours import outlined
 from .page_parts import PAGE, STYLE, in_html, look, script
-from .picture import VIEWPOINT, given_to, made_by, positions_of, turn_range
+from .positions import VIEWPOINT, given_to, made_by, positions_of, turn_range
 from .reasons import reason_of
 
 SIZE = np.array([400.0, 300.0])

@@ -13,7 +13,7 @@ from camkit.quantities import Design, Measure, measures_of, quantities_of, quant
 from camkit.render import to_html
 from camkit.render.living import living
 from camkit.render.page_parts import script
-from camkit.render.picture import given_to, positions_of
+from camkit.render.positions import given_to, positions_of
 from camkit.views import default_views, mechanism, pressure_angle
 from camkit.views.picture import Axes, Contour, Line, Picture, Points, Text
 from lab import SHOWN, numbers_in, numbers_of
@@ -397,7 +397,7 @@ WIDGET = """([source, structure, answer, arrays]) => {
         arrays.map((values) => new DataView(Float64Array.from(values).buffer))));
     const el = document.body.appendChild(document.createElement("div"));
     return import(URL.createObjectURL(new Blob([source], { type: "text/javascript" })))
-        .then((widget) => widget.default.render({ model, el })).then(() => { window.camkit = el.camkit; }); }"""
+        .then((widget) => widget.default().render({ model, el })).then(() => { window.camkit = el.camkit; }); }"""
 ASKED = "() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(() => next(questions.length))))"
 
 

@@ -9,7 +9,7 @@ from every_machine import MACHINES
 from camkit import deg, inch, mm
 from camkit.quantities import measures_of, quantities_of
 from camkit.render.living import living
-from camkit.render.picture import given_to
+from camkit.render.positions import given_to
 from camkit.units import convert, factor
 from camkit.views import default_views
 from test_living_page import DRAWN, SHOWN, opened, same  # noqa: F401

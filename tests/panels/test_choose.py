@@ -15,8 +15,8 @@ from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weight
 from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
 from camkit.quantities import Design, quantity
-from camkit.render.draw import moving
-from camkit.render.picture import draw, layout
+from camkit.render.artists import moving
+from camkit.render.still import draw, layout
 from camkit.search.front import Front, front_of
 from camkit.units import mm
 from camkit.views.decision import APART, MARKS, decision, front_winners, judgement_bars, triangle, winners_by_weight

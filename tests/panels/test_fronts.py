@@ -22,8 +22,8 @@ from camkit.panels.fronts import compare_fronts
 from camkit.panels.kit.parts import Button
 from camkit.papers.high_speed_cam import trade_off_studies
 from camkit.quantities import Design, quantity
-from camkit.render.draw import artist_of, moving
-from camkit.render.picture import draw, layout
+from camkit.render.artists import artist_of, moving
+from camkit.render.still import draw, layout
 from camkit.search.epsilon_constraint import dominated_shares, epsilon_constraint_steps, trade_off
 from camkit.search.front import Front, front_of
 from camkit.search.minimise import minimise

@@ -29,8 +29,8 @@ from camkit.machines.valve_measures import valve_front_study
 from camkit.panels.kit.latest_only import Debounced, LatestOnly
 from camkit.panels.live_pareto import live_pareto_panel
 from camkit.quantities import Design, quantity
-from camkit.render.draw import artist_of
-from camkit.render.picture import draw, layout
+from camkit.render.artists import artist_of
+from camkit.render.still import draw, layout
 from camkit.search.checkpoint import versions
 from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, fast_front_steps, quick_front
 from camkit.search.front import Front, reference_point

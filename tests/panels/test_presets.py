@@ -104,7 +104,7 @@ def test_every_control_can_be_moved(panel) -> None:
 
 
 def test_it_has_the_explorers_picture(panel) -> None:
-    data = panel._repr_mimebundle_()
+    data, _ = panel._repr_mimebundle_()
     assert data["text/plain"] == panel.explorer.summary()
     assert data["image/png"]
 

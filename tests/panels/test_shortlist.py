@@ -28,7 +28,7 @@ from camkit.motion import Poly345
 from camkit.panels.kit.inputs import Download
 from camkit.panels.kit.parts import Button, bold, plain
 from camkit.panels.shortlist import shortlist
-from camkit.render.picture import draw, layout
+from camkit.render.still import draw, layout
 from camkit.units import mm
 from camkit.views import mechanism, pressure_angle
 from camkit.views.overlay import PLACES, Kept, measures_overlaid, profiles_overlaid

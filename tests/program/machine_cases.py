@@ -9,7 +9,7 @@ from camkit.machines.high_speed_cam import LOADS
 from camkit.motion import LAW_MENU, FreePolynomial, ModifiedSine, ShapedLaw, SplineLaw, TableLaw
 from camkit.motion.families.shaped import SPLINE
 from camkit.quantities import choices_of, measures_of, with_quantities
-from camkit.render.picture import positions_of
+from camkit.render.positions import positions_of
 from camkit.views import default_views
 
 U = np.linspace(0, 1, 25)

@@ -9,8 +9,9 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from camkit.render.draw import ROLES as LOOKS
-from camkit.render.draw import artist_of, colour, contrast, draw_picture, letter_colour, moving, theme_style
+from camkit.render.artists import artist_of, draw_picture, moving, theme_style
+from camkit.render.roles import ROLES as LOOKS
+from camkit.render.roles import colour, contrast, letter_colour
 from camkit.views.picture import (
     ROLES,
     Area,

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from camkit.render.draw import contrast
 from camkit.render.page_parts import STYLE
+from camkit.render.roles import contrast
 
 
 def themes():

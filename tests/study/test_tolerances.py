@@ -16,7 +16,7 @@ from camkit import DoorHandleCam, Measure, Study, deg, explore, mm, nsga2, pictu
 from camkit.machines import door_handle_paper_study, lift_curve_study
 from camkit.panels.tolerances import MOVING, SETTLED, general_tolerances, tolerance_panel
 from camkit.quantities import Design, Quantity, quantity
-from camkit.render.draw import artist_of
+from camkit.render.artists import artist_of
 from camkit.study.tolerances import AnalysisCurve, Indices, Tolerances, general_tolerance
 from camkit.views import pressure_angle
 from camkit.views.front import shown_objectives

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.testing import assert_array_equal
 
-from camkit.render.draw import artist_of, moving
-from camkit.render.picture import draw, layout
+from camkit.render.artists import artist_of, moving
+from camkit.render.still import draw, layout
 
 PLACE = {"Polygon": "get_xy", "Line2D": "get_data", "Text": "get_position"}
 

@@ -17,7 +17,7 @@ from camkit.machines.valve_measures import VALVE_MEASURES, min_radius, valve_fro
 from camkit.machines.valve_train import FLAT, ROLLER, ValveLoad
 from camkit.papers.sketches import flat_face_sketch
 from camkit.papers.valve_cam import known_front
-from camkit.render.picture import turn_range
+from camkit.render.positions import turn_range
 from camkit.units import deg, mm, rpm
 from camkit.views.defaults import default_views
 from camkit.views.event import (

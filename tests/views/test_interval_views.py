@@ -11,8 +11,9 @@ from camkit.machines.high_speed_load import ConstantTorque
 from camkit.machines.high_speed_measures import peak_pressure, peak_stress, peak_wear
 from camkit.motion import ShapedLaw
 from camkit.papers.sketches import two_radii_sketch
-from camkit.render.draw import artist_of, colour
-from camkit.render.picture import draw
+from camkit.render.artists import artist_of
+from camkit.render.roles import colour
+from camkit.render.still import draw
 from camkit.search.minimise import minimise
 from camkit.units import MPa, cm, deg, mm
 from camkit.views import default_views, mechanism

@@ -12,9 +12,9 @@ from camkit.machines.shaft import PLANE_WINDOW, UniversalJointShaft, lightest_sh
 from camkit.papers.optimiser_trials import measured_trials
 from camkit.papers.shaft import printed_designs
 from camkit.papers.trial_pictures import evaluations_needed, solved_within
+from camkit.render.artists import artist_of
 from camkit.render.contours import level_curve, outlined, region
-from camkit.render.draw import artist_of
-from camkit.render.picture import draw
+from camkit.render.still import draw
 from camkit.search.competitive import CompetitiveAlgorithm
 from camkit.search.evolution import StudyProblem
 from camkit.study.design_map import DesignMap

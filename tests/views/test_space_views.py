@@ -11,8 +11,9 @@ from camkit.linkage.measures import room_in
 from camkit.linkage.space import Box
 from camkit.machines.cabin_door import HOUSING, CabinDoorLinkage, ninety_degree_study, rssr_study
 from camkit.papers.sketch_in_space import linkage_sketch
-from camkit.render.draw import moving
-from camkit.render.picture import draw, positions_of
+from camkit.render.artists import moving
+from camkit.render.positions import positions_of
+from camkit.render.still import draw
 from camkit.search.nsga2 import nsga2_steps
 from camkit.units import deg, mm
 from camkit.views.defaults import default_views

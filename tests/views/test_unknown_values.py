@@ -10,7 +10,7 @@ from numpy.testing import assert_array_equal
 from camkit import DoorHandleCam, HighSpeedCam, OscillatingFlatCam, TranslatingRollerCam, ValveCam
 from camkit.linkage import DoubleUniversalJoint
 from camkit.machines import CabinDoorLinkage, CamLever
-from camkit.render.picture import positions_of
+from camkit.render.positions import positions_of
 from camkit.views import default_views
 from camkit.views.picture import Mark
 

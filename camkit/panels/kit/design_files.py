@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ...files import designs, profiles
-from ...render.picture import Still, saved
+
+if TYPE_CHECKING:
+    from ...render.still import Still
 
 
 class Saved(Protocol):
@@ -22,11 +24,17 @@ class Saved(Protocol):
         """The views of the design."""
 
 
+def _drawn(app: Saved, kind: str) -> bytes:
+    from ...render.still import saved
+
+    return saved(app.figure(), kind)
+
+
 FILES: dict[str, Callable[[Saved], bytes]] = {
     "json": lambda app: designs.to_json(app.design).encode(),
     "html": lambda app: app.html().encode(),
-    "svg": lambda app: saved(app.figure(), "svg"),
-    "pdf": lambda app: saved(app.figure(), "pdf"),
+    "svg": lambda app: _drawn(app, "svg"),
+    "pdf": lambda app: _drawn(app, "pdf"),
     "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
     "dxf": lambda app: profiles.profile_dxf(app.analysis).encode(),
 }

@@ -11,7 +11,7 @@ import traitlets
 from ...quantities.applied import applied
 from ...quantities.types import Array
 from ...render.living import plain_picture
-from ...render.picture import given_to, picture, small_png
+from ...render.positions import given_to
 from ...views.picture import Picture, View
 from .parts import Message, Part
 
@@ -69,6 +69,8 @@ class LivePicture(Part):
 
     def png(self) -> bytes:
         """The picture as a PNG file."""
+        from ...render.still import picture, small_png
+
         if not self._last:
             return small_png()
         thing, asked = self._last

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,10 @@ from .inputs import Menu, Whole
 from .parts import Button, Line, bold
 from .quiet import Quiet
 from .sheet import Panel, Sheet
+
+if TYPE_CHECKING:
+    from ..ahp import AhpPanel
+    from ..instrument import Instrument
 
 
 def objective_texts(study: Study, f: Array, between: str = " ") -> list[str]:
@@ -106,9 +110,9 @@ class FrontPicker:
 
     def __init__(
         self,
-        explorer: Any,
+        explorer: Instrument,
         front: Front,
-        importance: Any,
+        importance: AhpPanel | None,
         judged: Callable[[], None],
         design: Callable[[int], Any] | None = None,
     ) -> None:

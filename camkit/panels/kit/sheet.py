@@ -6,7 +6,6 @@ import base64
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
 
 import anywidget
 import traitlets
@@ -14,6 +13,7 @@ import traitlets
 from ...quantities.applied import raised
 from ...render.page_parts import STYLE, look, script
 from ...units import known_units
+from .displayed import Displayed
 from .drawn import LivePicture
 from .inputs import Download
 from .parts import Banner, Group, Message, Part
@@ -116,7 +116,7 @@ def _in_letters(value: object) -> object:
     return [_in_letters(part) for part in value] if isinstance(value, list | tuple) else value
 
 
-class Panel(Sheet):
+class Panel(Displayed, Sheet):
     """A sheet around one live ``picture``; a subclass says in ``summary`` what it shows.
 
     Its ``banner`` says what is impossible, its ``numbers`` say what the picture shows, where there are any.
@@ -153,20 +153,6 @@ class Panel(Sheet):
                 if part is not None:
                     part.visible = not sentence
 
-    def summary(self) -> str:
-        """The panel's numbers, a line each."""
-        raise NotImplementedError
-
     def still(self) -> bytes:
         """The picture, as a PNG file, that stands for the panel where there is no kernel."""
         return self.picture.png()
-
-    def settle(self) -> None:
-        """Wait until everything that is shown belongs to what was asked for last."""
-
-    def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, object], dict[str, object]]:
-        """The live panel for a kernel, the picture and the numbers where there is none."""
-        self.settle()
-        data, about = super()._repr_mimebundle_(**wanted) or ({}, {})
-        still = {"image/png": base64.b64encode(self.still()).decode("ascii"), "text/plain": self.summary()}
-        return data | still, about

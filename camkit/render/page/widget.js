@@ -3,6 +3,7 @@ import { engineOf } from "./engine.js";
 import { Panel } from "./panel.js";
 import { Docks } from "./docks.js";
 import { download } from "./files.js";
+import { movable } from "./cell.js";
 import { Session, alone, known, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
@@ -37,8 +38,8 @@ function asking(model) {
 const TRUST = "The page is saved: a browser runs it; inside JupyterLab it stands still until you press Trust HTML above it.";
 const SAID = 20_000; // how long that stays, ms
 
-/** @param {{model: any, el: HTMLElement}} host */
-async function render({ model, el }) {
+/** @param {import("./cell.js").Host} host */
+async function view({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
   /** @type {any} */ let panel = null, saving = false;
   const host = {
@@ -64,7 +65,8 @@ async function render({ model, el }) {
     if (number < begun) return; // structure and program come together
     const before = panel;
     before?.end();
-    panel = el.camkit = new Panel(root, structure, engine, host);
+    panel = new Panel(root, structure, engine, host);
+    Object.assign(root.parentElement ?? {}, { camkit: panel });
     await dock();
     if (before) { panel.use(before.units.name); panel.showTab(before.tabs.shown?.name); }
     panel.say(model.get("message"));
@@ -104,4 +106,4 @@ async function render({ model, el }) {
   return () => { session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
-export default { render };
+export default movable(view);

@@ -6,7 +6,6 @@ import inspect
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -15,16 +14,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..quantities import Analysable, Measure, Quantity, refuse_design, refuse_population, words
+from ..quantities import Analysable, Measure, refuse_design, refuse_population
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, refuse_arguments
-from ..quantities.kinds import shown as said
 from ..study.study import refuse_limits
-from ..study.tolerances import ANGLES
 from ..units import deg
 from ..views.defaults import default_views
 from ..views.picture import Picture, View
-from .draw import draw_picture, theme_style
+from .artists import draw_picture, theme_style
+from .positions import given_to, made_by, view_name
 
 LARGEST = 100
 """No figure is wider or higher, inches."""
@@ -77,48 +75,6 @@ def layout(views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi:
     return figure, axes
 
 
-POSITIONS = ("turn", "azimuth", "elevation")
-"""What a view may ask for beside the analysis: where the mechanism stands, from where it is seen (rad)."""
-
-
-def positions_of(view: View) -> tuple[str, ...]:
-    """Which of `POSITIONS` a view takes."""
-    takes = inspect.signature(view).parameters
-    return tuple(name for name in POSITIONS if name in takes)
-
-
-VIEWPOINT = {
-    "azimuth": Quantity("az", -60, -180, 180, "deg", "turns the view about the vertical", above=None),
-    "elevation": Quantity("el", 25, -90, 90, "deg", "tilts the view", above=None),
-}
-"""From where a mechanism in space is seen."""
-
-
-def turn_range(analysis: object) -> tuple[str, Any, Any]:
-    """The angle that turns the mechanism, by name, and from where to where: as the analysis says, or over its own."""
-    angle = next((name for name in ANGLES if hasattr(analysis, name)), None)
-    if angle is None:
-        raise ValueError(f"what is shown has no {' or '.join(map(words, ANGLES))} to turn it by")
-    if hasattr(analysis, "turn_range"):
-        return angle, *analysis.turn_range
-    values = getattr(analysis, angle)
-    return angle, np.min(values), np.max(values)
-
-
-def given_to(view: View, asked: Mapping[str, Any]) -> dict[str, Any]:
-    """What of ``asked`` a view takes."""
-    takes = inspect.signature(view).parameters
-    return {name: value for name, value in asked.items() if name in takes}
-
-
-def made_by(view: View, analysis: object, given: Mapping[str, Any]) -> Picture:
-    """The picture that a view makes; ``ValueError`` for anything else that it gives."""
-    made = view(analysis, **given)
-    if not isinstance(made, Picture):
-        raise ValueError(f"the view {_name(view)} gives {said(made)}; a view gives a Picture")
-    return made
-
-
 def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked: object) -> None:
     """Every view of ``analysis`` on its axes: drawn the first time, moved the next.
 
@@ -131,13 +87,9 @@ def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked:
             try:
                 inspect.signature(view).bind(analysis, **given)
             except TypeError as unfit:
-                raise ValueError(f"the view {_name(view)} cannot show an analysis: {unfit}") from None
-            with applied(f"the view {_name(view)}", analysis):
+                raise ValueError(f"the view {view_name(view)} cannot show an analysis: {unfit}") from None
+            with applied(f"the view {view_name(view)}", analysis):
                 draw_picture(made_by(view, analysis, given), ax)
-
-
-def _name(view: View) -> str:
-    return getattr(view, "__name__", "that is given").replace("_", " ")
 
 
 def picture(

@@ -1,0 +1,109 @@
+"""How a panel shows itself in a cell, and when the picture is made that stands for it where there is no kernel.
+
+That picture takes longer than all else.  A page that runs the cell gets the panel alone first; the picture follows when
+no cell has run for a while, and nobody waits for it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import ipywidgets as w
+from IPython.core.getipython import get_ipython
+from IPython.display import display
+
+from .kept_designs import published
+from .running import Place, here
+
+REST = 1.0
+"""Seconds without a running cell after which pictures are made."""
+BETWEEN = 0.1
+"""Seconds between two of them, in which the kernel hears what a person does."""
+Bundle = tuple[dict[str, object], dict[str, object]]
+
+
+class Displayed(w.DOMWidget):
+    """A widget that shows itself in a notebook: the live view, its numbers as text, and a still picture."""
+
+    def still(self) -> bytes:
+        """The picture, as a PNG file, that stands for the panel where there is no kernel."""
+        raise NotImplementedError
+
+    def summary(self) -> str:
+        """The panel's numbers, a line each."""
+        raise NotImplementedError
+
+    def settle(self) -> None:
+        """Wait until everything that is shown belongs to what was asked for last."""
+
+    def _live(self) -> Bundle:
+        """The live view, and the numbers where there is no kernel."""
+        self.settle()
+        made: Any = super()._repr_mimebundle_()
+        data, about = made if isinstance(made, tuple) else (made or {}, {})
+        return data | {"text/plain": self.summary()}, about
+
+    def _whole(self, live: Bundle) -> Bundle:
+        data, about = live
+        return data | {"image/png": base64.b64encode(self.still()).decode("ascii")}, about
+
+    def _repr_mimebundle_(self, **wanted: Any) -> Bundle:
+        """The live panel for a kernel, the picture and the numbers where there is none."""
+        return self._live() if published() else self._whole(self._live())
+
+    def _ipython_display_(self) -> None:
+        """Show the panel alone, and its picture later; all at once where no page runs the cell."""
+        place = here()
+        if not place.cell:
+            raise NotImplementedError
+        live = self._live()
+        data, about = live
+        shown: Any = display(data, metadata=about, raw=True, display_id=True)
+
+        def follow() -> None:
+            whole, about = self._whole(live)
+            shown.update(whole, metadata=about, raw=True)
+
+        LATER.add(place, follow)
+
+
+class Later:
+    """What is done when no cell runs; of a cell that runs again, what its last run asked for."""
+
+    def __init__(self) -> None:
+        self._acts: list[tuple[Place, Callable[[], None]]] = []
+        self._timer: asyncio.TimerHandle | None = None
+        self._hears = False
+
+    def add(self, place: Place, act: Callable[[], None]) -> None:
+        """Called while a cell runs."""
+        self._acts = [(other, each) for other, each in self._acts if other.cell != place.cell or other == place]
+        self._acts.append((place, act))
+        if not self._hears:
+            self._hears = True
+            events: Any = get_ipython().events  # type: ignore[union-attr]
+            events.register("pre_run_cell", self._wait)
+            events.register("post_run_cell", lambda *_: self._rest(REST))
+
+    def _wait(self, *_: object) -> None:
+        if self._timer:
+            self._timer.cancel()
+
+    def _rest(self, seconds: float) -> None:
+        self._wait()
+        if self._acts:
+            self._timer = asyncio.get_running_loop().call_later(seconds, self._next)
+
+    def _next(self) -> None:
+        (_, act), *self._acts = self._acts
+        with suppress(ValueError, ArithmeticError):  # a design that cannot be drawn has no picture
+            act()
+        self._rest(BETWEEN)
+
+
+LATER = Later()
+"""Of this kernel."""

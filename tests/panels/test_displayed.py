@@ -1,0 +1,88 @@
+"""How a panel shows itself: at once with its picture, or in a page that runs the cell first without it."""
+
+import asyncio
+from types import SimpleNamespace
+
+import pytest
+from IPython.core.events import EventManager, available_events
+
+from camkit import Judgements, TranslatingRollerCam, ahp_panel, explore, presets
+from camkit.panels.kit import displayed
+from camkit.panels.kit.running import Place
+from camkit.views import pressure_angle
+
+LIVE = "application/vnd.jupyter.widget-view+json"
+
+
+@pytest.fixture
+def cell(monkeypatch):
+    """A page runs cells: ``run(place, panels)`` gives what it is shown, as it is when no cell runs any more."""
+    events = EventManager(None, available_events)
+    shell = SimpleNamespace(events=events)
+    monkeypatch.setattr(displayed, "get_ipython", lambda: shell)
+    monkeypatch.setattr(displayed, "LATER", displayed.Later())
+    monkeypatch.setattr(displayed, "REST", 0.0)
+    monkeypatch.setattr(displayed, "BETWEEN", 0.0)
+    shown, first = [], []
+
+    def display(data, **options):
+        assert options["raw"]
+        assert options["display_id"]
+        k = len(shown)
+        shown.append(set(data))
+        return SimpleNamespace(update=lambda data, **_: shown.__setitem__(k, set(data)))
+
+    async def runs(cells):
+        for place, panels in cells:
+            monkeypatch.setattr(displayed, "here", lambda place=place: place)
+            events.trigger("pre_run_cell", None)
+            for panel in panels:
+                panel._ipython_display_()
+            events.trigger("post_run_cell", None)
+        first.extend(shown)
+        for _ in range(50):
+            await asyncio.sleep(0)
+        return first, shown
+
+    monkeypatch.setattr(displayed, "display", display)
+    return lambda *cells: asyncio.run(runs(cells))
+
+
+def panels():
+    app = explore(TranslatingRollerCam(), pressure_angle)
+    return [app, ahp_panel(Judgements(["a", "b"], [2])), presets(app, buttons={"itself": lambda cam: cam})]
+
+
+def test_a_page_gets_the_panels_first_and_their_pictures_when_no_cell_runs(cell):
+    first, last = cell(*((Place(str(k), "run"), [panel]) for k, panel in enumerate(panels())))
+    assert first == [{LIVE, "text/plain"}] * 3
+    assert last == [{LIVE, "text/plain", "image/png"}] * 3
+
+
+def test_a_cell_that_runs_again_asks_for_its_new_pictures_alone(cell):
+    app, judged, _ = panels()
+    _, last = cell((Place("a", "first"), [app]), (Place("b", "first"), [judged]), (Place("a", "second"), [app, app]))
+    assert ["image/png" in each for each in last] == [False, True, True, True]
+
+
+def test_a_panel_that_cannot_be_drawn_has_no_picture_and_the_others_have(cell, monkeypatch):
+    app, judged, _ = panels()
+
+    def impossible():
+        raise ValueError("a curve reaches too far")
+
+    monkeypatch.setattr(app, "still", impossible)
+    _, last = cell((Place("a", "run"), [app, judged]))
+    assert ["image/png" in each for each in last] == [False, True]
+
+
+def test_where_no_page_runs_the_cell_all_is_there_at_once():
+    for panel in panels():
+        with pytest.raises(NotImplementedError):
+            panel._ipython_display_()
+        assert set(panel._repr_mimebundle_()[0]) == {LIVE, "text/plain", "image/png"}
+
+
+def test_a_published_page_waits_for_no_picture(monkeypatch):
+    monkeypatch.setenv("VOILA_BASE_URL", "/")
+    assert [set(panel._repr_mimebundle_()[0]) for panel in panels()] == [{LIVE, "text/plain"}] * 3
