@@ -56,8 +56,8 @@ if TYPE_CHECKING:
     from .panels.instrument import explore as explore
     from .panels.presets import presets as presets
     from .panels.shortlist import shortlist as shortlist
+    from .render.figure import picture as picture
     from .render.living import to_html as to_html
-    from .render.still import picture as picture
     from .search.nsga2 import nsga2 as nsga2
 
 __version__ = "0.1.0"
@@ -76,7 +76,7 @@ _LATER = {
     "nsga2": "search.nsga2",
     "optimise_panel": "panels",
     "pareto_panel": "panels",
-    "picture": "render.still",
+    "picture": "render.figure",
     "presets": "panels",
     "shortlist": "panels",
     "to_html": "render.living",

@@ -38,8 +38,8 @@ from camkit.panels.kit.sheet import Sheet
 from camkit.papers.published import Comparison, Row, Table
 from camkit.quantities import Design, Measure, quantity
 from camkit.quantities.markup import Html, attribute, csv_cell, escaped, html, joined, letters, markdown, table
+from camkit.render import picture
 from camkit.render.artists import plain
-from camkit.render.still import picture
 from camkit.search.nsga2 import nsga2
 from camkit.units import deg, mm
 from camkit.views.picture import Axes, Picture, Points

@@ -59,6 +59,8 @@ RESULTS = NOT_MADE_BY_HAND | {
 """What functions give, and nobody makes."""
 INSIDE = {
     "small_png",
+    "below",
+    "figure_of",
     "strip",
     "layout",
     "draw",

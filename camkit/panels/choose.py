@@ -13,6 +13,7 @@ from ..decision import JudgementRange, Judgements
 from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
+from ..render.figure import picture, small_png
 from ..search.front import Front
 from ..views.decision import (
     MARKS,
@@ -271,8 +272,6 @@ class ChoosePanel(Panel):
 
     def still(self) -> bytes:
         """All four views, two below two; without a front there is nothing to see."""
-        from ..render.still import picture, small_png
-
         rows = (brushed_designs, front_winners), (winners_by_weight, judgement_bars)
         return small_png(*(picture(self.shown, *views, width=12.6, height=4.5) for views in rows if self.shown))
 

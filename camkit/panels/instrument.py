@@ -28,6 +28,7 @@ from ..quantities import (
 )
 from ..quantities.applied import a_new_file, raised
 from ..quantities.kinds import refuse_arguments, shown
+from ..render.figure import picture, small_png
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
 from ..render.positions import positions_of, turn_range
@@ -332,14 +333,12 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def figure(self) -> Still:
         """The views of the design, as a figure of matplotlib."""
-        from ..render.still import picture
-
         limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
         return picture(self.analysis, *self.views, limits=limits, **self._stand(self.views))
 
     def still(self) -> bytes:
         """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
-        from ..render.still import small_png, strip
+        from ..render.still import strip
 
         turning = [view for view in self.views if "turn" in positions_of(view)]
         if not turning or "azimuth" in positions_of(turning[0]):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..quantities import Quantity, value_of, words
 from ..quantities.kinds import refuse_arguments
-from ..render.picture import picture, small_png
+from ..render.figure import picture, small_png
 from ..search.front import Front
 from ..study.study import Study
 from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance

@@ -8,11 +8,11 @@ from ..quantities.extras import extra
 
 if TYPE_CHECKING:
     from .artists import draw_picture as draw_picture
+    from .figure import picture as picture
     from .living import to_html as to_html
     from .still import Still as Still
     from .still import draw as draw
     from .still import layout as layout
-    from .still import picture as picture
 
 with extra("camkit.render"):
     if find_spec("matplotlib") is None:
@@ -23,7 +23,7 @@ _LATER = {
     "draw": "still",
     "draw_picture": "artists",
     "layout": "still",
-    "picture": "still",
+    "picture": "figure",
     "to_html": "living",
 }
 """Where names live that are loaded when they are first asked for."""

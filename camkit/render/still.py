@@ -34,10 +34,10 @@ class Still(Figure):
     """A figure that shows itself in a notebook, as a small file; pyplot never sees it, so none is left behind."""
 
     def _repr_png_(self) -> bytes:
-        return small_png(self)
+        return below(self)
 
 
-def small_png(*figures: Figure) -> bytes:
+def below(*figures: Figure) -> bytes:
     """Figures of the same width, each below the one before, as a PNG file of 256 colours; a white dot of none."""
     images = [*map(_pixels, figures)] or [Image.new("RGB", (1, 1), "white")]
     whole = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
@@ -92,23 +92,18 @@ def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked:
                 draw_picture(made_by(view, analysis, given), ax)
 
 
-def picture(
+def figure_of(
     shown: object,
-    *views: View,
-    width: float = 12.6,
-    height: float = 7.0,
-    turn: float | None = None,
-    azimuth: float | None = None,
-    elevation: float | None = None,
-    limits: Mapping[Measure, float] | None = None,
+    views: Sequence[View],
+    width: float,
+    height: float,
+    turn: float | None,
+    azimuth: float | None,
+    elevation: float | None,
+    limits: Mapping[Measure, float] | None,
 ) -> Still:
-    """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
-
-    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
-
-    ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
-    """
-    refuse_arguments(picture, locals())
+    """What `camkit.picture` gives."""
+    refuse_arguments(figure_of, locals())
     refuse_limits(limits or {}, {})
     given = {"turn": turn, "azimuth": azimuth, "elevation": elevation, "limits": limits}
     asked = {name: value for name, value in given.items() if value is not None}

@@ -24,7 +24,7 @@ from camkit.files import from_json, to_json
 from camkit.files.profiles import profile_csv
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 from camkit.quantities import unremarked
-from camkit.render.still import picture
+from camkit.render import picture
 from camkit.units import N, deg, kg, m, mm, rpm
 
 SPAN = np.array([120, 60, 130, 50]) * deg

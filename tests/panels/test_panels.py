@@ -53,7 +53,7 @@ from camkit.panels import (
 from camkit.panels.kit.inputs import Amount, Number, Whole
 from camkit.panels.kit.sheet import Sheet
 from camkit.quantities import Measure, PeakMeasure, certain, quantities_of, value_of
-from camkit.render.still import picture
+from camkit.render import picture
 from camkit.study.sweep import Sweep
 from camkit.study.tolerances import Tolerances
 from camkit.units.typed import typed_number

@@ -10,6 +10,7 @@ import traitlets
 
 from ...quantities.applied import applied
 from ...quantities.types import Array
+from ...render.figure import picture, small_png
 from ...render.living import plain_picture
 from ...render.positions import given_to
 from ...views.picture import Picture, View
@@ -69,8 +70,6 @@ class LivePicture(Part):
 
     def png(self) -> bytes:
         """The picture as a PNG file."""
-        from ...render.still import picture, small_png
-
         if not self._last:
             return small_png()
         thing, asked = self._last
