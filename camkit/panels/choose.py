@@ -188,7 +188,7 @@ class ChoosePanel(Panel):
         low, high = map(float, designs.ends[:, j])
         column = designs.columns[j]
         with self._quiet, self.held(), self.band.hold_trait_notifications():
-            self.band.description = f"{column.name}, {column.unit}" if column.unit else column.name
+            self.band.description, self.band.unit = column.name, column.unit
             self.band.min, self.band.max, self.band.disabled = low, high, high <= low
             self.band.value = designs.bands.get(j, (low, high))
         self.count.say(f"{designs.kept.sum()} of {len(designs.kept)} designs kept")

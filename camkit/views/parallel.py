@@ -19,10 +19,13 @@ class Column:
     sense: int = 0
 
     def label(self, width: int) -> str:
-        """Name in lines of ``width`` letters, unit and which way is better."""
-        unit = f"\n[{self.unit}]" if self.unit else "\n"
+        """Name in lines of ``width`` letters, and which way is better."""
         better = {1: "\n↓ better", -1: "\n↑ better", 0: "\n"}[self.sense]
-        return in_lines(self.name, width, 4) + unit + better
+        return in_lines(self.name, width, 4) + better
+
+    def text(self, value: float) -> str:
+        """A value with its unit."""
+        return f"{value:.4g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -113,8 +116,8 @@ def _axis(shown: Designs, j: int) -> list[Mark]:
     marks: list[Mark] = [
         Line(f"axis {j}", [j, j], [0, 1], role="guide"),
         Text(f"name {j}", j, 1.13, label, anchor="bottom", size=9.5),
-        Text(f"low {j}", j, -0.03, f"{low:.4g}", anchor="top", size=9.5),
-        Text(f"high {j}", j, 1.03, f"{high:.4g}" if high > low else "", anchor="bottom", size=9.5),
+        Text(f"low {j}", j, -0.03, shown.columns[j].text(low), anchor="top", size=9.5),
+        Text(f"high {j}", j, 1.03, shown.columns[j].text(high) if high > low else "", anchor="bottom", size=9.5),
     ]
     if j in shown.bands:
         span = (high - low) or 1.0

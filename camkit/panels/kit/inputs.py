@@ -181,9 +181,10 @@ class Typed(Input):
 
 
 class Span(Input):
-    """From a least to a greatest value between ``min`` and ``max``."""
+    """From a least to a greatest value between ``min`` and ``max``, in a ``unit``."""
 
     kind = "span"
+    unit = traitlets.Unicode("").tag(page=True)
     min = traitlets.Float(0.0).tag(page=True)
     max = traitlets.Float(1.0).tag(page=True)
     value = traitlets.Tuple((0.0, 1.0)).tag(page=True)

@@ -110,6 +110,7 @@ export class Panel {
     this.units.use(name);
     for (const row of this.rows) row.measure();
     for (const chart of this.charts) chart.window = null; // its ends are round numbers
+    for (const sheet of this.sheets ?? []) sheet.measure();
     this.chosen.value = this.units.name;
     this.ask(true);
   }

@@ -1,20 +1,20 @@
 // What stands on a sheet: an element for each kind of part.  Controls are native elements, every text is a text node.
 import { Row, make } from "./controls.js";
 import { format, parse, pretty } from "./numbers.js";
-import { asDeclared } from "./units.js";
 
 /**
  * @typedef {Record<string, any> & {id: number, kind: string}} State what a part shows
  * @typedef {(done: Record<string, any>, buffers?: ArrayBuffer[]) => void} Say tells what a person has done with it
  * @typedef {{element: HTMLElement, show(state: State): void}} Part
- * @typedef {{say: Say, units: any, look: any, dark(): boolean}} Sheet
+ * @typedef {{say: Say, units: {known: any, of(unit: string): import("./units.js").Shown}, words(text: string): string,
+ *   look: any, dark(): boolean}} Sheet how numbers are shown, and a text with them
  */
 
 /** A line of words, some of which look otherwise. @param {any} line @param {Sheet} sheet @returns {(Node | string)[]} */
 function pieces(line, sheet) {
-  if (typeof line === "string") return [line];
+  if (typeof line === "string") return [sheet.words(line)];
   if (Array.isArray(line)) return line.flatMap((piece) => pieces(piece, sheet));
-  const element = make("span", { class: line.look ? `camkit-${line.look}` : "" }, line.words);
+  const element = make("span", { class: line.look ? `camkit-${line.look}` : "" }, sheet.words(line.words));
   if (line.series === undefined) return [element];
   const bar = make("span", { class: "camkit-colour" });
   bar.style.background = sheet.look.series[sheet.dark() ? "dark" : "light"][line.series % 20];
@@ -69,9 +69,10 @@ export const PARTS = {
   },
 
   number(state, { say, units }) {
-    const row = new Row({ ...state.declared, value: state.value }, asDeclared(units), (value, settled) => say({ value, settled }));
+    const row = new Row({ ...state.declared, value: state.value }, units, (value, settled) => say({ value, settled }));
     return { element: row.element, show({ value, declared, disabled }) {
       row.between(declared.low * declared.factor, declared.high * declared.factor);
+      if (row.unit !== units.of(declared.unit).unit) row.measure();
       row.show(value);
       row.slider.disabled = row.box.disabled = disabled;
     } };
@@ -132,20 +133,21 @@ export const PARTS = {
     const box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", size: 8 });
     const unit = make("span", { class: "camkit-unit" }), refusal = make("div", { class: "camkit-refusal", role: "alert" });
     /** @type {any} */ let state = null;
-    const written = () => format(state.value, ".12g");
+    const shown = () => units.of(state.unit), written = () => format(state.value * shown().ratio, shown().ratio === 1 ? ".12g" : ".6g");
     const take = () => {
       if (box.value === written()) { refusal.textContent = ""; return; }
-      const read = parse(box.value, state.unit, units);
+      const read = parse(box.value, shown().unit, units.known);
       refusal.textContent = read.error ?? "";
-      if (!read.error) say({ value: read.value });
+      if (!read.error) say({ value: read.value / shown().ratio });
     };
     box.addEventListener("change", take);
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
     return { element: make("span", { class: "camkit-amount" }, make("span", { class: "camkit-box" }, box, unit), refusal), show(now) {
       state = now;
       box.value = written(); box.disabled = now.disabled; box.title = now.tooltip;
-      box.setAttribute("aria-label", now.unit ? `${now.description}, ${now.unit}` : now.description);
-      unit.textContent = pretty(now.unit); refusal.textContent = "";
+      const { unit: name } = shown();
+      box.setAttribute("aria-label", name ? `${now.description}, ${name}` : now.description);
+      unit.textContent = pretty(name); refusal.textContent = "";
     } };
   },
 
@@ -162,18 +164,23 @@ export const PARTS = {
     } };
   },
 
-  span(_, { say }) {
+  span(_, { say, units }) {
     const ends = ["least", "greatest"].map((which) => make("input", { type: "range", step: "any", "data-which": which }));
     const told = make("output", {});
     /** @type {any} */ let state = null;
-    const shown = (/** @type {number[]} */ [low, high]) => { told.textContent = `${format(low, ".4g")} to ${format(high, ".4g")}`; };
+    const shown = (/** @type {number[]} */ both) => {
+      const { ratio } = units.of(state.unit), [low, high] = both.map((end) => format(end * ratio, ".4g"));
+      told.textContent = `${low} to ${high}`;
+      ends.forEach((end, k) => end.setAttribute("aria-valuetext", [low, high][k]));
+    };
     const take = () => { const value = ends.map((end) => Number(end.value)).sort((a, b) => a - b); shown(value); say({ value }); };
     for (const end of ends) end.addEventListener("input", take);
     return { element: make("span", { class: "camkit-span" }, ...ends, told), show(now) {
       state = now;
+      const { unit } = units.of(state.unit), name = unit ? `${state.description}, ${unit}` : state.description;
       ends.forEach((end, k) => {
         Object.assign(end, { min: state.min, max: state.max, value: state.value[k], disabled: state.disabled });
-        end.setAttribute("aria-label", `${state.description}, ${end.dataset.which}`);
+        end.setAttribute("aria-label", `${name}, ${end.dataset.which}`);
       });
       shown(state.value);
     } };

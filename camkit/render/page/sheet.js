@@ -26,6 +26,8 @@ export class Sheet {
     Object.assign(this, { root, model, panel, asked: 0, sentAt: 0 });
     const { look, units } = model.get("setting");
     Object.assign(this, { look, units });
+    /** How numbers are shown: as the panel shows its own, if it is a tab of one. */
+    this.shows = { known: units, of: (/** @type {string} */ unit) => this.panel?.units.of(unit) ?? { unit, ratio: 1 } };
     /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
     /** What waits to be sent: the newest of all that is done alike with a part. @type {Map<string, any>} */ this.waiting = new Map();
     root.classList.add("camkit-sheet");
@@ -61,6 +63,18 @@ export class Sheet {
   /** A design of a picture is taken, where no kernel does it. @param {Float64Array} design */
   choose(design) { if (this.model.stored) this.panel?.load(design); }
 
+  /** A text, its numbers in the units that are shown. @param {string} text */
+  words = (text) => this.panel?.units.words(text) ?? text;
+
+  /** Show all numbers in other units. */
+  measure() {
+    for (const { part, text } of this.parts.values()) {
+      if (text) this._show(part, JSON.parse(text));
+      for (const chart of part.charts ?? []) chart.window = null; // its ends are round numbers
+    }
+    this.draw();
+  }
+
   dark = () => {
     const light = document.body.dataset.jpThemeLight;
     return light ? light === "false" : this.system.matches;
@@ -69,7 +83,7 @@ export class Sheet {
   /** What is shown: the state of each part, and of each picture its window and marks in user units. */
   shown() {
     const charts = [...this.parts.values()].flatMap(({ part }) => part.charts ?? []);
-    return { body: this.model.get("body"), pictures: charts.map((chart) => chart.list) };
+    return { body: this.model.get("body"), pictures: charts.map((chart) => chart.shown()) };
   }
 
   /** Show what the kernel says. */
@@ -117,7 +131,7 @@ export class Sheet {
   /** What a part needs of its sheet. @param {number} id */
   _for(id) {
     return {
-      units: this.units, look: this.look, dark: this.dark, sheet: this, id,
+      units: this.shows, words: this.words, look: this.look, dark: this.dark, sheet: this, id,
       say: (/** @type {any} */ done, /** @type {ArrayBuffer[]} */ buffers = []) => {
         const known = this.parts.get(id), key = `${id} ${done.does ?? ""}`; // a click is not lost because a release comes after it
         if (known) known.sent = Infinity;
@@ -168,15 +182,15 @@ const KINDS = {
     } };
   },
 
-  picture(_, { sheet, say, look, dark }) {
+  picture(_, { sheet, say, look, dark, words, units }) {
     const element = make("div", { class: "camkit-pictures" }), tip = make("div", { class: "camkit-tip", hidden: true });
     /** @type {any} */ const part = { element, charts: [] };
     part.draw = () => {
       for (const chart of part.charts) {
         if (!chart.canvas.clientWidth) continue;
         chart.em = parseFloat(getComputedStyle(element).fontSize) / 13;
-        const words = (/** @type {any} */ text) => (typeof text === "string" ? text : fill(text, chart.own));
-        chart.draw(chart.own, { dark: dark(), settled: true, words, low: 165 * chart.em });
+        const said = (/** @type {any} */ text) => words(typeof text === "string" ? text : fill(text, chart.own));
+        chart.draw(chart.own, { dark: dark(), settled: true, words: said, units, low: 165 * chart.em });
         chart.canvas.setAttribute("aria-label", chart.describe());
       }
     };
@@ -262,9 +276,9 @@ function designAt(chart, [px, py], within = 18) {
 /** The place under the pointer, or the values of the curves there. @param {Chart} chart @param {HTMLElement} tip @param {number[]} place */
 function hover(chart, tip, [px, py]) {
   if (!chart.inside(px, py) || chart.picture.axes.bare) { tip.hidden = true; return; }
-  const x = chart.x.back(px), y = chart.y.back(py), round = (/** @type {number} */ v) => format(v, ".4g");
-  const rows = chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.axes.title} ${round(value)}`);
-  tip.textContent = rows.length ? [`at ${round(x)}`, ...rows.slice(0, 8)].join("\n") : `${round(x)}, ${round(y)}`;
+  const x = chart.x.back(px), y = chart.y.back(py), { per } = chart, round = (/** @type {number} */ v) => format(v, ".4g");
+  const rows = chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.axes.title} ${round(value * per.y)}`);
+  tip.textContent = rows.length ? [`at ${round(x * per.x)}`, ...rows.slice(0, 8)].join("\n") : `${round(x * per.x)}, ${round(y * per.y)}`;
   tip.hidden = false;
   tip.style.left = `${chart.canvas.offsetLeft + px + 14}px`; tip.style.top = `${chart.canvas.offsetTop + py + 14}px`;
 }

@@ -16,10 +16,12 @@ const NAME = /[A-Za-zµμ%°]+/g;
 const NUMBER = String.raw`[-\u2212]?\d+(?:\.\d+)?(?:e[+-]\d+)?`;
 const JOINED = String.raw`(?:,? (?:and|to|or|x|\u00D7) |, )`; // numbers that have one unit, as in 3 to 4 mm
 
+const PART = String.raw`(?:mm|cm|m|um|inch|ft|deg|rad|\u00B0|N|kN|lbf|kg|g|lb|Pa|MPa|GPa|psi|W|kW|hp|s|min|h|rpm)(?:\^[-+]?\d+(?:\.\d+)?|[\u00B2\u00B3])?(?![A-Za-z])`;
+/** What a unit looks like in a text: a product of powers, such as N mm or mm/rad\u00B2; "in" is a word. */
+const PRODUCT = `(?:1/)?${PART}(?:[ */]${PART})*`;
+
 /** @typedef {{unit: string, ratio: number}} Shown a unit, and how many of it one of the declared ones is */
 
-/** Every unit as it is declared. @param {any} known the factors and dimensions of units */
-export const asDeclared = (known) => ({ known, of: (/** @type {string} */ unit) => ({ unit, ratio: 1 }) });
 
 export class Units {
   /** @param {any} structure */
@@ -30,8 +32,8 @@ export class Units {
     this.own = named(used);
     this.names = [this.own, ...Object.keys(SYSTEMS).filter((name) => name !== this.own)];
     /** What in a text is a number with a unit. */
-    const units = [...new Set(used.filter(Boolean)), "\u00B0"].sort(longer).map(quoted).join("|");
-    this.said = RegExp(`(?<![\\w.])(${NUMBER}(?:${JOINED}${NUMBER})*) ?(${units})(?![\\w/^])`, "g");
+    const units = [PRODUCT, ...[...new Set(used.filter(Boolean))].sort(longer).map(quoted)].join("|");
+    this.said = RegExp(`(?<![\\w.^])(${NUMBER}(?:${JOINED}${NUMBER})*) ?(${units})(?![\\w/^\u00B2\u00B3])`, "g");
     this.use(this.own);
   }
 
@@ -66,7 +68,7 @@ export class Units {
   words(text) {
     if (this.name === this.own) return text;
     return text.replace(this.said, (whole, numbers, unit) => {
-      const shown = this.of(unit === "\u00B0" ? "deg" : unit);
+      const shown = this.of(unit.replace("\u00B0", "deg"));
       if (shown.ratio === 1) return whole;
       return `${numbers.replace(RegExp(NUMBER, "g"), (/** @type {string} */ number) => rewritten(number, shown.ratio))} ${shown.unit}`;
     });
