@@ -57,7 +57,7 @@ from camkit.panels.kit.parts import Group, Words
 from camkit.panels.kit.runner import time_left
 from camkit.panels.kit.running import RUNNING, Place
 from camkit.panels.kit.search_files import pending
-from camkit.panels.kit.sheet import Sheet
+from camkit.panels.kit.sheet import Sheet, picture_of
 from camkit.quantities import quantities_of, value_of
 from camkit.search.checkpoint import read
 from camkit.search.protocol import Step, search
@@ -907,7 +907,7 @@ def test_what_a_search_shows_from_its_thread_reaches_the_page_at_once_and_whole(
 
     def listen(change):
         value = {part["id"]: part.get("value") for part in inside_of(change.new)}
-        (shown,) = finder.pictures[str(finder.picture.number)]
+        (shown,) = getattr(finder, picture_of(finder.picture))
         points = len(shown["arrays"][shown["picture"]["marks"][0]["x"]["at"]]) // 8
         told.append((threading.current_thread(), value[finder.progress.number], value[finder.status.number], points))
 

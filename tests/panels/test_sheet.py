@@ -9,7 +9,7 @@ import pytest
 from camkit.panels.kit.drawn import LivePicture, nearest
 from camkit.panels.kit.inputs import Amount, Check, Download, Menu, Number, Scale, Span, Typed, Upload, Whole
 from camkit.panels.kit.parts import Banner, Button, Group, Progress, Table, Words, bold, row
-from camkit.panels.kit.sheet import Panel
+from camkit.panels.kit.sheet import Panel, picture_of
 from camkit.quantities import Quantity
 from camkit.views.picture import Axes, Line, Picture
 
@@ -75,7 +75,7 @@ def told(sheet, part):
 
 def test_all_that_a_sheet_tells_is_plain_json_and_its_pictures_are_bytes(sheet):
     json.dumps([sheet.body, sheet.setting])
-    (shown,) = sheet.pictures[str(sheet.picture.number)]
+    (shown,) = getattr(sheet, picture_of(sheet.picture))
     y = np.frombuffer(shown["arrays"][shown["picture"]["marks"][0]["y"]["at"]])
     np.testing.assert_array_equal(y, np.sin(np.linspace(0, 1, 5)))
 
@@ -180,11 +180,27 @@ def test_a_click_has_its_place_in_user_units(sheet):
 
 
 def test_a_picture_that_cannot_be_drawn_leaves_the_last_one(sheet):
-    before = sheet.pictures
+    before = getattr(sheet, picture_of(sheet.picture))
     with pytest.raises(OverflowError, match="farther than can be drawn"):
         sheet.picture.show(1e40)
-    assert sheet.pictures == before
+    assert getattr(sheet, picture_of(sheet.picture)) is before
     assert sheet.picture.shown[0]["wave"].y[-1] == pytest.approx(np.sin(1))
+
+
+def test_a_picture_that_stays_is_not_sent_again(sheet, monkeypatch):
+    other = LivePicture(sheet.picture.views, "another")
+    other.show(1.0)
+    sheet.top.children = (*sheet.top.children, other)
+    sent = []
+    monkeypatch.setattr(sheet, "send_state", lambda key=None: sent.extend([key] if isinstance(key, str) else key))
+    other.show(2.0)
+    assert set(sent) == {picture_of(other), "body"}
+    sent.clear()
+    with sheet.held():
+        sheet.picture.show(2.0)
+        other.show(3.0)
+    assert set(sent) == {picture_of(sheet.picture), picture_of(other), "body"}
+    assert getattr(sheet, picture_of(other)) is other.data
 
 
 def test_nothing_is_nearest_to_a_place_far_from_all():

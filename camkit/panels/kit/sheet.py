@@ -38,16 +38,15 @@ def reason(error: Exception) -> str:
 class Sheet(anywidget.AnyWidget):
     """Parts below each other, pictures beside them where there is room.
 
-    Its ``banner`` says what is impossible.  What the page shows is the trait ``body``, plain JSON, and for each picture
-    its marks in ``pictures``; a change of any part sends them.  What a person does comes as a message, one at a time,
-    and of those that wait the newest.
+    Its ``banner`` says what is impossible.  What the page shows is the trait ``body``, plain JSON, and the marks of
+    each picture in a trait of its own, so that those that stay are not sent again.  What a person does comes as a
+    message, one at a time, and of those that wait the newest.
     """
 
     banner: Banner
     _esm = script("sheet_widget.js")
     _css = STYLE
     body = traitlets.Dict().tag(sync=True)
-    pictures = traitlets.Dict().tag(sync=True)
     setting = traitlets.Dict().tag(sync=True)
     heading = traitlets.Unicode("").tag(sync=True)
 
@@ -61,7 +60,8 @@ class Sheet(anywidget.AnyWidget):
 
     def stored(self) -> dict[str, object]:
         """What it shows, as plain JSON that stands in a file."""
-        return {"body": self.body, "pictures": _in_letters(self.pictures), "heading": self.heading}
+        pictures = {picture_of(p): _in_letters(p.data) for p in self.top.inside() if isinstance(p, LivePicture)}
+        return {"body": self.body, "heading": self.heading, **pictures}
 
     @contextmanager
     def held(self) -> Iterator[None]:
@@ -88,10 +88,17 @@ class Sheet(anywidget.AnyWidget):
                 if isinstance(part, Download):
                     part.send = self.send
             with self.hold_sync():
-                pictures = {str(p.number): p.data for p in parts if isinstance(p, LivePicture)}
-                if pictures != self.pictures:
-                    self.pictures = pictures
+                for part in parts:
+                    if isinstance(part, LivePicture):
+                        self._put_picture(picture_of(part), part.data)
                 self.body = {**self.top.described(), "heard": self._heard}
+
+    def _put_picture(self, name: str, marks: list[dict[str, object]]) -> None:
+        """The trait of a picture, if it is another one; it is sent as soon as it is there."""
+        if name not in self.keys:
+            self.add_traits(**{name: traitlets.List(marks).tag(sync=True)})
+        elif getattr(self, name) is not marks:
+            setattr(self, name, marks)
 
     def _hear(self, message: Message, buffers: Sequence[memoryview]) -> None:
         """A person has done something with a part; it is always answered."""
@@ -105,6 +112,11 @@ class Sheet(anywidget.AnyWidget):
             except Exception as error:  # somebody's own function: the page stays alive
                 self.banner.show_message(f"{raised(error)}.")
             self._heard, self._waits = int(message.get("count", 0)), True
+
+
+def picture_of(part: Part) -> str:
+    """The trait that holds the marks of a picture."""
+    return f"picture_{part.number}"
 
 
 def _in_letters(value: object) -> object:

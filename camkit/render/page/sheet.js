@@ -195,7 +195,7 @@ const KINDS = {
       }
     };
     part.show = (/** @type {any} */ { id, pixels, description, pointing }) => {
-      const made = sheet.model.get("pictures")[id] ?? [];
+      const made = sheet.model.get(`picture_${id}`) ?? [];
       if (made.length !== part.charts.length) {
         part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, () => part.pointing, say, sheet));
         element.replaceChildren(...part.charts.map((/** @type {Chart} */ chart) => chart.canvas), tip);
