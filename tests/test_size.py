@@ -20,7 +20,7 @@ FILE, FUNCTION, MEDIAN, STEPS = 400, 40, 4, 3
 base of the package."""
 
 DEFAULTS = {
-    "CamAnalysis": {"bodies", "form_closed", "offers", "preload", "program", "stretch"},
+    "CamAnalysis": {"bodies", "offers", "preload", "program", "stretch"},
     "FlatAnalysis": {"pitch"},
     "Law": {"kinks", "kinks_move"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},

@@ -25,6 +25,7 @@ from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from . import bodies, statics
 from .force_closure import ContactPair, contact_along
+from .measures import number
 from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
@@ -211,7 +212,7 @@ class CamAnalysis(ABC):
     @property
     def bodies(self) -> tuple[Body, ...]:
         """What is drawn of one design: the cam, and the follower over the turn."""
-        return (*bodies.disk(self, bool(getattr(self, "groove", False))), *self.follower)
+        return (*bodies.disk(self, self.groove), *self.follower)
 
     @property
     @abstractmethod
@@ -287,9 +288,14 @@ class CamAnalysis(ABC):
         return statics.efficiency(self, self.driving_flank)
 
     @property
+    @abstractmethod
+    def groove(self) -> bool:
+        """Whether the follower runs in a groove."""
+
+    @property
     def form_closed(self) -> Value:
-        """Whether the cam holds the follower from both sides and nothing else does: it cannot jump."""
-        return False
+        """Whether a groove alone holds the follower, from both sides, and no spring does: it cannot jump."""
+        return self.groove and number(self.cam.load.spring_rate + self.cam.load.preload) == 0
 
     @cached_property
     def _corners(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -70,6 +70,7 @@ class FlatAnalysis(CamAnalysis):
         drops = (corner.value > 0) & ~np.isnan(found.value)
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
 
+    groove: ClassVar[bool] = False
     curvature_limit: ClassVar[str] = ""
 
     @property

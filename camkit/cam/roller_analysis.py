@@ -105,13 +105,6 @@ class RollerAnalysis(CamAnalysis):
         return bool(getattr(self.cam, "groove", True))
 
     @property
-    def form_closed(self) -> Value:
-        """Whether the groove alone holds the roller: there is no spring."""
-        if not self.groove:
-            return False
-        return number(self.cam.load.spring_rate + self.cam.load.preload) == 0
-
-    @property
     def driving_flank(self) -> Value:
         """The inner flank where the follower goes out; in a groove the outer one where it comes back."""
         return np.where((self.velocity < 0) & self.groove, -1.0, 1.0)

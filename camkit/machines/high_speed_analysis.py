@@ -175,7 +175,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return preload(self.cam.swing, self._rate) if preload else 0.0
 
     @property
-    def way(self) -> Value:
+    def way(self) -> Array:
         """Of the slider that the arm lifts, from its lowest position, m."""
         return self.cam.load.way(self.motion, self.cam.swing)
 

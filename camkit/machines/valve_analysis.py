@@ -155,14 +155,14 @@ class ValveAnalysis(CamAnalysis):
         """Where the cam holds the valve open; on ramp and base circle the lash is open instead."""
         return self.lift >= -ROUNDING
 
-    def force_at(self, speed: Array) -> np.ndarray:
+    def force_at(self, speed: Value) -> np.ndarray:
         """Force between cam and follower along the line of travel with the camshaft at ``speed``, N.
 
         0 where the valve is shut; negative where the follower would have to be pulled: there it jumps.
         """
         return np.where(self.is_open, self.spring_force - self.needed_at(speed), 0 * self.lift)
 
-    def needed_at(self, speed: Array) -> np.ndarray:
+    def needed_at(self, speed: Value) -> np.ndarray:
         """Spring force that keeps the train on the cam at ``speed``, N; negative where the cam lifts it anyway."""
         return np.where(self.is_open, -self.cam.load.mass * speed**2 * self.acceleration, 0 * self.lift)
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from ..geometry import rotated
+from ..extrema import Extreme
+from ..geometry import Body, rotated
+from ..motion import Kinematics
 from ..quantities import Measure
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 from ..units import MPa, deg, mm
 from .cam import ANGLE, bodies
 from .picture import Axes, Band, Circle, Line, Mark, Picture, Points, Polygon, gaps
@@ -18,7 +20,59 @@ SHOWN_RADIUS = (-10, 45)
 """Radii of curvature (mm) that the view shows: where the flank begins they are far larger, and of no concern."""
 
 
-def cam_and_follower(analysis: Any, turn: float = 0.0) -> Picture:
+class Event(Protocol):
+    """A cam that opens something once a turn, at some of its cam angles."""
+
+    @property
+    def cam_angle(self) -> Array: ...
+    @property
+    def turn(self) -> Array: ...
+    @property
+    def lift(self) -> Array: ...
+    @property
+    def in_time(self) -> Kinematics: ...
+    @property
+    def profile(self) -> Array: ...
+    @property
+    def profile_radius(self) -> Array: ...
+    @property
+    def curvature(self) -> Array: ...
+    @property
+    def undercut(self) -> Array: ...
+    @property
+    def is_open(self) -> Array: ...
+    @property
+    def spring_force(self) -> Array: ...
+    @property
+    def contact_stress(self) -> Array: ...
+    @property
+    def cam_torque(self) -> Array: ...
+    @property
+    def bodies(self) -> tuple[Body, ...]: ...
+    @property
+    def flat(self) -> Event: ...
+    @property
+    def roller(self) -> Event: ...
+    def contact_point(self) -> Array: ...
+    def needed_at(self, speed: Value) -> Array: ...
+
+
+class Opening(Protocol):
+    """All of it: the turn, the event, and the design with its nose at ``half_angle``, ramps, follower and load."""
+
+    @property
+    def cam(self) -> Any: ...
+    @property
+    def whole(self) -> Event: ...
+    @property
+    def event(self) -> Event: ...
+    @property
+    def profile_margin(self) -> Extreme: ...
+    @property
+    def top_speed(self) -> Value: ...
+
+
+def cam_and_follower(analysis: Opening, turn: float = 0.0) -> Picture:
     """The whole cam at the cam angle ``turn`` with its follower; trouble: stretches that the follower undercuts."""
     whole, cam = analysis.whole, analysis.cam
     i = np.argmin(abs(_around(whole.cam_angle - turn)))
@@ -57,7 +111,7 @@ def _over_event(
     return Picture.of(Axes(title=title, xlabel=ANGLE, ylabel=ylabel, ylim=ylim), lines, marks)
 
 
-def lift(analysis: Any, turn: float = 0.0) -> Picture:
+def lift(analysis: Opening, turn: float = 0.0) -> Picture:
     """Lift from the start of the flank, negative on the ramps; the dot is at the cam angle ``turn``."""
     event = analysis.event
     x, y = event.cam_angle / deg, event.lift / mm
@@ -68,21 +122,21 @@ def lift(analysis: Any, turn: float = 0.0) -> Picture:
     return _over_event(analysis.cam.half_angle, "Lift", "h  [mm]", curve, dot)
 
 
-def velocity(analysis: Any) -> Picture:
+def velocity(analysis: Opening) -> Picture:
     """Velocity of the follower at the camshaft's speed."""
     event = analysis.event
     curve = Line("velocity", event.cam_angle / deg, event.in_time.v, role="velocity")
     return _over_event(analysis.cam.half_angle, "Velocity", "v  [m/s]", curve)
 
 
-def acceleration(analysis: Any) -> Picture:
+def acceleration(analysis: Opening) -> Picture:
     """Acceleration of the follower at the camshaft's speed."""
     event = analysis.event
     curve = Line("acceleration", event.cam_angle / deg, event.in_time.a, role="acceleration", shaped=True)
     return _over_event(analysis.cam.half_angle, "Acceleration", "a  [m/s^2]", curve)
 
 
-def jerk(analysis: Any) -> Picture:
+def jerk(analysis: Opening) -> Picture:
     """Jerk of the follower at the camshaft's speed."""
     event = analysis.event
     j = event.in_time.j / 1e6
@@ -90,7 +144,7 @@ def jerk(analysis: Any) -> Picture:
     return _over_event(analysis.cam.half_angle, "Jerk", "j  [10^6 m/s^3]", curve)
 
 
-def radius_of_curvature(analysis: Any, limits: Mapping[Measure, float] | None = None) -> Picture:
+def radius_of_curvature(analysis: Opening, limits: Mapping[Measure, float] | None = None) -> Picture:
     """Radius of the cam under a flat face and under the roller, the ``limits`` of its measures, the least of them.
 
     Below 0 a flat face undercuts the cam; where the roller's curve has a gap the cam under it is concave.
@@ -114,7 +168,7 @@ def radius_of_curvature(analysis: Any, limits: Mapping[Measure, float] | None = 
     )
 
 
-def spring_and_inertia(analysis: Any) -> Picture:
+def spring_and_inertia(analysis: Opening) -> Picture:
     """The spring against what inertia asks of it, at the speed and (dashed) with the margin; trouble: a jump."""
     event = analysis.event
     x, spring = event.cam_angle / deg, event.spring_force
@@ -129,7 +183,7 @@ def spring_and_inertia(analysis: Any) -> Picture:
     return _over_event(analysis.cam.half_angle, "Force", "F  [N]", *marks)
 
 
-def stress_over_event(analysis: Any) -> Picture:
+def stress_over_event(analysis: Opening) -> Picture:
     """Largest pressure between cam and follower while it is open; trouble: undercut, where they do not fit."""
     event = analysis.event
     x = event.cam_angle / deg
@@ -142,7 +196,7 @@ def stress_over_event(analysis: Any) -> Picture:
     )
 
 
-def camshaft_torque(analysis: Any) -> Picture:
+def camshaft_torque(analysis: Opening) -> Picture:
     """Torque on the camshaft over a whole turn, without friction: what the spring takes it gives back."""
     whole = analysis.whole
     curve = Line("torque", whole.cam_angle / deg, whole.cam_torque, role="position")

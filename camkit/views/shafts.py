@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Unpack
+from typing import Protocol, Unpack
 
 import numpy as np
 
@@ -19,6 +19,57 @@ REACH, GAP = 0.5, 0.85
 """Half the length of a pin and how far a fork reaches back from it, in lengths of which the middle shaft has 3."""
 
 
+class Joints(Protocol):
+    """The shape of a drive: its first and second joint angle and the phase of its forks, rad; what drives it."""
+
+    @property
+    def first_angle(self) -> Value: ...
+    @property
+    def second_angle(self) -> Value: ...
+    @property
+    def phase(self) -> Value: ...
+    @property
+    def speed(self) -> Value: ...
+    @property
+    def torque(self) -> Value: ...
+
+
+class Lead(Protocol):
+    """How far a shaft is ahead of the one that drives it, rad."""
+
+    @property
+    def lead(self) -> Value: ...
+
+
+class Drive(Protocol):
+    """Three shafts over a turn of the first."""
+
+    @property
+    def drive(self) -> Joints: ...
+    @property
+    def first(self) -> Lead: ...
+    @property
+    def lead(self) -> Value: ...
+    @property
+    def input_angle(self) -> Array: ...
+    @property
+    def intermediate_angle(self) -> Value: ...
+    @property
+    def output_angle(self) -> Value: ...
+    @property
+    def intermediate_speed(self) -> Value: ...
+    @property
+    def output_speed(self) -> Value: ...
+    @property
+    def intermediate_torque(self) -> Value: ...
+    @property
+    def output_torque(self) -> Value: ...
+    @property
+    def input_couple(self) -> Value: ...
+    @property
+    def output_couple(self) -> Value: ...
+
+
 def _direction(slope: Value) -> np.ndarray:
     """Of a shaft that falls by ``slope`` (rad) to the right."""
     return np.stack([np.cos(slope), 0 * slope, -np.sin(slope)])
@@ -30,7 +81,7 @@ def _pin(axis: np.ndarray, angle: Value) -> np.ndarray:
     return np.cos(angle) * upright + np.sin(angle) * ACROSS
 
 
-def pins(analysis: Any, i: np.intp) -> dict[str, np.ndarray]:
+def pins(analysis: Drive, i: np.intp) -> dict[str, np.ndarray]:
     """Directions of the four pins at the input angle ``i``: of each shaft at each joint, as they stand in space."""
     drive, quarter = analysis.drive, np.pi / 2
     angles = analysis.input_angle, analysis.intermediate_angle, analysis.output_angle
@@ -45,7 +96,7 @@ def pins(analysis: Any, i: np.intp) -> dict[str, np.ndarray]:
     }
 
 
-def drive(analysis: Any, turn: float = 0.0, azimuth: float = -75 * deg, elevation: float = 25 * deg) -> Picture:
+def drive(analysis: Drive, turn: float = 0.0, azimuth: float = -75 * deg, elevation: float = 25 * deg) -> Picture:
     """The three shafts with their forks and crosses, the input shaft turned by ``turn`` (rad)."""
     pin = pins(analysis, np.argmin(abs(analysis.input_angle - turn)))
     joints = np.array([[-1.5, 0, 0], [1.5, 0, 0]])
@@ -87,25 +138,25 @@ def _over_a_turn(angle: Array, title: str, ylabel: str, curves: Mapping[str, Val
     return Picture.of(Axes(title=title, xlabel="input angle  [deg]", ylabel=ylabel), marks)
 
 
-def speeds(analysis: Any) -> Picture:
+def speeds(analysis: Drive) -> Picture:
     """Speeds of the three shafts over a turn of the input shaft, which turns evenly."""
     n = (analysis.drive.speed, analysis.intermediate_speed, analysis.output_speed)
     return _over_a_turn(analysis.input_angle, "Speed", "n  [rpm]", {k: v / rpm for k, v in zip(ROLE, n, strict=True)})
 
 
-def leads(analysis: Any) -> Picture:
+def leads(analysis: Drive) -> Picture:
     """How far the intermediate and the driven shaft are ahead of the input shaft."""
     lead = {"intermediate": analysis.first.lead / deg, "driven": analysis.lead / deg}
     return _over_a_turn(analysis.input_angle, "Lead", "angle  [deg]", lead)
 
 
-def torques(analysis: Any) -> Picture:
+def torques(analysis: Drive) -> Picture:
     """Torque in the intermediate shaft at its driven end and in the driven shaft; that of the input shaft is even."""
     torque = (analysis.drive.torque, analysis.intermediate_torque, analysis.output_torque)
     return _over_a_turn(analysis.input_angle, "Torque", "T  [N m]", dict(zip(ROLE, torque, strict=True)))
 
 
-def couples(analysis: Any) -> Picture:
+def couples(analysis: Drive) -> Picture:
     """Secondary couples: what the torque that goes round a corner puts on the bearings of the outer shafts."""
     couple = {"input": analysis.input_couple, "driven": analysis.output_couple}
     return _over_a_turn(analysis.input_angle, "Couple", "C  [N m]", couple)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
 
 from ..geometry import circle
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
+from ..study.design_map import DesignMap
 from ..units import mm, percent
 from .design_map import design_plane, units_of
 from .picture import Axes, Band, Line, Mark, Picture, Points, Polygon, Text, gaps
@@ -16,7 +18,33 @@ MOST = 125.0
 """A bar ends here, percent of its limit."""
 
 
-def plane_of_sizes(analysis: Any) -> Picture:
+class Plane(Protocol):
+    """A plane of two sizes: its map, what is for sale, and the optimum in closed form, ``(2,)``."""
+
+    @property
+    def plane(self) -> DesignMap: ...
+    @property
+    def limit_names(self) -> Sequence[str]: ...
+    @property
+    def catalogue(self) -> Mapping[str, Array]: ...
+    @property
+    def closed_form(self) -> Array: ...
+
+
+class Sized(Protocol):
+    """A design of two sizes, ``here`` ``(2,)``, and how far it uses up each limit."""
+
+    @property
+    def sizes(self) -> Plane: ...
+    @property
+    def here(self) -> Array: ...
+    @property
+    def utilisation(self) -> Mapping[str, Value]: ...
+    @property
+    def rings(self) -> Mapping[str, Array]: ...
+
+
+def plane_of_sizes(analysis: Sized) -> Picture:
     """The plane of two sizes: limits, a catalogue, the optimum, and this design; trouble: it misses a limit."""
     found = analysis.sizes
     units = units_of(found.plane)
@@ -37,7 +65,7 @@ def plane_of_sizes(analysis: Any) -> Picture:
     )
 
 
-def utilisation(analysis: Any) -> Picture:
+def utilisation(analysis: Sized) -> Picture:
     """What each limit is used up by, as bars; the limit is at 100 %."""
     used = analysis.utilisation
     marks: list[Mark] = [Band("limit", 100, 100, role="limit", along="y")]
@@ -56,7 +84,7 @@ def utilisation(analysis: Any) -> Picture:
     return Picture.of(axes, marks)
 
 
-def section(analysis: Any) -> Picture:
+def section(analysis: Sized) -> Picture:
     """The section to scale, a ring, with what it is compared with dashed; ``nan``: there is no such ring."""
     (_, own), *others = analysis.rings.items()
     outer, inner = (circle((0, 0), diameter / mm / 2) for diameter in own)

@@ -6,9 +6,9 @@ link breaks.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any, Unpack
+from typing import Any, Protocol, Unpack
 
 import numpy as np
 
@@ -27,13 +27,93 @@ GRID = 50.0
 """Width of a square of the floor, mm."""
 
 
+class Box(Protocol):
+    """A space for the links, or without them, and how deep in it or how far from it a chain of points is, m."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def low(self) -> tuple[float, float, float]: ...
+    @property
+    def high(self) -> tuple[float, float, float]: ...
+    def depth(self, points: Array) -> Array: ...
+    def clearance(self, start: Array, end: Array) -> Array: ...
+
+
+class Linkage(Protocol):
+    """A crank and a rocker about axes in space: where these are, and where the crank can go."""
+
+    @property
+    def crank(self) -> Value: ...
+    @property
+    def rocker(self) -> Value: ...
+    @property
+    def crank_root(self) -> Array: ...
+    @property
+    def crank_axis(self) -> Array: ...
+    @property
+    def rocker_root(self) -> Array: ...
+    @property
+    def rocker_axis(self) -> Array: ...
+    @property
+    def all_limit_angles(self) -> Array: ...
+    def crank_direction(self, angle: Value) -> Array: ...
+    def rocker_direction(self, angle: Value) -> Array: ...
+    def assembles(self, crank_angle: Value) -> Array: ...
+
+
+class Linked(Protocol):
+    """A linkage at some crank angles, assembled in one of its two ways."""
+
+    @property
+    def linkage(self) -> Linkage: ...
+    @property
+    def load(self) -> Any: ...
+    @property
+    def branch(self) -> int: ...
+    @property
+    def crank_angle(self) -> Array: ...
+    @property
+    def rocker_angle(self) -> Array: ...
+    @property
+    def chain(self) -> Array: ...
+    @property
+    def crank_joint(self) -> Array: ...
+    @property
+    def rocker_joint(self) -> Array: ...
+    @property
+    def crank_motion(self) -> Array: ...
+    @property
+    def rocker_motion(self) -> Array: ...
+    @property
+    def coupler_direction(self) -> Array: ...
+    @property
+    def crank_pressure_angle(self) -> Array: ...
+    @property
+    def rocker_pressure_angle(self) -> Array: ...
+    @property
+    def ratio(self) -> Array: ...
+    @property
+    def acceleration_ratio(self) -> Array: ...
+    @property
+    def crank_torque(self) -> Array: ...
+    @property
+    def resisting_torque(self) -> Array: ...
+    @property
+    def coupler_force(self) -> Array: ...
+    @property
+    def rocker_bearing_force(self) -> Array: ...
+    def at(self, crank_angle: float, branch: int | None = None) -> Linked: ...
+    def one_turn(self, branch: int | None = None) -> Linked: ...
+
+
 def linkage_in_space(
-    analysis: Any,
+    analysis: Linked,
     turn: float | None = None,
     azimuth: float = -60 * deg,
     elevation: float = 25 * deg,
-    inside: Any = None,
-    outside: Any = None,
+    inside: Box | None = None,
+    outside: Box | None = None,
 ) -> Picture:
     """The linkage at crank angle ``turn``, seen from ``azimuth`` and ``elevation`` (rad), the rocker's axis upright.
 
@@ -62,17 +142,17 @@ def _middle(crank_angle: Array) -> float:
     return float(crank_angle[[0, -1]].mean())
 
 
-def crank_circle(linkage: Any, angle: Value) -> np.ndarray:
+def crank_circle(linkage: Linkage, angle: Value) -> np.ndarray:
     """Places of the crank's ball joint, mm."""
     return (linkage.crank_root[:, None] + linkage.crank * linkage.crank_direction(angle)) / mm
 
 
-def rocker_circle(linkage: Any, angle: Value) -> np.ndarray:
+def rocker_circle(linkage: Linkage, angle: Value) -> np.ndarray:
     """Places of the rocker's ball joint, mm."""
     return (linkage.rocker_root[:, None] + linkage.rocker * linkage.rocker_direction(angle)) / mm
 
 
-def scene_of(linkage: Any, boxes: Any, azimuth: float, elevation: float) -> Turntable:
+def scene_of(linkage: Linkage, boxes: Sequence[Box], azimuth: float, elevation: float) -> Turntable:
     """A turntable that holds both circles whole, so that nothing jumps while the crank turns, and the boxes."""
     corners = (np.transpose(list(product(*zip(box.low, box.high, strict=True)))) / mm for box in boxes)
     points = np.hstack([crank_circle(linkage, CIRCLE), rocker_circle(linkage, CIRCLE), *corners])
@@ -83,7 +163,7 @@ def scene_of(linkage: Any, boxes: Any, azimuth: float, elevation: float) -> Turn
     return Turntable(np.stack([x, np.cross(up, x), up]), centre, radius, depth, azimuth, elevation)
 
 
-def _ground(scene: Turntable, here: Any) -> None:
+def _ground(scene: Turntable, here: Linked) -> None:
     """Floor, shadows, plumb lines, and both axes."""
     chain, linkage = here.chain[..., 0] / mm, here.linkage
     scene.floor("floor", GRID)
@@ -98,7 +178,7 @@ def _ground(scene: Turntable, here: Any) -> None:
         scene.axis(name, root / mm, 0.4 * scene.radius * axis, label=name, **style)
 
 
-def _sweeps(scene: Turntable, analysis: Any) -> None:
+def _sweeps(scene: Turntable, analysis: Linked) -> None:
     """Both circles, what is swept of them, and where the crank cannot go."""
     linkage = analysis.linkage
     for name, circle, swept, root, style in (
@@ -115,13 +195,13 @@ def _sweeps(scene: Turntable, analysis: Any) -> None:
     scene.put(5.0, Points("limits", x, y, role="trouble", size=6))
 
 
-def _box(scene: Turntable, box: Any, kept: np.bool_) -> None:
+def _box(scene: Turntable, box: Box, kept: np.bool_) -> None:
     low, high = np.divide(box.low, mm), np.divide(box.high, mm)
     scene.box(box.name, low, high, kept, role="guide", stroke="thin", label=box.name)
     scene.box(f"{box.name}, broken", low, high, ~kept, role="trouble", stroke="thin")
 
 
-def _leaf(scene: Turntable, here: Any) -> None:
+def _leaf(scene: Turntable, here: Linked) -> None:
     """A leaf that turns with the rocker, where the load's centre of gravity is."""
     linkage, size = here.linkage, 0.9 * scene.radius
     along = linkage.rocker_direction(here.rocker_angle + here.load.mass_angle)[:, 0]
@@ -131,7 +211,7 @@ def _leaf(scene: Turntable, here: Any) -> None:
     scene.face("leaf", corners, at=3.5, role="flank", opacity=0.18, edged=True)
 
 
-def _links(scene: Turntable, here: Any) -> None:
+def _links(scene: Turntable, here: Linked) -> None:
     """Crank, coupler and rocker, and faintly the coupler and the rocker of the other branch."""
     root, b, c, hinge = np.moveaxis(here.chain[..., 0] / mm, 1, 0)
     other = here.at(here.crank_angle[0], -here.branch).rocker_joint[:, 0] / mm
@@ -149,7 +229,7 @@ def _links(scene: Turntable, here: Any) -> None:
         scene.ball(name, point, 12, fill="paper")
 
 
-def _pressure_angles_at(scene: Turntable, here: Any) -> None:
+def _pressure_angles_at(scene: Turntable, here: Linked) -> None:
     """At each ball joint the way it moves, and the angle between that and the coupler."""
     size = 0.34 * scene.radius
     for sign, joint, motion, angle, style, name in (
@@ -190,7 +270,7 @@ def _swept(title: str, ylabel: str, ylim: tuple[float, float] | None = None) -> 
     return Axes(title=title, xlabel="crank angle  [deg]", ylabel=ylabel, ylim=ylim)
 
 
-def output_angle(analysis: Any, turn: float | None = None) -> Picture:
+def output_angle(analysis: Linked, turn: float | None = None) -> Picture:
     """Rocker angle over one turn of the crank, both branches; bold is the sweep, shaded where the crank cannot go."""
     own, other = analysis.one_turn(), analysis.one_turn(-analysis.branch)
     x = own.crank_angle[:, 0] / deg
@@ -218,7 +298,9 @@ def _unbroken(angle: Array) -> np.ndarray:
     return gaps(shown, np.append(abs(np.diff(shown)) < 180, True))
 
 
-def pressure_angles(analysis: Any, turn: float | None = None, limits: Mapping[Measure, float] | None = None) -> Picture:
+def pressure_angles(
+    analysis: Linked, turn: float | None = None, limits: Mapping[Measure, float] | None = None
+) -> Picture:
     """Both pressure angles over the sweep, with the ``limits`` of their measures; without any, none is shown."""
     allowed = {value / deg for measure, value in (limits or {}).items() if "pressure angle" in measure.name}
     x = analysis.crank_angle
@@ -230,20 +312,20 @@ def pressure_angles(analysis: Any, turn: float | None = None, limits: Mapping[Me
     )
 
 
-def velocity_ratio(analysis: Any, turn: float | None = None) -> Picture:
+def velocity_ratio(analysis: Linked, turn: float | None = None) -> Picture:
     """Rocker's speed over the crank's."""
     curve, dot = _curve("ratio", analysis.crank_angle, analysis.ratio, turn, named=False, role="velocity")
     return Picture.of(_swept("Velocity ratio", "dφ₃/dφ₁  [-]"), curve, dot)
 
 
-def acceleration_ratio(analysis: Any, turn: float | None = None) -> Picture:
+def acceleration_ratio(analysis: Linked, turn: float | None = None) -> Picture:
     """Rocker's angular acceleration over the square of the crank's speed."""
     y = analysis.acceleration_ratio
     marks = _curve("acceleration", analysis.crank_angle, y, turn, named=False, role="acceleration")
     return Picture.of(_swept("Acceleration ratio", "d²φ₃/dφ₁²  [1/rad]"), marks)
 
 
-def torques(analysis: Any, turn: float | None = None) -> Picture:
+def torques(analysis: Linked, turn: float | None = None) -> Picture:
     """Torque that turns the crank, and torque with which the rocker resists."""
     return Picture.of(
         _swept("Torque", "M  [N m]"),
@@ -252,7 +334,7 @@ def torques(analysis: Any, turn: float | None = None) -> Picture:
     )
 
 
-def forces(analysis: Any, turn: float | None = None) -> Picture:
+def forces(analysis: Linked, turn: float | None = None) -> Picture:
     """Force along the coupler, compression positive (the crank's bearing carries as much), and on the hinge."""
     hinge = np.linalg.norm(analysis.rocker_bearing_force, axis=0)
     return Picture.of(
