@@ -22,10 +22,9 @@ base of the package."""
 DEFAULTS = {
     "CamAnalysis": {"bodies", "offers", "preload", "program", "stretch"},
     "FlatAnalysis": {"pitch"},
-    "Law": {"kinks", "kinks_move"},
+    "Kinked": {"kinks", "kinks_move"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
     "SlidingAnalysis": {"start_height"},
-    "Segment": {"kinks", "kinks_move", "still"},
 }
 """What a base computes as most of its kinds have it, and some of them in their own way, by name on purpose."""
 

@@ -35,7 +35,21 @@ class Peaks(NamedTuple):
     Cj: Value
 
 
-class Law(Declared, ABC):
+class Kinked:
+    """A motion over ``u`` from 0 to 1, smooth throughout where it does not say otherwise."""
+
+    @property
+    def kinks(self) -> tuple[Value, ...]:
+        """The ``u`` inside (0, 1), in order, at which a derivative up to the jerk may jump or have a corner."""
+        return ()
+
+    @property
+    def kinks_move(self) -> bool:
+        """Whether the kinks stand elsewhere for other parameters."""
+        return False
+
+
+class Law(Kinked, Declared, ABC):
     """A rise of 1 over ``u`` from 0 to 1; every law is a small frozen dataclass with its formula in ``at``.
 
     Laws are equal and hashed by value.  A parameter that is declared (`quantity`) has a path in every design that holds
@@ -50,16 +64,6 @@ class Law(Declared, ABC):
     @abstractmethod
     def continuity(self) -> int:
         """Highest derivative without a jump where the law meets a dwell: 1 velocity, 2 acceleration, 3 jerk."""
-
-    @property
-    def kinks(self) -> tuple[Value, ...]:
-        """The ``u`` inside (0, 1), in order, at which a derivative up to the jerk may jump or have a corner."""
-        return ()
-
-    @property
-    def kinks_move(self) -> bool:
-        """Whether the kinks stand elsewhere for other parameters of the law."""
-        return False
 
     def __call__(self, u: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``u`` (any shape), derivatives with respect to ``u``; ``nan`` outside [0, 1]."""

@@ -19,7 +19,7 @@ from .families.plain import HALF_LAWS, LAWS
 from .families.shaped import ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw
-from .law import Kinematics, Law
+from .law import Kinematics, Kinked, Law
 
 LAW_MENU: tuple[Law, ...] = (
     *LAWS,
@@ -39,7 +39,7 @@ SMALLEST = 1e-150
 LAW = Choice("law", Cycloidal(), LAW_MENU, "motion law of the segment")
 
 
-class Segment(Declared, ABC):
+class Segment(Kinked, Declared, ABC):
     """A part of a program over some cam ``angle`` (rad); paths call it by its ``name``, if it has one."""
 
     angle: Value
@@ -51,19 +51,9 @@ class Segment(Declared, ABC):
         """What the segment adds to the level."""
 
     @property
-    def kinks(self) -> tuple[Value, ...]:
-        """The shares of the segment at which its motion may jump or have a corner."""
-        return ()
-
-    @property
-    def kinks_move(self) -> bool:
-        """Whether they stand elsewhere in other designs."""
-        return False
-
-    @property
+    @abstractmethod
     def still(self) -> bool:
         """Whether the follower rests."""
-        return False
 
     @abstractmethod
     def motion(self, u: Array) -> Kinematics:
