@@ -125,10 +125,6 @@ def refuse_unmeasured(design: object, measures: Iterable[Measure], what: str) ->
                 )
 
 
-def _italic(symbol: str) -> Html:
-    return html("<i>{}</i>", letters(symbol))
-
-
 def _left(text: str) -> Html:
     """A cell whose text begins at its left edge."""
     return html("<div style='text-align:left'>{}</div>", text)
