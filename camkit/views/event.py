@@ -190,7 +190,7 @@ def stress_over_event(analysis: Opening) -> Picture:
     return _over_event(
         analysis.cam.half_angle,
         "Contact stress",
-        "p_0  [MPa]",
+        "p₀  [MPa]",
         Line("stress", x, gaps(event.contact_stress / MPa, event.is_open), role="position"),
         Line("undercut", x, gaps(0 * x, event.undercut), role="trouble"),
     )

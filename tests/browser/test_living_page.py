@@ -1,6 +1,7 @@
 """A design as one file: what the page computes and draws is what the package computes, and names stay names."""
 
 import gzip
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -124,6 +125,62 @@ def test_a_page_refuses_in_the_words_of_the_package(opened):
     page.keyboard.press("Control+z")
     page.wait_for_function("() => !camkit.sentence && !camkit.frame")
     assert page.evaluate(SHOWN) == before
+
+
+GUILTY = """() => [...document.querySelectorAll(".camkit-guilty")].map((row) =>
+    row.querySelector("label, span").textContent.trim())"""
+
+
+def test_what_a_design_cannot_be_built_with_is_marked(opened):
+    page = opened(MACHINES["door handle"])
+    for name, value in (("lift start angle", "24"), ("lift arm", "400")):
+        box = page.get_by_label(f"{name}, {'deg' if 'angle' in name else 'mm'}, number")
+        box.fill(value)
+        box.press("Enter")
+        page.wait_for_function(DRAWN)
+    assert [row.partition(" l")[0] for row in page.evaluate(GUILTY)] == ["lift arm"]
+    assert page.locator(".camkit-over").is_visible()
+    assert page.get_by_label("lift arm, mm", exact=True).get_attribute("aria-invalid") == "true"
+    box = page.get_by_label("lift start angle, deg, number")
+    box.fill("25")  # which is none the worse: the arm stays the guilty one
+    box.press("Enter")
+    page.wait_for_function(DRAWN)
+    assert [row.partition(" l")[0] for row in page.evaluate(GUILTY)] == ["lift arm"]
+    page.evaluate("camkit.positions.turnTo(30)")
+    page.wait_for_function(DRAWN)
+    assert [row.partition(" l")[0] for row in page.evaluate(GUILTY)] == ["lift arm"]
+    for _ in range(2):
+        page.keyboard.press("Control+z")
+    page.wait_for_function("() => !camkit.sentence && !camkit.frame")
+    assert page.evaluate(GUILTY) == []
+    page.keyboard.press("Control+y")  # nobody has touched a slider
+    page.wait_for_function("() => camkit.sentence && !camkit.frame")
+    assert [row.partition(" l")[0] for row in page.evaluate(GUILTY)] == ["lift arm"]
+
+
+def test_a_menu_whose_choice_is_refused_is_marked_until_nothing_is_said(opened):
+    page = opened(MACHINES["roller"])
+    page.evaluate("""() => {
+        const host = { changed() {}, choose() { other.say("This law cannot stand here."); }, reset() {} };
+        window.other = new camkit.constructor(document.body.appendChild(document.createElement("div")),
+            { ...camkit.structure, files: [] }, camkit.engine, host);
+        document.querySelectorAll("details").forEach((group) => { group.open = true; }); }""")
+    menu = page.get_by_role("combobox", name="motion rise law")
+    before = menu.input_value()
+    menu.select_option("modified sine")
+    assert page.evaluate(GUILTY) == ["motion rise law"]
+    assert menu.input_value() == before
+    page.evaluate("other.say('')")
+    assert page.evaluate(GUILTY) == []
+
+
+def test_words_in_small_pictures_do_not_cross(opened):
+    page = opened(MACHINES["high speed"])
+    several = [spots for spots in page.evaluate("camkit.charts.map((chart) => chart.spots ?? [])") if len(spots) > 1]
+    assert several
+    for spots in several:
+        for (left, right, up), (other, end, at) in itertools.combinations(spots, 2):
+            assert right <= other or end <= left or abs(up - at) >= 10
 
 
 def test_a_text_that_is_no_number_is_refused_in_place(opened):

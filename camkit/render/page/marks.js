@@ -108,6 +108,15 @@ export const FORMS = {
   },
 };
 
+/** How far down words stand in a small picture so that they are not across those that it has already.
+ * @param {Chart} chart @param {number} left @param {number} wide @param {number} q @param {number} tall */
+function below(chart, left, wide, q, tall) {
+  if (chart.spotsOf !== chart.list) Object.assign(chart, { spotsOf: chart.list, spots: [] }); // drawn anew
+  while (chart.spots.some((/** @type {number[]} */ [from, to, at]) => left < to + 4 && left + wide > from - 4 && Math.abs(q - at) < tall)) q += tall;
+  chart.spots.push([left, left + wide, q]);
+  return q;
+}
+
 /** How each kind of mark is drawn; what it gives stands in the display list, in user units.
  * @type {Record<string, (chart: Chart, mark: Mark, outputs: ArrayLike<number>[], tint: string) => object>} */
 export const DRAW = {
@@ -162,7 +171,8 @@ export const DRAW = {
     const { pen, box } = chart, [x, y] = [one(mark.x, outputs), one(mark.y, outputs)], words = chart.how.words(mark.words);
     const small = chart.compact && !chart.axes.equal && !chart.axes.bare; // there is room for one line above a curve
     let p = chart.x(x);
-    const q = chart.y(y), at = mark.anchor.split(" "), size = mark.size * (small ? 1 : 1.1) * chart.em;
+    let q = chart.y(y);
+    const at = mark.anchor.split(" "), size = mark.size * (small ? 1 : 1.1) * chart.em;
     if (!real(p) || !real(q)) return { x: [x], y: [y], words: "" };
     const across = at.includes("left") ? "left" : at.includes("right") ? "right" : "center";
     const upright = at.includes("top") ? "top" : at.includes("bottom") ? "bottom" : "middle";
@@ -173,6 +183,7 @@ export const DRAW = {
     if (small) {
       const before = across === "left" ? 0 : across === "right" ? wide : wide / 2;
       p = Math.max(Math.min(p, box.right - wide + before), box.left + before);
+      q = below(chart, p - before, wide, q, tall);
     }
     if (mark.boxed || mark.framed) {
       const left = across === "left" ? p : across === "right" ? p - wide : p - wide / 2;

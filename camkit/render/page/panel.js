@@ -124,7 +124,7 @@ export class Panel {
   }
 
   /** Say something in a line of its own, or nothing. @param {string} sentence */
-  say(sentence) { this.note.textContent = sentence; this.note.hidden = !sentence; }
+  say(sentence) { this.note.textContent = sentence; this.note.hidden = !sentence; this.quantities.blameChoice(Boolean(sentence)); }
 
   /** Pictures that do not compute, made anew. @param {Record<string, any>} pictures @param {ArrayLike<number>[]} arrays */
   redraw(pictures, arrays) {
@@ -303,7 +303,7 @@ export class Panel {
     this._refuse(refused);
     this.undoing.setAttribute("aria-disabled", String(!this.history.past.length));
     this.redoing.setAttribute("aria-disabled", String(!this.history.future.length));
-    if (!refused) this.outputs = outputs;
+    if (!refused) Object.assign(this, { outputs, built: this.values.slice() });
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
     if (settled) this.letter = parseFloat(getComputedStyle(this.root).fontSize);
@@ -337,13 +337,21 @@ export class Panel {
 
   /** The sentence over the last good picture. @param {string} sentence */
   _refuse(sentence) {
+    if (sentence || this.sentence) this.quantities.blame(sentence ? this._guilty() : []);
     const said = sentence && `This cannot be built: ${this.units.words(sentence)}.`;
     if (this.over.textContent === said) return;
     this.sentence = sentence;
     this.over.textContent = said;
     this.over.hidden = !sentence;
     this.root.classList.toggle("camkit-refused", Boolean(sentence));
-    this.rows.forEach((row, k) => row.element.classList.toggle("camkit-guilty", Boolean(sentence) && k === this.last));
+  }
+
+  /** Quantities that are not as in the last design that could be built: those of which one alone would do, if taken back. */
+  _guilty() {
+    const { values, built, around, history: { count } } = this, every = [...values.keys()].slice(0, count);
+    const other = built ? every.filter((k) => values[k] !== built[k]) : [this.last];
+    const alone = around && other.length > 1 ? other.filter((k) => around.at(values, k, built[k])) : [];
+    return alone.length ? alone : other;
   }
 
   /** Measures as numbers, limits as chips. @param {ArrayLike<number>[]} outputs @param {boolean} settled */

@@ -11,7 +11,8 @@ export class Quantities {
     this.declared = structure.quantities;
     this.rows = this.declared.map((/** @type {any} */ quantity, /** @type {number} */ k) =>
       new Row({ ...quantity }, units, (value, settled) => moved(k, value, settled)));
-    this.choices = structure.choices.map((/** @type {any} */ choice) => menuOf(choice, choose));
+    /** The menu that was used last. @type {HTMLElement | null} */ this.chosen = null;
+    this.choices = structure.choices.map((/** @type {any} */ choice) => menuOf(choice, choose, (menu) => { this.chosen = menu; }));
     const free = this.rows.map((/** @type {Row} */ row, /** @type {number} */ k) => [this.declared[k].group, row]);
     this.groups = folded(free.filter((/** @type {any} */ _, /** @type {number} */ k) => this.declared[k].free));
     if (this.choices.length) {
@@ -35,6 +36,23 @@ export class Quantities {
     return seen.map((k) => [k, away(k)]).sort((a, b) => a[1] - b[1]).map(([k]) => k);
   }
 
+  /** Mark what a design cannot be built with: a group that is folded opens. @param {number[]} guilty places of rows */
+  blame(guilty) {
+    this.rows.forEach((row, k) => {
+      const { element, slider } = row, is = guilty.includes(k), group = element.closest("details");
+      if (element.classList.contains("camkit-guilty") === is) return;
+      element.classList.toggle("camkit-guilty", is);
+      slider.setAttribute("aria-invalid", String(is));
+      if (is && group) group.open = true;
+    });
+  }
+
+  /** Mark the menu whose last choice was refused, or none any more. @param {boolean} refused */
+  blameChoice(refused) {
+    this.chosen?.classList.toggle("camkit-guilty", refused);
+    if (!refused) this.chosen = null;
+  }
+
   _filter() {
     const wanted = this.find.value.trim().toLowerCase(), has = (/** @type {string} */ text) => text.toLowerCase().includes(wanted);
     this.declared.forEach((/** @type {any} */ q, /** @type {number} */ k) => {
@@ -50,11 +68,12 @@ export class Quantities {
 }
 
 /** A menu; what nobody takes stays as it is. @param {{path: string, name: string, options: string[], chosen: string}} choice
- * @param {((path: string, option: string) => void) | null} choose */
-function menuOf({ path, name, options, chosen }, choose) {
+ * @param {((path: string, option: string) => void) | null} choose @param {(row: HTMLElement) => void} used */
+function menuOf({ path, name, options, chosen }, choose, used) {
   if (!choose) return make("div", { class: "camkit-choice" }, make("span", {}, name), make("b", {}, chosen));
   const offered = options.includes(chosen) ? options : [chosen, ...options];
-  const menu = make("select", { "aria-label": name, "data-asks": true, onchange: () => { choose(path, menu.value); menu.value = chosen; } },
+  const menu = make("select", { "aria-label": name, "data-asks": true, onchange: () => { used(row); choose(path, menu.value); menu.value = chosen; } },
     ...offered.map((option) => make("option", { value: option, selected: option === chosen }, option)));
-  return make("label", { class: "camkit-choice" }, make("span", {}, name), menu);
+  const row = make("label", { class: "camkit-choice" }, make("span", {}, name), menu);
+  return row;
 }
