@@ -24,10 +24,10 @@ PRESSES, SECONDS, MOVES = 24, 5, 2000
 
 CELLS = [
     """
-from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, instrument
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore
 
 study = door_handle_study(DoorHandleCam(lift_load=ArmLoad(torque=10)))
-app = instrument(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
+app = explore(study.start, at_most=study.at_most, at_least=study.at_least, turn=75 * deg)
 app""",
     """
 import matplotlib.pyplot as plt

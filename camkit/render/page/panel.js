@@ -25,7 +25,8 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 /**
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
- *   reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what stands behind the page, if anything does
+ *   reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what
+ *   stands behind the page, if anything does
  */
 
 export class Panel {

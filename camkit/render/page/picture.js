@@ -190,7 +190,8 @@ export class Chart {
     for (let k = 0; k < x.length; k++) if (real(x[k]) && real(y[k])) there.push(k);
     if (!there.length) return;
     const i = there[there.length >> 1];
-    const font = pen.font = this.font(11, 600), left = Math.min(this.x(x[i]) + 9, box.right - widthOf(font, words)), up = Math.max(this.y(y[i]) - 9, box.top + 8 * em);
+    const font = pen.font = this.font(11, 600), left = Math.min(this.x(x[i]) + 9, box.right - widthOf(font, words));
+    const up = Math.max(this.y(y[i]) - 9, box.top + 8 * em);
     pen.textAlign = "left"; pen.textBaseline = "middle"; pen.lineWidth = 3; pen.setLineDash([]);
     pen.strokeStyle = this.colour("paper"); pen.strokeText(words, left, up);
     pen.fillStyle = this.ink("trouble"); pen.fillText(words, left, up);
