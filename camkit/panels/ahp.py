@@ -21,7 +21,7 @@ from .kit.sheet import Panel
 Pair = tuple[int, int]
 
 HINT = (
-    "A knob stands nearer to what matters more. "
+    "A knob stands nearer to what matters more: 1 equally, 3 moderately, 5 strongly, 7 very strongly, 9 extremely. "
     "A box takes any number or fraction: 3, 1/5, 0.4. Leave it empty where you cannot judge."
 )
 

@@ -22,7 +22,7 @@ from .kit.front_picker import FrontChoice, designs_on, objective_texts
 from .kit.inputs import Menu, Whole
 from .kit.parts import Part, Table, Words
 from .kit.quiet import Quiet
-from .kit.runner import JobPanel, Runner
+from .kit.runner import JobPanel, Runner, time_left
 
 Search = Callable[[Study], Iterator[Step]]
 """Looks for the front of a study step by step, as `search` does with one of its methods."""
@@ -114,6 +114,9 @@ class FrontsPanel(JobPanel):
             ended = self.runner.job and self.runner.job.ended
             told = f"all fronts are there: {sum(self.seconds.values()):.1f} s elapsed" if ended else "stopped"
         self.runner.status.say(told)
+        more = len(self.ways) - 1 - list(self.ways).index(self._name)
+        if more and not last:
+            self.runner.left.say(f"{time_left(step)} for this search; {more} more after it".removeprefix(" for "))
         self._show()
 
     # ------------------------------------------------------------ what is shown

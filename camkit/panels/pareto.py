@@ -108,6 +108,7 @@ class ParetoPanel(JobPanel, FrontPanel):
     def _make_parts(self) -> None:
         """What stands beside Run and Stop, and what is said."""
         self.banner, self.status, self.progress = self.runner.banner, self.runner.status, self.runner.progress
+        self.details = Words()
         last = "go on with the last search that was stopped or killed"
         self.resume_button = Button("Resume", self.resume, tooltip=last)
         self._offer_resume()
@@ -129,6 +130,7 @@ class ParetoPanel(JobPanel, FrontPanel):
             self.runner.buttons(self.resume_button),
             self.status,
             self.record,
+            Group(self.details, look="fold", description="Details"),
             self.banner,
             row(save, Upload("Load study", self.load_json)),
         )
@@ -190,8 +192,8 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.found = step.front
         front = step.front if self.study is step.study else step.front.judged_by(self.study)
         if last or not (self.runner.job and self.runner.job.stopping):  # else it says "stopping"
-            hypervolume = front.hypervolume(self.search.reference)
-            self.status.say(progress_text(step, len(front), hypervolume, last))
+            self.status.say(progress_text(step, len(front), last))
+            self.details.say(f"hypervolume {front.hypervolume(self.search.reference):.6g}")
         self._say(front.message if last else "")
         self._show_front(front)
 

@@ -49,19 +49,23 @@ class SegmentRow:
         self, segment: Segment, unit: str, changed: Callable[[], None], remove: Callable[[SegmentRow], None]
     ) -> None:
         self.unit = unit
-        kind = type(segment).__name__.lower()
-        law = getattr(segment, "law", LAWS[2])
-        laws = [(option.name, option) for option in (*LAWS, *(() if law in LAWS else (law,)))]
-        self.kind = Menu(KINDS, value=kind, tooltip="kind")
-        self.angle = Length(description="angle", unit="deg", value=in_unit(float(segment.angle), "deg"))
-        self.lift = Length(description="lift", unit=unit, value=in_unit(float(getattr(segment, "lift", 0.0)), unit))
-        self.law = Menu(laws, value=law, tooltip="law")
+        self.kind, self.law = Menu(KINDS, tooltip="kind"), Menu((), tooltip="law")
+        self.angle, self.lift = Length(description="angle", unit="deg"), Length(description="lift", unit=unit)
+        self.show(segment)
         drop = Button("Remove", lambda: remove(self), tooltip="remove this segment")
         self.row = row(self.kind, self.angle, self.lift, self.law, drop, look="segment")
         self._show_moving()
         self.kind.observe(lambda _: self._show_moving(), "value")
         for box in (self.kind, self.angle, self.lift, self.law):
             box.observe(lambda _: changed(), "value")
+
+    def show(self, segment: Segment) -> None:
+        """Be the row of another segment."""
+        law = getattr(segment, "law", LAWS[2])
+        self.kind.value = type(segment).__name__.lower()
+        self.angle.value = in_unit(float(segment.angle), "deg")
+        self.lift.value = in_unit(float(getattr(segment, "lift", 0.0)), self.unit)
+        self.law.offer([(option.name, option) for option in (*LAWS, *(() if law in LAWS else (law,)))], law)
 
     def _show_moving(self) -> None:
         """A dwell has neither lift nor law."""
@@ -102,8 +106,12 @@ class ProgramEditor(Panel):
         self.load(program)
 
     def load(self, program: MotionProgram) -> None:
-        """Show another program."""
-        self._list_rows([self._row(segment) for segment in program.segments])
+        """Show another program; its rows stay where they are, so that a button under the pointer does what it says."""
+        kept = self.rows[: len(program.segments)]
+        with self._quiet, self.held():
+            for row_, segment in zip(kept, program.segments, strict=False):
+                row_.show(segment)
+            self._list_rows([*kept, *map(self._row, program.segments[len(kept) :])])
         self._try(lambda: program)
 
     def _row(self, segment: Segment) -> SegmentRow:

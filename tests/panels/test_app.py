@@ -894,10 +894,11 @@ def test_a_running_search_tells_the_time_that_is_left(finder):
     finder.wait(10)
     for words in (finder.status, finder.runner.left):
         words.unobserve_all()
-    assert re.fullmatch(r"generation \d+ of 10000: .*, hypervolume [\d.e-]+", said[0])
+    assert re.fullmatch(r"generation \d+ of 10000: .* on the front", said[0])
     assert re.fullmatch(r"\d+ (s|min) left", left[0])
     assert said[-2:-1] == ["stopping"]
-    assert re.fullmatch(r"generation \d+ of 10000 \(stopped\): .*, hypervolume [\d.e-]+", said[-1])
+    assert re.fullmatch(r"generation \d+ of 10000 \(stopped\): .* on the front", said[-1])
+    assert re.fullmatch(r"hypervolume [\d.e-]+", finder.details.text)
     assert left[-1] == ""
 
 

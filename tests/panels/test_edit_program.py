@@ -133,3 +133,15 @@ def test_segments_are_added_and_removed(editor):
 def test_every_control_can_be_moved(editor):
     assert try_everything(editor) > 3
     assert editor.program == PROGRAM
+
+
+def test_a_row_of_a_program_that_was_replaced_is_still_removed(editor):
+    """A button that is pressed while another program comes in stands for the same place."""
+    remove = next(p for p in editor.rows[0].row.inside() if isinstance(p, Button))
+    editor.load(MotionProgram((Dwell(60 * deg), *PROGRAM.segments[1:4], Dwell(45 * deg))))
+    assert rows(editor)[0] == ("dwell", 60, 0)
+    do(editor, remove)
+    assert rows(editor) == [("rise", 90, 20), ("dwell", 45, 0), ("return", 120, 20), ("dwell", 45, 0)]
+    editor.load(PROGRAM)
+    assert editor.program == PROGRAM
+    assert len(editor.rows) == 5

@@ -412,3 +412,14 @@ def test_stored_trials_are_of_the_optimum_that_minimise_finds():
             assert min(trial["stress"]) >= least * (1 - 1e-4)
             if method == "SLSQP, epigraph":
                 assert trial["stress"] == pytest.approx([least] * 10, rel=1e-4)
+
+
+def test_the_time_that_is_left_is_of_one_search_and_says_how_many_come_after_it():
+    way = places(), partial(nsga2_steps, population=20, generations=15, seed=1)
+    panel = compare_fronts(explore(Place(), view, measures=(here, there)), {"first": way, "second": way})
+    left = []
+    panel.runner.left.observe(lambda _: left.append(panel.runner.left.text), "value")
+    panel.run()
+    panel.wait(60)
+    assert any(words.endswith("this search; 1 more after it") for words in left)
+    assert left[-1] == ""

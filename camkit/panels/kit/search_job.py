@@ -44,12 +44,12 @@ class SessionSearch:
         return search(self.session.study, "nsga2", checkpoint=checkpoint, **size)
 
 
-def progress_text(step: Step, on_front: int, hypervolume: float, last: bool) -> str:
+def progress_text(step: Step, on_front: int, last: bool) -> str:
     """How far a search by NSGA-II has come, in words."""
     stopped = " (stopped)" if last and step.number < step.of else ""
     return (
         f"generation {step.number} of {step.of}{stopped}: {step.feasible} of {len(step.evaluation.x)} feasible, "
-        f"{on_front} on the front, hypervolume {hypervolume:.6g}"
+        f"{on_front} on the front"
     )
 
 
