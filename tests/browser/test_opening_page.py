@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+import nbformat
 from playwright.sync_api import Page
 
-from lab import LabServer, open_notebook
+from lab import Instrument, LabServer, open_notebook, run_all
 
 REPOSITORY = Path(__file__).parents[2]
 NOTEBOOKS = sorted(path.name for path in (REPOSITORY / "notebooks").glob("*.ipynb"))
@@ -31,3 +32,35 @@ def test_notebooks_open_without_the_mark_of_what_is_not_saved(page: Page, server
     open_notebook(page, "other.ipynb")
     assert page.get_by_text("Jupyter news").count() == 0
     assert not [name for name in ("other.ipynb", *NOTEBOOKS) if page.evaluate(OPENED, name)]
+
+
+CELLS = (
+    "from camkit import TranslatingRollerCam, explore, presets\n"
+    "from camkit.views import mechanism, pressure_angle\n"
+    "app = explore(TranslatingRollerCam(), mechanism, pressure_angle)\napp",
+    "presets(app, buttons={'itself': lambda cam: cam})",
+)
+STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.filter(({ model }) => model.type === 'code')
+    .map(({ model }) => model.outputs.toJSON().map(({ data }) => 'image/png' in data))"""
+"""Of each cell's outputs, whether a picture is stored with it."""
+
+
+def test_a_panel_comes_before_its_stored_picture_and_stays_as_it_stands(page: Page, server: LabServer) -> None:
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
+    notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    nbformat.write(notebook, server.root / "panel first.ipynb")
+    open_notebook(page, "panel first.ipynb")
+    run_all(page)
+    panels, slider = page.locator(".camkit-page"), Instrument(page).slider("base radius, mm")
+    panels.nth(1).locator("canvas").first.wait_for()
+    slider.press("ArrowRight")
+    moved = slider.input_value()
+    page.evaluate("() => { window.camkitPanels = [...document.querySelectorAll('.camkit-page')]; }")
+    page.wait_for_function(f"() => ({STORED})().flat().every(Boolean)", timeout=60_000)
+    page.wait_for_timeout(200)
+    assert page.evaluate("() => [...document.querySelectorAll('.camkit-page')].every((p, k) => p === camkitPanels[k])")
+    assert panels.count() == 2
+    assert slider.input_value() == moved
+    assert slider.evaluate("slider => slider === document.activeElement")
+    slider.press("ArrowRight")
+    assert slider.input_value() > moved
