@@ -12,7 +12,8 @@ from .roles import ROLES, STROKES, colour, letter_colour
 
 PAGE = Path(__file__).with_name("page")
 MODULES = (
-    *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls", "files", "parts"),
+    *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
+    *("files", "kernel", "parts"),
     *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "verdict", "quantities"),
     *("positions", "pointer", "tabs", "why", "handles", "places", "names", "panel", "session", "cell"),
 )

@@ -15,6 +15,7 @@ from test_living_page import DRAG, compare
 REPOSITORY = Path(__file__).parents[2]
 SAVE = "() => window.jupyterapp.commands.execute('docmanager:save')"
 RESTART = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
+SHUT_DOWN = "() => window.jupyterapp.shell.currentWidget.sessionContext.shutdown()"
 STAND = f"""() => {{
     const {{ values, history, ghost, tabs, units }} = {PAGE}, plain = (steps) => steps.map((step) => [...step]);
     const pinned = ghost && [...ghost.values];
@@ -107,6 +108,16 @@ def test_a_kernel_that_restarts_is_said_in_a_sentence(page, notebook):
     page.evaluate(RESTART)
     expect(page.locator(".camkit-note")).to_contain_text("No kernel knows this page: it computes by itself")
     assert all(control.is_disabled() for control in page.locator(".camkit-page [data-asks]").all())
+    step(page, 1)
+    assert page.evaluate(f"{PAGE}.values[0]") == pytest.approx(0.0503)
+
+
+def test_a_kernel_that_is_shut_down_is_said_in_a_sentence(page, notebook, server):
+    run(page)
+    step(page, 2)
+    expect(page.locator(".camkit-note:visible")).to_have_count(0)
+    page.evaluate(SHUT_DOWN)
+    expect(page.locator(".camkit-note")).to_contain_text("No kernel knows this page: it computes by itself")
     step(page, 1)
     assert page.evaluate(f"{PAGE}.values[0]") == pytest.approx(0.0503)
 

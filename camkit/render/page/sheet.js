@@ -4,6 +4,7 @@ import { PARTS } from "./parts.js";
 import { Chart } from "./picture.js";
 import { fill, format } from "./numbers.js";
 import { download } from "./files.js";
+import { atTheEnd } from "./kernel.js";
 
 /**
  * @typedef {{get(name: string): any, send(message: any, callbacks?: any, buffers?: ArrayBuffer[]): void,
@@ -44,16 +45,21 @@ export class Sheet {
       "msg:custom": (/** @type {any} */ message) => {
         if (message.text !== undefined) download(message.name, new Blob([message.text], { type: message.mime }));
       },
-      "comm_live_update": () => { root.dataset.gone = GONE; }, // it happens once more after the beginning: at the end
+      "comm_live_update": () => this._gone(), // it happens once more after the beginning: at the end
     };
+    this.unhear = atTheEnd(model, () => this._gone());
     for (const [event, act] of Object.entries(this.heard)) model.on(event, act);
     root.classList.toggle("camkit-stored", Boolean(model.stored));
     this.show();
   }
 
+  /** No kernel hears what is done any more. */
+  _gone() { this.root.dataset.gone = GONE; }
+
   /** Leave the page. */
   end() {
     for (const [event, act] of Object.entries(this.heard)) this.model.off(event, act);
+    this.unhear();
     this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true;
   }
 

@@ -4,6 +4,7 @@ import { Panel } from "./panel.js";
 import { Docks } from "./docks.js";
 import { download } from "./files.js";
 import { movable } from "./cell.js";
+import { atTheEnd } from "./kernel.js";
 import { Session, alone, known, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
@@ -102,8 +103,9 @@ async function view({ model, el }) {
   };
   const session = new Session(root, model, () => panel);
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
+  const unhear = atTheEnd(model, left);
   await begin();
-  return () => { session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
+  return () => { unhear(); session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
 export default movable(view);
