@@ -1,6 +1,7 @@
 """Numbers in the page: written as Python's ``format`` does, and read as the kernel does where it takes a text."""
 
 import json
+import unicodedata
 from fractions import Fraction
 from math import inf, nan
 from pathlib import Path
@@ -182,6 +183,21 @@ def test_whole_numbers_with_a_fraction_are_added_up(call):
                 assert read == {"value": pytest.approx(float(whole + Fraction(above, below)), rel=1e-15)}
             else:
                 assert "is no number" in read["error"]
+
+    same()
+
+
+signs = st.sampled_from([chr(sign) for sign in (0xBC, 0xBD, 0xBE, *range(0x2150, 0x215F))])
+
+
+def test_small_fractions_and_inch_marks_are_read_as_they_are_meant(call):
+    @given(many(st.tuples(st.integers(0, 999).map(str) | st.just(""), st.sampled_from(["", " "]), signs)))
+    @batches
+    def same(cases):
+        found = call("read", [(f'{whole}{gap if whole else ""}{sign}"', "in") for whole, gap, sign in cases])
+        for (whole, _, sign), read in zip(cases, found, strict=True):
+            value = int(whole or 0) + Fraction(unicodedata.normalize("NFKD", sign).replace("\u2044", "/"))
+            assert read == {"value": pytest.approx(float(value), rel=1e-15)}
 
     same()
 

@@ -46,6 +46,7 @@ export class Row {
       make("span", { class: "camkit-box" }, this.box, this.after), this.slider, this.track, this.refusal);
     this.slider.addEventListener("input", () => this._take(Number(this.slider.value) * this.factor, false));
     this.slider.addEventListener("change", () => moved(this.value, true));
+    this.box.addEventListener("input", () => this._fit());
     this.box.addEventListener("change", () => this._typed());
     this.box.addEventListener("keydown", (event) => {
       if (event.key === "Escape") this.show(this.value);
@@ -98,9 +99,12 @@ export class Row {
     this.slider.value = String(read);
     this.written = this.box.value = format(read, this.declared.written ?? ".6g");
     this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.unit)}`.trim());
-    this.box.style.width = `${Math.max(this.box.value.length, 2) + 0.6}ch`;
+    this._fit();
     this.refuse("");
   }
+
+  /** The box is as wide as what is in it. */
+  _fit() { this.box.style.width = `${Math.min(Math.max(this.box.value.length, 2), 14) + (/[A-Za-z%]/.test(this.box.value) ? 2 : 0.6)}ch`; }
 
   /** Other ends of the slider, in SI. @param {number} low @param {number} high */
   between(low, high) {

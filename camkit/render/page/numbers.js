@@ -85,6 +85,8 @@ const NUMBER = "(?:\\d+[.,]?\\d*|[.,]\\d+)(?:[eE][+-]?\\d+)?";
 const MIXED = "(\\d+)\\s+(\\d+)/(\\d+)"; // 1 7/8
 const PRODUCT = `${NUMBER}(?:\\s*[*×/]\\s*${NUMBER})*`; // 48,09, 3*16, 1/2
 const TYPED = new RegExp(`^([+-]?)(?:${MIXED}|(${PRODUCT}))\\s*([A-Za-zµμ%°].*)?$`);
+const SMALL = /^([+-]?\d*)\s*([¼-¾⅐-⅞])/; // 1⅞
+const INCHES = /(\d)\s*["″”]$/; // 1 7/8"
 const THOUSANDS = /^[1-9]\d{0,2},\d{3}$/;
 
 /** Why a text is refused, in a sentence. */
@@ -107,7 +109,9 @@ export function parse(text, unit, units) {
 }
 
 function read(text, unit, units) {
-  const plain = text.trim().replace(/[−–－]/g, "-");
+  const plain = text.trim().replace(/[−–－]/g, "-")
+    .replace(SMALL, (_, whole, small) => `${whole}${/\d/.test(whole) ? " " : ""}${small.normalize("NFKD").replace("⁄", "/")}`)
+    .replace(INCHES, "$1 in");
   const shown = quoted(text);
   if (!plain) throw new Refusal("an empty box is no number");
   const typed = plain.length <= LONGEST && TYPED.exec(plain);
