@@ -270,10 +270,11 @@ class ChoosePanel(Panel):
         front = self.shown.front
         return f"design {design}, {', '.join(objective_texts(front.study, front.f[design]))}"
 
-    def still(self) -> bytes:
-        """All four views, two below two; without a front there is nothing to see."""
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws all four views, two below two; without a front there is nothing to see."""
         rows = (brushed_designs, front_winners), (winners_by_weight, judgement_bars)
-        return small_png(*(picture(self.shown, *views, width=12.6, height=4.5) for views in rows if self.shown))
+        shown = self.shown
+        return lambda: small_png(*(picture(shown, *views, width=12.6, height=4.5) for views in rows if shown))
 
 
 def _numbers_of(front: Judged) -> tuple[object, ...]:

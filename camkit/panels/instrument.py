@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -146,11 +147,9 @@ class Instrument(Displayed, anywidget.AnyWidget):
             slider.value = value
 
         def move(change: traitlets.Bunch) -> None:
-            if (
-                abs(change.new * declared.factor - value_of(self.design, path))
-                > 1e-12 * declared.most * declared.factor
-            ):
-                self._try(lambda: changed(self.design, {path: change.new * declared.factor}))
+            numbers, asked = numbers_of(self.design), change.new * declared.factor
+            if abs(asked - self.values[list(numbers).index(path)]) > 1e-12 * declared.most * declared.factor:
+                self.values = list({**numbers, path: asked}.values())  # the page says why it cannot be, if it cannot
 
         follow(self.design)
         slider.observe(move, "value")
@@ -333,19 +332,25 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def figure(self) -> Still:
         """The views of the design, as a figure of matplotlib."""
-        limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
-        return picture(self.analysis, *self.views, limits=limits, **self._stand(self.views))
+        return self._figure(self.analysis, self.views)
 
-    def still(self) -> bytes:
-        """The picture, as a PNG file; below it the mechanism in four positions, if it can be turned in its plane."""
+    def _figure(self, analysis: object, views: Sequence[View]) -> Still:
+        limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
+        return picture(analysis, *views, limits=limits, **self._stand(views))
+
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws the picture; below it the mechanism in four positions, if it can be turned in its plane."""
+        return partial(self._png, self.analysis, self.views)
+
+    def _png(self, analysis: object, views: Sequence[View]) -> bytes:
         from ..render.still import strip
 
-        turning = [view for view in self.views if "turn" in positions_of(view)]
+        figure, turning = self._figure(analysis, views), [view for view in views if "turn" in positions_of(view)]
         if not turning or "azimuth" in positions_of(turning[0]):
-            return small_png(self.figure())
-        _, low, high = turn_range(self.analysis)
+            return small_png(figure)
+        _, low, high = turn_range(analysis)
         turns = np.linspace(low, high, 5)[:4]  # a whole turn ends where it began
-        return small_png(self.figure(), strip(self.analysis, turning[0], turns))
+        return small_png(figure, strip(analysis, turning[0], turns))
 
 
 def explore(design: Analysable, *views: View, free: Sequence[str] | None = None, **options: Any) -> Instrument:

@@ -64,9 +64,9 @@ class Presets(Displayed, w.VBox):
             for offers in self.menus.values():
                 offers.value = next((change for _, change in offers.options if _leads_to(change, design)), None)
 
-    def still(self) -> bytes:
-        """The picture of the instrument."""
-        return self.explorer.still()
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws the picture of the instrument."""
+        return self.explorer.drawing()
 
     def summary(self) -> str:
         """The numbers of the instrument."""

@@ -61,7 +61,7 @@ class SegmentRow:
 
     def show(self, segment: Segment) -> None:
         """Be the row of another segment."""
-        law = getattr(segment, "law", LAWS[2])
+        law, self.name = getattr(segment, "law", LAWS[2]), segment.name
         self.kind.value = type(segment).__name__.lower()
         self.angle.value = in_unit(float(segment.angle), "deg")
         self.lift.value = in_unit(float(getattr(segment, "lift", 0.0)), self.unit)
@@ -75,8 +75,8 @@ class SegmentRow:
         """The segment as the row says it."""
         angle, lift = self.angle.value * deg, self.lift.value * factor(self.unit)
         if self.kind.value == "dwell":
-            return Dwell(angle)
-        return (Rise if self.kind.value == "rise" else Return)(angle, lift, self.law.value)
+            return Dwell(angle, name=self.name)
+        return (Rise if self.kind.value == "rise" else Return)(angle, lift, self.law.value, name=self.name)
 
 
 class ProgramEditor(Panel):

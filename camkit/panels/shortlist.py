@@ -98,7 +98,7 @@ class Shortlist(Panel):
 
     def html(self) -> str:
         """Table and picture as a page that needs no other file."""
-        return self.table.page(TITLE, self.picture.png() if self.designs else b"")
+        return self.table.page(TITLE, self.picture.drawing()() if self.designs else b"")
 
     def _show(self) -> None:
         with self.held():

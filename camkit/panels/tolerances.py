@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -156,10 +156,10 @@ class TolerancePanel(Panel):
             super().refuse_picture(sentence)
             self.bands.visible = not sentence
 
-    def still(self) -> bytes:
-        """All pictures in one."""
-        views = [view for part in self._drawn for view in part.views]
-        return small_png(picture(self.tolerances, *views))
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws all pictures in one."""
+        shown, views = self.tolerances, [view for part in self._drawn for view in part.views]
+        return lambda: small_png(picture(shown, *views))
 
     def _rows(self) -> list[tuple[str, str, str, str, str]]:
         """Every measure in words: its name, as drawn, where 2.5 % are below and above, which share misses a limit."""

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from IPython.core.events import EventManager, available_events
 
-from camkit import Judgements, TranslatingRollerCam, ahp_panel, explore, presets
+from camkit import Judgements, TranslatingRollerCam, ahp_panel, edit_program, explore, mm, presets
 from camkit.panels.kit import displayed
 from camkit.panels.kit.running import Place
 from camkit.views import pressure_angle
@@ -65,15 +65,27 @@ def test_a_cell_that_runs_again_asks_for_its_new_pictures_alone(cell):
     assert ["image/png" in each for each in last] == [False, True, True, True]
 
 
-def test_a_panel_that_cannot_be_drawn_has_no_picture_and_the_others_have(cell, monkeypatch):
+@pytest.mark.parametrize("error", [ValueError("a curve reaches too far"), RuntimeError("somebody's own view")])
+def test_a_panel_that_cannot_be_drawn_has_no_picture_and_the_others_have(cell, monkeypatch, error):
     app, judged, _ = panels()
 
     def impossible():
-        raise ValueError("a curve reaches too far")
+        raise error
 
-    monkeypatch.setattr(app, "still", impossible)
+    monkeypatch.setattr(app, "drawing", lambda: impossible)
     _, last = cell((Place("a", "run"), [app, judged]))
     assert ["image/png" in each for each in last] == [False, True]
+
+
+def test_the_picture_is_of_the_design_that_the_numbers_beside_it_are_of():
+    app, _, offers = panels()
+    editor = edit_program(app.design.motion)
+    before = [(panel.drawing(), panel.still()) for panel in (app, offers, editor)]
+    app.design = app.design.replace(base_radius=80 * mm)
+    editor.rows[0].angle.value -= 10
+    editor.rows[1].angle.value += 10
+    assert all(draw() == still for draw, still in before)
+    assert all(panel.still() != still for panel, (_, still) in zip((app, offers, editor), before, strict=True))
 
 
 def test_where_no_page_runs_the_cell_all_is_there_at_once():

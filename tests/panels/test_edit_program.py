@@ -44,6 +44,18 @@ def test_a_typed_angle_changes_the_program(editor):
     assert editor.program.edges == pytest.approx(np.array([0, 45, 125, 180, 300, 360]) * deg)
 
 
+def test_segments_keep_their_names():
+    named = [segment.replace(name=f"part_{k}") for k, segment in enumerate(PROGRAM.segments)]
+    editor = edit_program(PROGRAM.replace(segments=tuple(named)))
+    drag(editor, (135, 20), (150, 26))
+    editor.rows[1].angle.value -= 5
+    editor.rows[4].angle.value += 5
+    editor.rows[1].kind.value = "dwell"
+    editor.rows[3].kind.value = "dwell"
+    assert editor.program.names == tuple(f"part_{k}" for k in range(5))
+    assert editor.program != PROGRAM
+
+
 def test_dragging_a_handle_sideways_moves_the_joint_and_nothing_else(editor):
     drag(editor, (135, 20), (150, 20))
     assert editor.program.edges == pytest.approx(np.array([0, 45, 150, 180, 300, 360]) * deg)

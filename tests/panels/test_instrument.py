@@ -92,6 +92,18 @@ def test_a_slider_of_its_own_is_linked_both_ways(app):
     assert slider.value == 44.0
 
 
+def test_a_slider_of_its_own_that_asks_for_too_much_moves_the_page_there_which_says_why(app):
+    slider, before = app.control("base_radius"), app.design
+    slider.min = -2000
+    slider.value = -1000
+    place = list(quantities_of(before)).index("base_radius")
+    assert app.design is before
+    assert app.values[place] == -1.0
+    slider.value = before.base_radius / mm
+    assert app.values[place] == pytest.approx(before.base_radius)
+    assert app.design == before
+
+
 def test_files_are_what_they_say(app, sent):
     begins = {
         "json": b"{",

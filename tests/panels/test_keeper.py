@@ -83,7 +83,7 @@ def test_a_design_that_was_left_is_offered_and_not_taken(run):
     assert offered(run()).startswith("Continue with")
 
 
-def test_no_is_an_answer_until_something_else_is_done(run):
+def test_no_is_an_answer_for_good(run):
     leave_first = run()
     offered(leave_first)
     leave(leave_first, 48 * mm)
@@ -92,12 +92,46 @@ def test_no_is_an_answer_until_something_else_is_done(run):
     say(again, **{"continue": False})
     assert again.sent[-1]["offer"] == ""
     assert again.design == again.start
-    assert offered(run()) == "Continue with your last design, base radius 48 mm?"
+    assert offered(run()) == ""
     leave(again, 51 * mm)
     last = run()
     assert offered(last) == "Continue with your last design, base radius 51 mm?"
     say(last, **{"continue": False})
     assert last.sent[-1]["offer"] == ""  # what was refused is not offered by and by
+
+
+def test_a_design_that_cannot_be_shown_any_more_stays_kept(run, monkeypatch):
+    first = run()
+    offered(first)
+    leave(first, 48 * mm)
+    again = run()
+    offer = offered(again)
+
+    def fails(analysis):
+        raise ArithmeticError("too far away")
+
+    monkeypatch.setattr(again, "measures", (Measure("too far", "mm", fails),))
+    say(again, **{"continue": True})
+    assert again.design == again.start
+    assert again.message.startswith("This design cannot be computed and drawn")
+    assert again.sent[-1]["offer"] == offer
+    leave(again, 51 * mm)
+    last = run()
+    offered(last)
+    assert last._keeper._offers[-1][1].base_radius == 48 * mm
+
+
+def test_the_page_hears_which_names_there_are_when_one_is_refused(run):
+    app = run()
+    offered(app)
+    say(app, keep=["one", app.values])
+    say(app, keep=["other", app.values])
+    for wrong in ({"keep": ["never", [-1.0] * len(app.values)]}, {"rename": ["one", "other"]}, {"forget": "none"}):
+        app.sent.clear()
+        app.message = ""
+        say(app, **wrong)
+        assert app.message
+        assert [name for name, _ in app.sent[-1]["named"]] == ["one", "other"]
 
 
 def test_what_was_not_answered_is_not_lost(run):

@@ -29,9 +29,13 @@ Bundle = tuple[dict[str, object], dict[str, object]]
 class Displayed(w.DOMWidget):
     """A widget that shows itself in a notebook: the live view, its numbers as text, and a still picture."""
 
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws, as a PNG file, the picture of what is shown now, even if something else is shown by then."""
+        raise NotImplementedError
+
     def still(self) -> bytes:
         """The picture, as a PNG file, that stands for the panel where there is no kernel."""
-        raise NotImplementedError
+        return self.drawing()()
 
     def summary(self) -> str:
         """The panel's numbers, a line each."""
@@ -47,28 +51,23 @@ class Displayed(w.DOMWidget):
         data, about = made if isinstance(made, tuple) else (made or {}, {})
         return data | {"text/plain": self.summary()}, about
 
-    def _whole(self, live: Bundle) -> Bundle:
-        data, about = live
-        return data | {"image/png": base64.b64encode(self.still()).decode("ascii")}, about
-
     def _repr_mimebundle_(self, **wanted: Any) -> Bundle:
         """The live panel for a kernel, the picture and the numbers where there is none."""
-        return self._live() if published() else self._whole(self._live())
+        data, about = self._live()
+        return data if published() else data | _drawn(self.drawing()), about
 
     def _ipython_display_(self) -> None:
         """Show the panel alone, and its picture later; all at once where no page runs the cell."""
         place = here()
         if not place.cell:
             raise NotImplementedError
-        live = self._live()
-        data, about = live
+        (data, about), draw = self._live(), self.drawing()
         shown: Any = display(data, metadata=about, raw=True, display_id=True)
+        LATER.add(place, lambda: shown.update(data | _drawn(draw), metadata=about, raw=True))
 
-        def follow() -> None:
-            whole, about = self._whole(live)
-            shown.update(whole, metadata=about, raw=True)
 
-        LATER.add(place, follow)
+def _drawn(draw: Callable[[], bytes]) -> dict[str, object]:
+    return {"image/png": base64.b64encode(draw()).decode("ascii")}
 
 
 class Later:
@@ -100,9 +99,11 @@ class Later:
 
     def _next(self) -> None:
         (_, act), *self._acts = self._acts
-        with suppress(ValueError, ArithmeticError):  # a design that cannot be drawn has no picture
-            act()
-        self._rest(BETWEEN)
+        try:
+            with suppress(ValueError, ArithmeticError):  # a design that cannot be drawn has no picture
+                act()
+        finally:  # whatever somebody's own view raises, the next picture is made
+            self._rest(BETWEEN)
 
 
 LATER = Later()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -68,12 +69,13 @@ class LivePicture(Part):
         rows = (*np.asarray(points, dtype=float).T, np.ravel(designs))
         self._offered = {"offered": [np.ascontiguousarray(row, dtype=float).tobytes() for row in rows]}
 
-    def png(self) -> bytes:
-        """The picture as a PNG file."""
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws the picture as a PNG file as it is now."""
         if not self._last:
-            return small_png()
+            return small_png
         thing, asked = self._last
-        return picture(thing, *self.views, width=self.size[0], height=self.size[1], **asked)._repr_png_()  # type: ignore[arg-type]
+        figure = partial(picture, thing, *self.views, width=self.size[0], height=self.size[1], **asked)  # type: ignore[arg-type]
+        return lambda: figure()._repr_png_()
 
     def on_pointer(self, act: Callable[[int, str, Array, Array], None]) -> None:
         """Call ``act(view, kind, at, pixel)``: "press", "drag", "release", "click" in the picture of a view.

@@ -59,7 +59,10 @@ class Keeper:
         """``hello`` when a page opens, ``continue`` or not; of a name ``keep``, ``rename``, ``forget`` or ``show``."""
         for what, act in self._answers.items():
             if isinstance(asked, Mapping) and what in asked:
-                act(asked[what])
+                try:
+                    act(asked[what])
+                finally:  # the page hears what there is, whatever is refused
+                    self._tell()
                 return
         raise ValueError(f"the page asks {shown(asked)}, which nobody knows here")
 
@@ -80,7 +83,10 @@ class Keeper:
 
     def _with_last(self, others: tuple[Last, ...]) -> tuple[Last, ...]:
         mine = Last(self._id, designs.to_json(self._panel.design), self._panel.page)
-        return (mine, *(last for last in others if last.panel not in {self._id, *self._answered}))[:MOST]
+        return (mine, *(last for last in self._unanswered(others) if last.panel != self._id))[:MOST]
+
+    def _unanswered(self, others: tuple[Last, ...]) -> tuple[Last, ...]:
+        return tuple(last for last in others if last.panel not in self._answered)
 
     def _update(self, change: Callable[[KeptDesigns], KeptDesigns]) -> None:
         if self._live:
@@ -106,7 +112,6 @@ class Keeper:
         if not self._live and not published():
             self._live = True
             self._safely(self._find)
-        self._tell()
 
     def _find(self) -> None:
         kept, panel = read(self._file), self._panel
@@ -147,15 +152,22 @@ class Keeper:
         return f"{', '.join(told[:TOLD])}{more}" or "of another make"
 
     def _continue(self, yes: object) -> None:
-        if self._offers:
-            last, design = self._offers.pop(0)
-            self._answered.add(last.panel)
-            if yes:
-                self._offers.clear()
-                self._panel.load(design)
-                self._panel.page = dict(last.page)
-                self._panel.send({"stand": last.page})
-        self._tell()
+        """Go on with what is offered, or refuse it for good; what cannot be shown stays offered."""
+        if not self._offers:
+            return
+        last, design = self._offers[0]
+        if yes:
+            self._panel.load(design)
+            if self._panel.design != design:
+                return
+        self._answered.add(last.panel)
+        if yes:
+            self._offers.clear()
+            self._panel.page = dict(last.page)
+            self._panel.send({"stand": last.page})
+        else:
+            self._offers.pop(0)
+            self._update(lambda kept: replace(kept, last=self._unanswered(kept.last)))
 
     def _known(self, name: object) -> Any:
         if name not in self.named:
@@ -193,7 +205,6 @@ class Keeper:
         fresh = {n: designs.to_json(design) for n, design in named.items() if design is not self.named.get(n)}
         self.named = named
         self._update(lambda kept: replace(kept, named={n: t for n, t in kept.named.items() if n not in gone} | fresh))
-        self._tell()
 
 
 def _file_for(kind: type) -> Path:

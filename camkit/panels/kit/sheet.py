@@ -165,6 +165,6 @@ class Panel(Displayed, Sheet):
                 if part is not None:
                     part.visible = not sentence
 
-    def still(self) -> bytes:
-        """The picture, as a PNG file, that stands for the panel where there is no kernel."""
-        return self.picture.png()
+    def drawing(self) -> Callable[[], bytes]:
+        """What draws the picture of what is shown now."""
+        return self.picture.drawing()
