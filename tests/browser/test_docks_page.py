@@ -100,6 +100,9 @@ def test_a_front_in_a_tab_shows_a_ghost_and_loads_a_design(page, server, tmp_pat
         slider.press("ArrowLeft")
     eventually(lambda: kernel_value(page, "judged.judgements.above") == [4.0])
     page.wait_for_function(f"() => {panel}.sheets[0].shown().body.heard >= 1")
+    page.evaluate(f"() => {{ window.old = {panel}.sheets[0]; }}")
+    assert kernel_value(page, "app.add_tab('Judgements', ahp_panel(judged.judgements))") is None
+    page.wait_for_function(f"() => window.old.ended && {panel}.sheets.length === 2")
 
     page.goto((tmp_path / "cam.html").as_uri())
     page.wait_for_function("() => globalThis.camkit?.outputs && camkit.sheets.length === 2")

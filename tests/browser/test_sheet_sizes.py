@@ -27,6 +27,9 @@ from camkit import (
     shortlist,
     tolerance_panel,
 )
+from camkit.panels.kit.inputs import Amount, Whole
+from camkit.panels.kit.parts import Button
+from camkit.panels.kit.sheet import Sheet
 from camkit.search import front_of
 from camkit.study import AnalysisCurve
 
@@ -38,7 +41,7 @@ const packed = (v) => Array.isArray(v) ? v.map(packed) : v === null || typeof v 
 const state = packed({state}), el = document.getElementById("sheet"), sent = [];
 const model = {{ get: (name) => state[name], on() {{}}, off() {{}}, send: (message) => sent.push(message) }};
 const widget = await import(URL.createObjectURL(new Blob([{script}], {{ type: "text/javascript" }})));
-widget.default.render({{ model, el }});
+await widget.default().render({{ model, el }});
 Object.assign(globalThis, {{ sheet: el.camkit, sent }});
 </script>"""
 STUDY = door_handle_study(
@@ -113,6 +116,52 @@ def test_a_sheet_fits_into_a_laptops_notebook(browser, make, monkeypatch, tmp_pa
     assert page.evaluate("document.documentElement.scrollWidth") <= 500
     assert page.heard == []
     page.close()
+
+
+@pytest.fixture
+def boxes(browser):
+    """A slider, a box and a button, whose kernel does not answer."""
+    whole, lift = Whole(3, 0, 9, "design", slider=True), Amount(description="lift", unit="mm", value=5.0)
+    page = opened(browser, Sheet(whole, lift, Button("Go", lambda: None)), 934, 600)
+    yield page
+    assert page.heard == []
+    page.close()
+
+
+def test_what_is_moved_and_put_back_before_the_kernel_answers_is_said(boxes):
+    slider, box = boxes.get_by_role("slider"), boxes.get_by_role("textbox")
+    slider.fill("5")
+    slider.fill("3")
+    for lift in ("7", "5"):
+        box.fill(lift)
+        box.press("Enter")
+    assert boxes.evaluate("sent.map(({ value }) => value)") == [5]
+    assert boxes.evaluate("[...sheet.waiting.values()].map(({ done }) => done.value)") == [3, 5]
+
+
+def test_two_views_of_a_sheet_count_together(boxes):
+    boxes.evaluate("""() => {
+        const root = document.body.appendChild(document.createElement("div"));
+        globalThis.other = new sheet.constructor(root, sheet.model);
+        globalThis.answer = () => { sheet.model.get("body").heard = sent.at(-1).count; sheet.show(); other.show(); };
+    }""")
+    first, second = boxes.get_by_role("button").all()
+    for button in (first, first, first, second, first):
+        button.click()
+        boxes.evaluate("answer()")
+    assert boxes.evaluate("sent.map(({ count }) => count)") == [1, 2, 3, 4, 5]
+
+
+def test_a_sheet_that_has_left_the_page_is_not_drawn_again(boxes):
+    drawn = """() => {
+        let times = 0;
+        sheet.draw = () => { times++; };
+        sheet.system.dispatchEvent(new Event("change"));
+        return times;
+    }"""
+    assert boxes.evaluate(drawn) == 1
+    boxes.evaluate("sheet.end()")
+    assert boxes.evaluate(drawn) == 0
 
 
 def test_a_map_is_folded_where_there_is_no_room(browser, monkeypatch, tmp_path):

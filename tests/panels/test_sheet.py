@@ -64,6 +64,13 @@ def do(sheet, part, **done):
     return told(sheet, part)
 
 
+def test_views_that_ask_at_once_are_all_answered(sheet):
+    for count in (4, 3):
+        sheet._handle_custom_msg({"part": sheet.check.number, "count": count, "value": count == 4}, [])
+    assert sheet.body["heard"] == 4
+    assert told(sheet, sheet.check)["value"] is False
+
+
 def told(sheet, part):
     def find(state):
         if state["id"] == part.number:

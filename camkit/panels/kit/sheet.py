@@ -111,7 +111,7 @@ class Sheet(anywidget.AnyWidget):
                 self.banner.show_message(f"{reason(error)[:1].upper()}{reason(error)[1:]}.")
             except Exception as error:  # somebody's own function: the page stays alive
                 self.banner.show_message(f"{raised(error)}.")
-            self._heard, self._waits = int(message.get("count", 0)), True
+            self._heard, self._waits = max(self._heard, int(message.get("count", 0))), True  # views count on
 
 
 def picture_of(part: Part) -> str:

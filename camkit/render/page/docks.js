@@ -18,6 +18,7 @@ export class Docks {
       panel.addTab(title, make("div", { class: "camkit-dock" }, ...parts.map(({ element }) => element)),
         () => { for (const { sheet } of parts) sheet.draw(); }, true);
     }
+    for (const [model, { sheet }] of this.made) if (!panel.sheets.includes(sheet)) { sheet.end(); this.made.delete(model); }
   }
 
   /** @param {import("./sheet.js").Model} model @param {any} panel */

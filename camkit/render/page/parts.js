@@ -102,18 +102,18 @@ export const PARTS = {
   whole({ slider }, { say }) {
     const box = make("input", { type: slider ? "range" : "text", inputmode: "numeric", step: 1 });
     const told = make("output", {}), refusal = make("div", { class: "camkit-refusal", role: "alert" });
-    let state = { min: 0, max: 0, value: 0 };
+    let state = { min: 0, max: 0 }, said = 0;
     const take = () => {
       const { value, error } = parse(box.value, "", {}), { min, max } = state;
       const why = error ?? (Number.isInteger(value) && value >= min && value <= max ? "" : `a whole number from ${min} to ${max} is possible`);
       refusal.textContent = why;
-      if (!why && value !== state.value) { told.textContent = value; say({ value }); }
+      if (!why && value !== said) { told.textContent = said = value; say({ value }); }
     };
     box.addEventListener(slider ? "input" : "change", take);
     if (!slider) box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
     const element = make("div", {}, named("", box, told), refusal);
     return { element, show(now) {
-      state = /** @type {any} */ (now);
+      state = /** @type {any} */ (now); said = now.value;
       element.firstChild.firstChild.textContent = now.description;
       Object.assign(box, { min: now.min, max: now.max, value: now.value, disabled: now.disabled, title: now.tooltip });
       told.textContent = slider ? now.value : "";
@@ -133,18 +133,19 @@ export const PARTS = {
     const box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", size: 8 });
     const unit = make("span", { class: "camkit-unit" }), refusal = make("div", { class: "camkit-refusal", role: "alert" });
     /** @type {any} */ let state = null;
+    let told = "";
     const shown = () => units.of(state.unit), written = () => format(state.value * shown().ratio, shown().ratio === 1 ? ".12g" : ".6g");
     const take = () => {
-      if (box.value === written()) { refusal.textContent = ""; return; }
+      if (box.value === told) { refusal.textContent = ""; return; }
       const read = parse(box.value, shown().unit, units.known);
       refusal.textContent = read.error ?? "";
-      if (!read.error) say({ value: read.value / shown().ratio });
+      if (!read.error) { told = box.value; say({ value: read.value / shown().ratio }); }
     };
     box.addEventListener("change", take);
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
     return { element: make("span", { class: "camkit-amount" }, make("span", { class: "camkit-box" }, box, unit), refusal), show(now) {
       state = now;
-      box.value = written(); box.disabled = now.disabled; box.title = now.tooltip;
+      box.value = told = written(); box.disabled = now.disabled; box.title = now.tooltip;
       const { unit: name } = shown();
       box.setAttribute("aria-label", name ? `${now.description}, ${name}` : now.description);
       unit.textContent = pretty(name); refusal.textContent = "";

@@ -24,7 +24,7 @@ export class Sheet {
   /** @param {HTMLElement} root @param {Model} model what the kernel says, or what a file holds
    * @param {import("./panel.js").Panel | null} [panel] the panel whose tab it is */
   constructor(root, model, panel = null) {
-    Object.assign(this, { root, model, panel, asked: 0, sentAt: 0 });
+    Object.assign(this, { root, model, panel, asked: 0, sentAt: 0, leaving: new AbortController() });
     const { look, units } = model.get("setting");
     Object.assign(this, { look, units });
     /** How numbers are shown: as the panel shows its own, if it is a tab of one. */
@@ -35,7 +35,7 @@ export class Sheet {
     /** The box that a person types in. @type {any} */ this.typing = null;
     root.addEventListener("input", ({ target }) => { if (/** @type {any} */ (target).type === "text") this.typing = target; });
     this.system = matchMedia("(prefers-color-scheme: dark)");
-    this.system.addEventListener("change", () => this.draw());
+    this.system.addEventListener("change", () => this.draw(), { signal: this.leaving.signal });
     this.theme = new MutationObserver(() => this.draw());
     this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     this.resized = new ResizeObserver(() => this.draw());
@@ -59,7 +59,7 @@ export class Sheet {
   /** Leave the page. */
   end() {
     for (const [event, act] of Object.entries(this.heard)) this.model.off(event, act);
-    this.unhear();
+    this.unhear(); this.leaving.abort();
     this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true;
   }
 
@@ -99,6 +99,7 @@ export class Sheet {
     this.heading ??= make("h3", {}, heading);
     this.heading.hidden = !heading;
     this.answered = body.heard;
+    this.asked = Math.max(this.asked, body.heard); // other views of the sheet count on
     this.seen = new Set();
     const top = this._part(body).element;
     if (this.root.children.length !== 2) this.root.replaceChildren(this.heading, top);
