@@ -39,7 +39,7 @@ def test_letters_and_arrows_in_a_control_are_not_jupyterlabs(instrument):
     page, cells = instrument, instrument.evaluate(COUNT)
     kinds = set()
     for handle in page.query_selector_all(CONTROLS):
-        if not handle.is_visible():
+        if not handle.is_visible() or handle.is_disabled():  # a disabled one takes no focus
             continue
         kinds.add(handle.evaluate("(e) => e.localName + (e.type ?? '')"))
         handle.evaluate("(e) => e.focus()")
