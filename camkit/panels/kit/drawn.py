@@ -13,7 +13,7 @@ from ...quantities.applied import applied
 from ...quantities.types import Array
 from ...render.figure import picture, small_png
 from ...render.living import plain_picture
-from ...render.positions import given_to
+from ...render.positions import given_to, view_name
 from ...views.picture import Picture, View
 from .parts import Message, Part
 
@@ -56,7 +56,7 @@ class LivePicture(Part):
         shown = tuple(_made(view, thing, asked) for view in through)
         for each in shown:
             _refuse_far_marks(each)
-        self.data = [plain_picture(each, _name(view)) for view, each in zip(through, shown, strict=True)]
+        self.data = [plain_picture(each, view_name(view)) for view, each in zip(through, shown, strict=True)]
         self.data[0] |= self._offered
         self.views, self.shown, self._last = through, shown, (thing, asked)
         self.count += 1
@@ -107,12 +107,8 @@ def nearest(points: Array, at: Array, pixel: Array, within: float = np.inf) -> i
 
 
 def _made(view: View, thing: Any, asked: Mapping[str, object]) -> Picture:
-    with applied(f"the view {_name(view)}", thing):
+    with applied(f"the view {view_name(view)}", thing):
         return view(thing, **given_to(view, asked))
-
-
-def _name(view: View) -> str:
-    return str(getattr(view, "__name__", "that is given")).replace("_", " ")
 
 
 def _refuse_far_marks(shown: Picture) -> None:
