@@ -90,6 +90,7 @@ class ChoosePanel(Panel):
         source.explorer.on_change(lambda _: self._select())
         if source.importance:
             source.importance.on_change(self.take_up)
+        source.explorer.add_tab("Decision", self)
 
     def _brush(self) -> Group:
         """What narrows the front down to a band, with the keys too."""
@@ -236,7 +237,7 @@ class ChoosePanel(Panel):
         rows: list[Sequence[object]] = []
         for rule, i in self.shown.winners.items():
             values = [m.text(m.sign * f) for m, f in zip(goals, front.f[i], strict=True)]
-            values += [declared[n].text(float(f"{x:.5g}")) for n, x in zip(free, front.x[i], strict=True)]
+            values += [declared[n].text(x) for n, x in zip(free, front.x[i], strict=True)]
             share = f"{100 * self.shown.maps[rule].shares.get(i, 0):.0f} %" if rule in self.shown.maps else "all"
             rows.append(({"words": rule, "series": self.shown.index[i]}, i, *values, share))
         return head, rows
@@ -285,6 +286,6 @@ def _numbers_of(front: Judged) -> tuple[object, ...]:
 def choose_panel(source: FrontSource, measures: Sequence[Measure] | None = None) -> ChoosePanel:
     """The winners of ``source``'s front side by side, how sure they are, and bands to narrow it down.
 
-    ``source`` is a `Search` or another panel with a front.
+    ``source`` is a panel with a front, such as `pareto_panel` gives; the sheet is a tab of its instrument, too.
     """
     return ChoosePanel(source, measures)

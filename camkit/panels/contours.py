@@ -78,6 +78,7 @@ class ContourPanel(Panel):
         self._changed()
         self.settle()
         explorer.on_change(lambda _: self.later.ask())  # the sliders' own pictures come first
+        explorer.add_tab("Map", self)
 
     def _knob(self, i: int, name: str, value: float) -> Number:
         a_number(value, f"the weight of the {words(name)}", "be a finite number of at least 0", lambda w: w >= 0)

@@ -49,6 +49,7 @@ class Shortlist(Panel):
         ]
         super().__init__(row(keep, *files), self.banner, self._places, self.picture, self.numbers)
         self._show()
+        explorer.add_tab("Designs", self)
 
     @staticmethod
     def _has_profile(analysis: object) -> bool:

@@ -76,6 +76,7 @@ class TolerancePanel(Panel):
         explorer.on_change(lambda _: self._later.ask())  # the sliders' own pictures come first
         if follow := getattr(front, "on_front", None):
             follow(self._later.ask)
+        explorer.add_tab("Tolerances", self)
 
     def _knob(self, name: str, half: float) -> Number:
         nominal = self.tolerances.declared[name]

@@ -13,6 +13,12 @@ NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 MODELS = 40
 """Widget models that a notebook may hold: each is a message of its own before the first panel is seen."""
 LIVE = sorted(path.name for path in NOTEBOOKS.glob("*.ipynb") if "widget-view" in path.read_text(encoding="utf-8"))
+TABS = {
+    "08_valve_cam.ipynb": ["Map", "Front"],
+    "16_decision.ipynb": ["Judgements", "Front", "Decision", "Designs"],
+    "17_tolerances.ipynb": ["Tolerances"],
+}
+"""What stands beside the curves of a notebook's first panel."""
 
 
 @pytest.mark.slow
@@ -24,6 +30,7 @@ def test_every_control_moves_and_comes_back(name, tmp_path, monkeypatch):
         if cell.cell_type == "code":
             exec(cell.source, made)
     assert 0 < len(set(widget._instances) - others) <= MODELS
+    assert name not in TABS or [tab["title"] for tab in made["app"].tabs] == TABS[name]
     named = {id(panel): panel for panel in made.values() if isinstance(panel, w.DOMWidget)}
     held = {id(part) for panel in named.values() for part in inside(panel)[1:]}
     panels = [panel for panel in named.values() if id(panel) not in held]
