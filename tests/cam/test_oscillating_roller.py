@@ -515,6 +515,6 @@ def test_statics_of_any_design(brute, f, circles):
     assert_allclose(power_in - power_out, lost, rtol=1e-8, atol=1e-15)
     eta = OscillatingRollerAnalysis(replace(brute.cam, friction=Friction(*rub)), phi).efficiency
     assert_allclose(eta, np.maximum(power_out, 0) / power_in, rtol=1e-8, atol=1e-12)
-    # The force's moment on the cam is a difference of moments about the size of a + l, each after at most eight roundings.
+    # Of the force's moment on the cam, a difference of moments of the size of a + l, over itself: eight roundings.
     rounding = 8 * np.finfo(float).eps * (brute.a + brute.l) / (brute.l * abs(slope(brute.psi, phi)))
     assert (eta <= 1 + rounding).all()
