@@ -17,7 +17,7 @@ from ..quantities import Measure
 
 MOST = 3
 """So many formulas at most: those that the measure is made of first."""
-SOURCE = re.compile(r"(?:Sources?:|Formulas after|Formulas of)[^\n]*(?:\n(?!\n)[^\n]*)*")
+SOURCE = re.compile(r"(?:Sources?:\s*|(?=Formulas after|Formulas of))([^\n]+(?:\n(?!\n)[^\n]*)*)")
 """The paragraph of a module that names what its formulas are from."""
 Named = tuple[str, object]
 """What a function names: a "word", or another "function" or "measure" that it calls."""
@@ -32,10 +32,10 @@ def reason_of(measure: Measure, analysis: object) -> dict[str, object]:
     >>> from camkit import TranslatingRollerCam
     >>> from camkit.cam import peak_force
     >>> for words in reason_of(peak_force, TranslatingRollerCam().analyse()).values():
-    ...     print(str(words)[:72])
-    ["Force between cam and follower without friction, N; < 0 where only a g
-    Source: Norton, Cam Design and Manufacturing Handbook (cam size determin
-    tests/cam/test_followers.py::test_power_in_is_power_out_without_friction
+    ...     print(str(words)[:70])
+    ["Force between cam and follower without friction, N; < 0 where only a
+    Norton, Cam Design and Manufacturing Handbook (cam size determination)
+    tests/cam/test_followers.py::test_power_in_is_power_out_without_fricti
     """
     named = [*dict.fromkeys(_named(measure, set()))]
     parts = _parts(analysis, [str(word) for kind, word in named if kind == "word"])
@@ -134,7 +134,7 @@ def _homes(part: object) -> list[str]:
 
 def _source(module: str) -> str:
     found = SOURCE.search(inspect.getdoc(sys.modules.get(module)) or "") if module else None
-    return " ".join(found[0].split()) if found else ""
+    return " ".join(found[1].split()) if found else ""
 
 
 def _test(measure: Measure) -> str:

@@ -2,6 +2,7 @@
 
 import gzip
 import itertools
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -427,6 +428,32 @@ def test_a_limit_is_kept_as_everywhere_in_the_package(opened):
     page = opened(Evil(), evil_view, measures=[near, far], at_most={near: (1 - 1e-10) * mm, far: (1 - 1e-7) * mm})
     assert page.locator(".camkit-chip.camkit-ok").inner_text().startswith("near")
     assert page.locator(".camkit-chips .camkit-bad").inner_text().startswith("far")
+
+
+def test_chips_below_the_first_line_are_counted_and_shown_by_a_press(opened):
+    names = [f"length of a very long part, number {k}" for k in range(5)]
+    page = opened(Evil(), evil_view, measures=[Measure(name, "mm", lambda analysis: analysis.cam.x) for name in names])
+    chips, more = page.locator(".camkit-chips"), page.get_by_role("button", name="more")
+    seen = "chips => [...chips.children].filter(chip => chip.offsetTop < chips.offsetTop + chips.clientHeight).length"
+    page.wait_for_function(DRAWN)
+    assert more.inner_text() == f"+{5 - chips.evaluate(seen)} more"
+    more.click()
+    assert chips.evaluate(seen) == 5
+    page.get_by_role("button", name="fewer").click()
+    assert more.is_visible()
+    page.set_viewport_size({"width": 2000, "height": 800})
+    page.wait_for_function("() => document.querySelector('.camkit-others').hidden")
+
+
+def test_a_number_under_the_pointer_has_its_unit_and_a_point_its_number(opened):
+    page = opened(MACHINES["roller"])
+    tip = page.locator(".camkit-tip")
+    page.locator(".camkit-middle canvas").hover()
+    assert re.fullmatch(r"x \S+ mm, y \S+ mm\nCtrl .*", tip.inner_text())
+    page.locator(".camkit-play").hover()
+    k = page.evaluate("camkit.charts.findIndex((chart) => chart.picture.name === 'pressure_angle')")
+    page.locator("canvas").nth(k).hover()
+    assert re.fullmatch(r"at \S+ °(\n.* \S+ °)+", tip.inner_text())
 
 
 def test_a_program_holds_no_word_of_the_design():

@@ -43,6 +43,7 @@ def test_a_measure_says_its_formula_its_source_its_test_and_what_each_slider_doe
     assert "tan α = (v - σ e) / h" in said
     assert why["source"] in said
     assert why["test"] in said
+    assert said.index("What 1 %") < said.index("Formula, in SI units") < said.index("Source") == said.rindex("Source:")
     bars, expected = dict(page.evaluate(BARS)), {}
     for path, quantity in quantities_of(ROLLER).items():
         step = 0.01 * (quantity.high - quantity.low) * quantity.factor

@@ -1,6 +1,11 @@
 // What pointer and keys do on a picture: values under it, the cursor, orbit, zoom and pan.
 import { format } from "./numbers.js";
+import { UNIT } from "./heading.js";
+import { many } from "./marks.js";
 import { DEGREE } from "./positions.js";
+
+const NEAR = 9; // pixels from a point of a picture
+const HINT = "Ctrl + wheel zooms, double-click fits"; // said until a pointer has left a picture once
 
 /** @param {import("./panel.js").Panel} panel @param {import("./picture.js").Chart} chart */
 export function listen(panel, chart) {
@@ -20,7 +25,7 @@ export function listen(panel, chart) {
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => { if (held.delete(event.pointerId)) panel.ask(true); });
   }
-  canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+  canvas.addEventListener("pointerleave", () => { panel.hinted ||= !tip.hidden; tip.hidden = true; });
   canvas.addEventListener("pointermove", (event) => {
     const [px, py] = at(event), before = held.get(event.pointerId);
     if (!before) { hover(panel, chart, px, py, event); return; }
@@ -49,15 +54,44 @@ export function listen(panel, chart) {
 function hover(panel, chart, px, py, event) {
   const { tip, root } = panel, { axes } = chart.picture, curve = !axes.equal && !axes.bare;
   if (!panel.outputs || !chart.inside(px, py)) { tip.hidden = true; return; }
-  const { per } = chart, x = chart.x.back(px), y = chart.y.back(py);
-  const round = (/** @type {number} */ v, /** @type {number} */ ratio) => format(v * ratio, ".4g");
-  const named = (/** @type {any} */ mark) => chart.how.words(mark.label) || chart.axes.title;
-  const rows = curve ? chart.valuesAt(x).map(({ mark, value }) => `${named(mark)} ${round(value, per.y)}`) : [];
-  tip.textContent = curve ? [`at ${round(x, per.x)}`, ...rows].join("\n") : axes.bare ? "" : `x ${round(x, per.x)}, y ${round(y, per.y)}`;
+  const said = axes.bare ? [] : curve && chart.valuesAt(chart.x.back(px)).length ? onCurves(chart, px) : atPoint(chart, px, py);
+  tip.textContent = [...said, ...(panel.hinted ? [] : [HINT])].join("\n");
   tip.hidden = !tip.textContent;
   const box = root.getBoundingClientRect();
-  tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - 150)}px`;
+  tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - tip.offsetWidth - 4)}px`;
   tip.style.top = `${Math.min(event.clientY - box.top + 14, box.height - tip.offsetHeight)}px`;
+}
+
+/** A number of an axis with the unit that is shown. @param {import("./picture.js").Chart} chart @param {"x"|"y"} name
+ * @param {number} value */
+function measured(chart, name, value) {
+  const unit = UNIT.exec(chart.axes[`${name}label`])?.[1] ?? "";
+  return `${format(value * chart.per[name], ".4g")} ${unit}`.trim();
+}
+
+/** What the curves are over a pixel. @param {import("./picture.js").Chart} chart @param {number} px */
+function onCurves(chart, px) {
+  const x = chart.x.back(px), named = (/** @type {any} */ mark) => chart.how.words(mark.label) || chart.axes.title;
+  const rows = chart.valuesAt(x).map(({ mark, value }) => `${named(mark)} ${measured(chart, "y", value)}`);
+  return [`at ${measured(chart, "x", x)}`, ...rows];
+}
+
+/** Both numbers of a place with the names of the axes: of a point that is near, else of the pixel.
+ * @param {import("./picture.js").Chart} chart @param {number} px @param {number} py */
+function atPoint(chart, px, py) {
+  /** @type {{far: number, x: number, y: number, head: string[]}} */
+  let best = { far: NEAR, x: chart.x.back(px), y: chart.y.back(py), head: [] };
+  for (const mark of chart.picture.axes.equal ? [] : chart.picture.marks) {
+    if (mark.kind !== "points") continue;
+    const [xs, ys] = [many(mark.x, chart.outputs), many(mark.y, chart.outputs)], name = chart.how.words(mark.label);
+    for (let i = 0; i < xs.length; i++) {
+      const far = Math.hypot(chart.x(xs[i]) - px, chart.y(ys[i]) - py), which = xs.length > 1 ? ` ${i + 1} of ${xs.length}` : "";
+      if (far < best.far) best = { far, x: xs[i], y: ys[i], head: name || which ? [`${name || "point"}${which}`] : [] };
+    }
+  }
+  const named = (/** @type {"x"|"y"} */ name) =>
+    `${chart.axes[`${name}label`].replace(UNIT, "").trim() || name} ${measured(chart, name, best[name])}`;
+  return chart.picture.axes.equal ? [`${named("x")}, ${named("y")}`] : [...best.head, named("x"), named("y")];
 }
 
 /** Arrow keys on a picture turn what is seen, or move it; + and - bring it nearer, 0 shows all of it.

@@ -14,8 +14,13 @@ export class Verdict {
     this.trouble = pressed(make("div", { class: "camkit-trouble camkit-chip camkit-bad", role: "button", "data-lm-suppress-shortcuts": true, hidden: true }),
       () => goTo(this.told));
     this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures" });
+    this.others = make("button", { type: "button", class: "camkit-others", hidden: true, onclick: () => {
+      this.chips.classList.toggle("camkit-all");
+      this._count();
+    } });
     this.said = make("div", { class: "camkit-said", role: "status" });
-    this.elements = [this.trouble, this.chips, this.said];
+    this.elements = [this.trouble, this.chips, this.others, this.said];
+    new ResizeObserver(() => this._count()).observe(this.chips);
     /** @type {{element: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
   }
 
@@ -28,11 +33,13 @@ export class Verdict {
     const others = free.slice(0, Math.max(0, MOST - limited.length));
     if (settled) this._say(limited, trouble);
     const told = [...limited, ...others], chips = told.map((row) => chipOf(row, units)), written = JSON.stringify([trouble, chips]);
-    if (this.written === written) return; // else the page would be laid out anew in every frame
-    this.written = written;
-    this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
-    if (trouble) this.trouble.tabIndex = 0; else this.trouble.removeAttribute("tabindex");
-    this._fill(told.map(({ m }) => m), chips);
+    if (this.written !== written) { // else the page would be laid out anew in every frame
+      this.written = written;
+      this.trouble.textContent = trouble; this.trouble.hidden = !trouble;
+      if (trouble) this.trouble.tabIndex = 0; else this.trouble.removeAttribute("tabindex");
+      this._fill(told.map(({ m }) => m), chips);
+    }
+    if (settled) this._count();
   }
 
   /** Chips stay as elements, so that one keeps the focus. @param {any[]} measures @param {string[][]} chips */
@@ -47,6 +54,20 @@ export class Verdict {
     });
     if (this.chips.childElementCount === chips.length) return;
     this.chips.replaceChildren(...this.made.slice(0, chips.length).map(({ element }) => element));
+  }
+
+  /** Of the chips one line is shown, and how many there are below it; a press shows all. */
+  _count() {
+    const { chips, others } = this, all = chips.classList.contains("camkit-all");
+    const below = () => [...chips.children].filter((/** @type {any} */ chip) => chip.offsetTop >= chips.offsetTop + chips.clientHeight).length;
+    chips.classList.remove("camkit-cut");
+    chips.scrollTop = 0;
+    const cut = all || below() > 0;
+    chips.classList.toggle("camkit-cut", cut);
+    others.hidden = !cut;
+    const words = all ? "fewer" : `+${below()} more`;
+    if (others.textContent !== words) others.textContent = words;
+    others.setAttribute("aria-expanded", String(all));
   }
 
   _chip() {

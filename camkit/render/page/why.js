@@ -7,6 +7,9 @@ const SHARE = 0.01; // of a slider's range, for slopes
 const TITLE = "What 1 % of each slider's range does to it";
 let count = 0; // an element's id is the only one of its kind in the document
 
+/** A path with places where its line may break. @param {string} path */
+const broken = (path) => path.split(/(?<=[/_]|::)/).flatMap((part) => [part, make("wbr")]);
+
 export class Why {
   /** @param {import("./panel.js").Panel} panel */
   constructor(panel) {
@@ -48,8 +51,11 @@ export class Why {
     this.bars = make("div", { class: "camkit-slopes" });
     this.element.replaceChildren(
       make("h2", {}, ...lettered(measure.name), " ", now?.text ?? ""),
-      ...(why.formula.length ? why.formula : ["No formula is given."]).map((/** @type {string} */ words) => line("", words)),
-      line("Source:", why.source || "none is named"), line("Held by:", why.test || "no test is named"), this.bars);
+      this.bars,
+      ...(why.formula.length ? why.formula : ["none is given"]).map((/** @type {string} */ words, /** @type {number} */ k) =>
+        line(k ? "" : "Formula, in SI units:", words)),
+      line("Source:", why.source || "none is named"),
+      make("p", {}, make("b", {}, "Held by: "), ...broken(why.test || "no test is named")));
     this.element.hidden = false;
     this._place();
     this._slopes();
