@@ -34,7 +34,7 @@ from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
 from ..render.positions import positions_of, turn_range
 from ..study.study import refuse_limits
-from ..units import in_unit
+from ..units import factor, in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import alike, changed, numbers_of
@@ -187,7 +187,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
             self._send_structure()
         if still := [p["name"] for p in self.structure["pictures"] if p["still"]]:
             try:
-                self._answer(self._page.show_still(self.design), {"still": still})
+                self._answer(self._page.show_still(self.design), {"still": still, "values": self.values})
             except IMPOSSIBLE as error:
                 self.message = f"Not everything can be drawn: {reason(error)}."
         self._tell_followers()
@@ -200,7 +200,9 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def _send_structure(self) -> None:
         with self.hold_sync():
-            self.structure, self.program = {**self._page.structure, "files": files_of(self.analysis)}, self._page.packed
+            first = {m.name: float(n) for m, n in zip(self.measures, self._first, strict=True) if np.isfinite(n)}
+            more = {"files": files_of(self.analysis), "first": first}
+            self.structure, self.program = {**self._page.structure, **more}, self._page.packed
             self._push()
 
     def _push(self) -> None:
@@ -254,7 +256,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         """A visible error where page and kernel differ."""
         for measure, first, now, page in zip(self.measures, self._first, self._now, change.new, strict=False):
             size = np.nanmax(np.abs([first, now, 0.0])) if np.isfinite([first, now]).all() else abs(now)
-            if page is not None and np.isfinite(now) and abs(page - now) > AGREED * size:
+            if page is not None and np.isfinite(now) and abs(page - now) > AGREED * (size or factor(measure.unit)):
                 self.message = (
                     f"The page computes {measure.text(page)} for the {measure.name}, the kernel {measure.text(now)}."
                 )

@@ -81,6 +81,25 @@ def compare(shown, design, views, measures, limits=None):
     assert numbers_of(shown) == numbers_in(now, measures)
 
 
+PLACES = """() => camkit.structure.measures.map((m) => [m.name, camkit.places.of(m)?.chart.picture.name])
+    .filter(([, picture]) => picture)"""
+CURVES = {
+    "pressure angle": ["pressure_angle", "pressure_angles"],
+    "radius": ["curvature", "radius_of_curvature"],
+    "contact pressure": ["contact_pressure", "hertz_pressure", "stress_over_event"],
+    "Hertz pressure": ["hertz_pressure"],
+    "contact force": ["contact_force"],
+    "camshaft torque": ["camshaft_torque"],
+    "torque": ["cam_torque", "torques"],
+    "force": ["forces"],
+    "stress": ["contact_stress", "stress_over_way", "stress_over_event"],
+    "wear": ["wear", "wear_over_way"],
+    "acceleration": ["acceleration"],
+    "": [],
+}
+"""By words in its name: the curves that a measure is of."""
+
+
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_page_shows_what_the_package_computes(name, opened):
     design = MACHINES[name]
@@ -89,6 +108,8 @@ def test_a_page_shows_what_the_package_computes(name, opened):
     views = [view for view in default_views(design.analyse()) if view.__name__ not in still]
     page = opened(design, *views)
     compare(page.evaluate(SHOWN), design, views, measures_of(design))
+    for measure, picture in page.evaluate(PLACES):
+        assert picture in next(made_of for words, made_of in CURVES.items() if words in measure), measure
     seen = 0
     for k in range(4):
         page.evaluate(DRAG, [0.35 + 0.1 * k, k])
@@ -98,6 +119,9 @@ def test_a_page_shows_what_the_package_computes(name, opened):
             compare(shown, design, views, measures_of(design))
             seen += 1
     assert seen
+    if "elevation" in page.evaluate("camkit.structure.positions.map((position) => position.name)"):
+        page.evaluate("for (let k = 0; k < 40; k++) camkit.positions.orbit(0, 0.1)")
+        assert page.evaluate("camkit.rows.at(-1).value") == pytest.approx(np.pi / 2)
     assert not page.heard
 
 
@@ -182,6 +206,48 @@ def test_words_in_small_pictures_do_not_cross(opened):
     for spots in several:
         for (left, right, up), (other, end, at) in itertools.combinations(spots, 2):
             assert right <= other or end <= left or abs(up - at) >= 10
+
+
+FRAME = "() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)))"
+
+
+def test_what_others_choose_and_what_is_typed(opened):
+    page = opened(MACHINES["door handle"])
+    steps = """() => { const design = [...camkit.values.slice(0, camkit.history.count)];
+        for (let k = 1; k <= 60; k++) { design[0] *= 1.0001; camkit.load(design); }
+        camkit.preview(design.slice(2));
+        return [camkit.history.past.length, Boolean(camkit.looked), design[0]]; }"""
+    past, looked, arm = page.evaluate(steps)  # somebody's slider; a design of another law
+    assert (past, looked) == (1, False)
+    box = page.get_by_label("lift arm, mm, number")
+    box.fill("47")
+    page.keyboard.press("Control+z")
+    assert page.evaluate("camkit.values[0]") == arm  # what is typed is the box's
+    page.keyboard.press("Escape")
+    chip = page.locator(".camkit-chips [role=button]").first
+    chip.focus()
+    before = page.locator(".camkit-why h2").inner_text()
+    page.keyboard.press("Control+z")
+    page.wait_for_function("(before) => document.querySelector('.camkit-why h2').textContent !== before", arg=before)
+    assert page.evaluate("camkit.values[0]") == MACHINES["door handle"].lift_arm
+    page.evaluate("camkit.structure.first = { [camkit.structure.measures[0].name]: 0 }")
+    page.get_by_role("tab", name="Numbers").click()
+    page.evaluate(FRAME)
+    start = page.locator(".camkit-numbers td:nth-child(3)")
+    assert start.first.inner_text().startswith("0")  # where the kernel began
+    late = "camkit.charts[1].how.older"
+    page.get_by_role("tab", name="Curves").click()
+    page.evaluate("camkit.redraw({ 1: { ...camkit.charts[1].picture, still: 'no' } }, camkit.outputs, camkit.inputs)")
+    page.evaluate(FRAME)
+    assert page.evaluate(late) is False
+    box.fill("400")
+    box.press("Enter")
+    page.wait_for_function("() => camkit.sentence && !camkit.frame")
+    assert page.evaluate(late) is True
+    assert page.evaluate("camkit.root.className").endswith("camkit-refused")
+    page.evaluate("camkit.end()")
+    assert "camkit-refused" not in page.evaluate("camkit.root.className")
+    assert not page.heard
 
 
 def test_a_text_that_is_no_number_is_refused_in_place(opened):
@@ -472,8 +538,9 @@ class Truth(Evil):
 
 WIDGET = """([source, structure, answer, arrays]) => {
     const state = { structure, program: new DataView(new ArrayBuffer(0)), message: "", values: [], tabs: [], page: {} },
-        heard = [];
-    const model = { get: (name) => state[name], set() {}, save_changes() {}, off() {},
+        heard = window.heard = [];
+    const model = { get: (name) => state[name], set: (told) => { window.told = told.values; }, save_changes() {},
+                    off: (name, act) => { if (heard.includes(act)) heard.splice(heard.indexOf(act), 1); },
                     send: (asked) => { if (asked.compute) questions.push(asked); },
                     on: (name, act) => { if (name === "msg:custom") heard.push(act); } };
     window.questions = [];
@@ -501,6 +568,23 @@ def test_a_kernel_that_computes_is_asked_one_question_at_a_time(browser):
     asked.append(page.evaluate(ASKED))
     assert asked == [1, 1, 1, 1, 2, 2]
     assert page.evaluate("questions[1].compute[0]") == page.evaluate("camkit.values[0]")
+    for share in (0.7, 0.8):
+        page.evaluate(DRAG, [share, 0])
+        page.evaluate(ASKED)
+    page.evaluate("answer()")
+    page.evaluate(ASKED)  # the kernel hears of what has been answered, not of what is asked now
+    assert page.evaluate("told[0]") == page.evaluate("questions[2].compute[0]") != page.evaluate("camkit.values[0]")
+    page.evaluate("camkit.engine.run(Float64Array.from(camkit.inputs), true).then(() => { window.answered = true; })")
+    page.evaluate(DRAG, [0.9, 0])
+    page.evaluate(ASKED)
+    for _ in range(3):
+        page.evaluate("answer()")
+        page.evaluate(ASKED)
+    assert page.evaluate("answered")
+    assert page.evaluate("questions.at(-1).compute[0]") == page.evaluate("camkit.values[0]")
+    listening = page.evaluate("heard.length")
+    page.evaluate("camkit.end()")
+    assert page.evaluate("heard.length") == listening - 1
     page.close()
 
 

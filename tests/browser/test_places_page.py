@@ -73,6 +73,11 @@ def test_a_click_on_trouble_turns_to_it_and_rings_what_is_undercut(opened):  # n
     said.click()
     told = float(words.partition(" at ")[2].partition(" deg")[0])
     assert angle(page) == pytest.approx(told, abs=0.01)
+    page.get_by_label("units").select_option("mm, rad, N")
+    page.evaluate("camkit.positions.turnTo(0)")
+    page.wait_for_function(DRAWN)
+    said.click()
+    assert angle(page) == pytest.approx(told, abs=0.01)  # of the design, whatever unit is shown
     (trouble,) = page.evaluate("camkit.shown().pictures[0].troubles.slice(0, 1)")
     ring, canvas = (
         page.locator(".camkit-middle .camkit-ring").first.bounding_box(),

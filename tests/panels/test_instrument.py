@@ -136,6 +136,16 @@ def test_where_page_and_kernel_differ_it_is_said(app):
     assert app.message == ""
     app.computed = [max_pressure_angle.one(app.analysis) * (1 + 1e-6), None]
     assert app.message.startswith("The page computes ")
+    app.message = ""
+    app._now[0] = app._first[0] = 0.0
+    app.computed = [1e-20, None]
+    assert app.message == ""  # rounding beside nothing
+
+
+def test_the_page_hears_of_the_numbers_at_the_start(app):
+    first = {measure.name: measure.one(app.analysis) for measure in (max_pressure_angle, min_profile_radius)}
+    move(app, "base_radius", 45)
+    assert {name: app.structure["first"][name] for name in first} == first
 
 
 def test_a_follower_that_fails_is_said_and_stops_no_other(app):

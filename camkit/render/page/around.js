@@ -23,7 +23,7 @@ export class Around {
   _kind(values, k, value) {
     const outputs = this.at(values, k, value);
     if (!outputs) return REFUSED;
-    return judged(this.structure, outputs, outputs).every((row) => row.kept) ? KEPT : MISSED;
+    return judged(this.structure, outputs, () => NaN).every((row) => row.kept) ? KEPT : MISSED;
   }
 
   /** The spans of a quantity from `low` to `high`, a design a step; `found` gets them.

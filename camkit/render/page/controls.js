@@ -97,7 +97,7 @@ export class Row {
     this.value = value;
     const read = value / this.factor;
     this.slider.value = String(read);
-    this.written = this.box.value = format(read, this.declared.written ?? ".6g");
+    this.written = this.box.value = this.box.defaultValue = format(read, this.declared.written ?? ".6g");
     this.slider.setAttribute("aria-valuetext", `${this.box.value} ${pretty(this.unit)}`.trim());
     this._fit();
     this.refuse("");

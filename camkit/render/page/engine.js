@@ -3,8 +3,9 @@
 /**
  * @typedef {ArrayLike<number>[] & {structure?: any, sentence?: string}} Outputs
  * @typedef {(values: Float64Array) => Outputs} Run
- * @typedef {{run(values: Float64Array): Outputs | Promise<Outputs>, twin?: () => Run}} Engine `twin` gives another one of
- * the same program, with numbers of its own: what one computes is not done again because of the other
+ * @typedef {{run(values: Float64Array, must?: boolean): Outputs | Promise<Outputs>, twin?: () => Run, end?(): void}} Engine
+ * what `must` be answered is not left out for a newer question; `twin` gives another one of the same program, with numbers of
+ * its own: what one computes is not done again because of the other; `end` when nobody asks any more
  */
 
 /** The engine of a program, from what gzip packed. @param {Uint8Array} bytes @returns {Promise<Engine>} */

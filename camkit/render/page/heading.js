@@ -71,9 +71,9 @@ export function title(chart, width) {
     pen.font = chart.font(10.5); pen.fillStyle = chart.ink("guide"); pen.textAlign = "left";
     pen.fillText(upward, 4, (15 * rows - 5) * em, width - 8);
   }
-  if (chart.picture.still && !chart.own) {
+  if (chart.how.older) {
     pen.fillStyle = chart.ink("guide"); pen.textAlign = "right";
-    pen.fillText("of the stored design", width - 8, chart.box.bottom - 8);
+    pen.fillText(chart.own ? "of an earlier design" : "of the stored design", width - 8, chart.box.bottom - 8);
   }
 }
 

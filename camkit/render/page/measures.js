@@ -19,9 +19,9 @@ export function told(m, value, units) {
 }
 
 /** Each measure against its limit, and against another design. @param {any} structure @param {ArrayLike<number>[]} outputs
- * @param {ArrayLike<number>[]} before @returns {Judged[]} */
+ * @param {(m: any) => number} before @returns {Judged[]} */
 export const judged = (structure, outputs, before) => structure.measures.map((/** @type {any} */ m) => {
-  const [now, then] = [numberOf(m, outputs), numberOf(m, before)];
+  const [now, then] = [numberOf(m, outputs), before(m)];
   const change = then && Number.isFinite(now - then) ? (100 * (now - then)) / Math.abs(then) : NaN;
   const miss = (m.sense * (now - m.limit)) / (Math.abs(m.limit) || 1), kept = m.limit === undefined || miss <= structure.kept;
   return { m, now, then, change, kept, miss: Number.isNaN(miss) ? 1e300 : miss };

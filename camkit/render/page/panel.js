@@ -7,7 +7,7 @@ import { Handles } from "./handles.js";
 import { History } from "./history.js";
 import { Around } from "./around.js";
 import { Idle } from "./idle.js";
-import { Table, judged, told } from "./measures.js";
+import { Table, judged, numberOf, told } from "./measures.js";
 import { Names } from "./names.js";
 import { Places } from "./places.js";
 import { listen } from "./pointer.js";
@@ -62,8 +62,9 @@ export class Panel {
 
   /** Leave the page. */
   end() {
-    this.leaving.abort(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop(); this.handles.end();
+    this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop(); this.handles.end();
     this.positions.playing = false; this.ended = true;
+    this.root.classList.remove("camkit-refused");
     this.root.replaceChildren();
   }
 
@@ -89,10 +90,10 @@ export class Panel {
     this.ask(true);
   }
 
-  /** Take the design that somebody else chose: one step for Undo. @param {ArrayLike<number>} values of the quantities */
+  /** Take the design that somebody else chose: one step for Undo, also if they chose it by a drag. @param {ArrayLike<number>} values of the quantities */
   load(values) {
     this.put([...Array.from(values), ...this.values.slice(values.length)]);
-    this.history.step(this.values);
+    this.history.load(this.values);
     this.reported = Array.from(values);
   }
 
@@ -104,7 +105,10 @@ export class Panel {
   showTab(name) { this.tabs.show(name); }
 
   /** A text with the numbers of what is shown. @param {any} text */
-  words = (text) => this.units.words(typeof text === "string" ? text : fill(text, this.outputs));
+  words = (text) => this.units.words(this.plain(text));
+
+  /** The same in the units of the declarations. @param {any} text */
+  plain = (text) => (typeof text === "string" ? text : fill(text, this.outputs));
 
   /** Show every number in a system of units, by its name. @param {string} name */
   use(name) {
@@ -127,9 +131,10 @@ export class Panel {
   /** Say something in a line of its own, or nothing. @param {string} sentence */
   say(sentence) { this.note.textContent = sentence; this.note.hidden = !sentence; this.quantities.blameChoice(Boolean(sentence)); }
 
-  /** Pictures that do not compute, made anew. @param {Record<string, any>} pictures @param {ArrayLike<number>[]} arrays */
-  redraw(pictures, arrays) {
-    for (const [k, picture] of Object.entries(pictures)) Object.assign(this.charts[Number(k)], { picture, own: arrays });
+  /** Pictures that do not compute, made anew. @param {Record<string, any>} pictures @param {ArrayLike<number>[]} arrays
+   * @param {number[]} values the design that they are of */
+  redraw(pictures, arrays, values) {
+    for (const [k, picture] of Object.entries(pictures)) Object.assign(this.charts[Number(k)], { picture, own: arrays, of: values });
     this.ask(true);
   }
 
@@ -149,7 +154,7 @@ export class Panel {
     this.places = new Places(this);
     this.verdict = new Verdict(explain, (element, measure) => { // a click goes there, or says why
       if (this.places.go(measure)) this.why.hide(); else this.why.show(element, measure);
-    }, (sentence) => this.places.goTo(sentence));
+    }, () => this.places.goTo(this.plain(this.structure.trouble)));
     this.table = new Table(explain);
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
     this.over = make("div", { class: "camkit-over", role: "alert", hidden: true });
@@ -215,7 +220,7 @@ export class Panel {
   /** @param {KeyboardEvent} event */
   _key(event) {
     const key = event.key.toLowerCase();
-    if (!(event.ctrlKey || event.metaKey) || !["z", "y"].includes(key)) return;
+    if (!(event.ctrlKey || event.metaKey) || !["z", "y"].includes(key) || typing(event.target)) return;
     event.preventDefault(); event.stopPropagation();
     if (key === "y" || event.shiftKey) this._redo(); else this._undo();
   }
@@ -232,7 +237,7 @@ export class Panel {
   /** Show a design beside the one in hand as long as somebody looks at it, or none. @param {ArrayLike<number> | null} design */
   preview(design) {
     if (!this.engine.twin) return;
-    if (!design) { if (this.looked) { this.looked = null; this.ask(); } return; }
+    if (design?.length !== this.history.count) { if (this.looked) { this.looked = null; this.ask(); } return; } // or of another law
     const values = Float64Array.from([...Array.from(design), ...this.values.slice(design.length)]);
     if (this.looked?.values.every((/** @type {number} */ v, /** @type {number} */ k) => v === values[k])) return;
     this.looked = { values, outputs: this._beside(values) };
@@ -251,7 +256,7 @@ export class Panel {
   _beside(values) { return (this.twin ??= this.engine.twin())(values); }
 
   async _show() {
-    const number = ++this.asked, settled = this.settling, ran = this.engine.run(this.values);
+    const number = ++this.asked, settled = this.settling, values = this.values.slice(), ran = this.engine.run(values);
     this.settling = false;
     const outputs = ran instanceof Promise ? await ran : ran;
     if (number < this.shownAt || this.ended) return; // a newer one is there
@@ -260,7 +265,7 @@ export class Panel {
     if (this.ghost && this.engine.twin) this._turnGhost();
     this._draw(outputs, settled);
     if (settled) this._paint();
-    this._report();
+    this._report(values.subarray(0, this.history.count));
   }
 
   /** Pictures, positions and measures that somebody else has made. @param {any} structure */
@@ -269,9 +274,9 @@ export class Panel {
     this.charts.forEach((/** @type {Chart} */ chart, /** @type {number} */ k) => { chart.picture = structure.pictures[k]; });
   }
 
-  /** The host hears of other values, with the measures that the page has computed for them. */
-  _report() {
-    const values = [...this.values].slice(0, this.structure.quantities.length);
+  /** The host hears of other values, with the measures that the page has computed for them. @param {Float64Array} design */
+  _report(design) {
+    const values = [...design];
     if (!this.host || (this.reported && values.every((value, k) => value === this.reported[k]))) return;
     const first = !this.reported, number = (/** @type {any} */ { now }) => (Number.isFinite(now) ? now : null);
     this.reported = values;
@@ -313,12 +318,17 @@ export class Panel {
     for (const chart of this.charts) {
       const pinned = (this.looked ?? this.ghost)?.outputs, cursor = this._cursorOf(chart);
       chart.em = em;
-      const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor, low };
+      const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor, low, older: this._older(chart) };
       chart.draw(chart.own ?? this.outputs, how);
       if (settled && chart.list) this._describe(chart);
     }
     if (!refused) this._tell(outputs, settled);
     this.root.dispatchEvent(new CustomEvent("camkit-shown"));
+  }
+
+  /** Whether a picture that does not compute is of another design. @param {Chart} chart */
+  _older({ picture, own, of }) {
+    return Boolean(picture.still) && (!own || of.some((/** @type {number} */ value, /** @type {number} */ k) => value !== this.values[k]));
   }
 
   /** The text in place of a picture; a curve over the turn is a slider, whose values are those of the curves.
@@ -358,9 +368,13 @@ export class Panel {
   /** Measures as numbers, limits as chips. @param {ArrayLike<number>[]} outputs @param {boolean} settled */
   _tell(outputs, settled) {
     this.first ??= outputs;
-    const rows = judged(this.structure, outputs, this.ghost?.outputs ?? this.first);
+    const { structure: { first }, ghost } = this, before = ghost?.outputs ?? this.first;
+    const rows = judged(this.structure, outputs, (m) => (first && !ghost ? first[m.name] ?? NaN : numberOf(m, before)));
     this.judged = rows;
     this.verdict.tell(rows, this.words(this.structure.trouble), settled, this.units);
     if (!this.table.element.hidden) this.table.fill(rows, this.ghost ? "pinned" : "start", this.units);
   }
 }
+
+/** Whether something is typed in a box and not taken yet. @param {any} box */
+const typing = (box) => box.matches("input:not([type=range], [type=checkbox])") && box.value !== box.defaultValue;

@@ -115,7 +115,7 @@ export const PARTS = {
     return { element, show(now) {
       state = /** @type {any} */ (now); said = now.value;
       element.firstChild.firstChild.textContent = now.description;
-      Object.assign(box, { min: now.min, max: now.max, value: now.value, disabled: now.disabled, title: now.tooltip });
+      Object.assign(box, { min: now.min, max: now.max, value: now.value, defaultValue: now.value, disabled: now.disabled, title: now.tooltip });
       told.textContent = slider ? now.value : "";
       refusal.textContent = "";
     } };
@@ -145,7 +145,7 @@ export const PARTS = {
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
     return { element: make("span", { class: "camkit-amount" }, make("span", { class: "camkit-box" }, box, unit), refusal), show(now) {
       state = now;
-      box.value = told = written(); box.disabled = now.disabled; box.title = now.tooltip;
+      box.value = box.defaultValue = told = written(); box.disabled = now.disabled; box.title = now.tooltip;
       const { unit: name } = shown();
       box.setAttribute("aria-label", name ? `${now.description}, ${name}` : now.description);
       unit.textContent = pretty(name); refusal.textContent = "";
@@ -159,7 +159,7 @@ export const PARTS = {
     box.addEventListener("change", take);
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
     return { element: make("span", { class: "camkit-box" }, box), show({ value, placeholder, description, tooltip, disabled }) {
-      Object.assign(box, { value, placeholder, title: tooltip, disabled });
+      Object.assign(box, { value, defaultValue: value, placeholder, title: tooltip, disabled });
       told = value;
       box.setAttribute("aria-label", description);
     } };

@@ -9,15 +9,16 @@ import { frame, windowOf } from "./axes.js";
  * @typedef {import("./marks.js").Mark} Mark
  * @typedef {import("./marks.js").Picture} Picture
  * @typedef {import("./marks.js").Ends} Ends
- * @typedef {{dark: boolean, cursor?: number, ghost?: ArrayLike<number>[], settled?: boolean, words: (text: any) => string,
- *   low?: number, units?: {of(unit: string): import("./units.js").Shown}}} How pictures lower than `low` are compact
+ * @typedef {{dark: boolean, cursor?: number, ghost?: ArrayLike<number>[], settled?: boolean, older?: boolean, words: (text: any) => string,
+ *   low?: number, units?: {of(unit: string): import("./units.js").Shown}}} How pictures lower than `low` are compact, one that is
+ *   `older` says so
  */
 
 /** One picture on its canvas. */
 export class Chart {
   /** @param {HTMLCanvasElement} canvas @param {Picture} picture @param {any} look */
   constructor(canvas, picture, look) {
-    Object.assign(this, { canvas, picture, look, window: null, zoomed: null, hover: null, size: null });
+    Object.assign(this, { canvas, picture, look, window: null, zoomed: null, size: null });
     /** What was drawn last, in user units. @type {any} */
     this.list = null;
     this.compact = false;
@@ -53,11 +54,11 @@ export class Chart {
 
   /** Whether the picture is as it was drawn last, but for what moves over it. @param {ArrayLike<number>[]} outputs @param {How} how */
   _same(outputs, how) {
-    const { picture, size, em, zoomed } = this, { dark, units, ghost } = how;
+    const { picture, size, em, zoomed } = this, { dark, units, ghost, older } = how;
     if (this.given?.picture !== picture) this.given = { picture, places: [...given(picture)] };
     const { places } = this.given, was = this.from;
     this.compact = size.height < (how.low ?? 0);
-    this.from = [picture, size.width, size.height, globalThis.devicePixelRatio, em, zoomed, dark, units?.name, !ghost,
+    this.from = [picture, size.width, size.height, globalThis.devicePixelRatio, em, zoomed, dark, units?.name, !ghost, older,
       ...places.map((at) => outputs[at]), ...(ghost ? places.map((at) => ghost[at]) : [])];
     return !how.settled && was?.length === this.from.length && this.from.every((part, k) => part === was[k]);
   }

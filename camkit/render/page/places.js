@@ -3,7 +3,7 @@ import { make } from "./controls.js";
 import { many } from "./marks.js";
 import { unitOf } from "./numbers.js";
 
-const ALIKE = 0.004; // a share: the curve is drawn at its samples, the measure is of the curve
+const ALIKE = 5e-4; // a share: the curve is drawn at its samples, the measure is of the curve
 const LONG = 1800; // ms for which a place is shown
 const TOLD = /\bat ([-\u2212]?\d+(?:\.\d+)?)(?: to ([-\u2212]?\d+(?:\.\d+)?))? (?:deg\b|°)/; // in a sentence
 const UNIT = /\[(.*?)\]/;
@@ -31,8 +31,10 @@ export class Places {
       for (const mark of marks) {
         if (mark.kind !== "line" || mark.role === "limit" || mark.role === "guide") continue;
         const outputs = chart.own ?? panel.outputs, x = many(mark.x, outputs), y = many(mark.y, outputs);
-        for (const i of extremes(y)) {
-          const found = y[i] * factor, of = same(1) ? found : 1 / found, miss = Math.abs(Math.abs(of / value) - 1);
+        const [highest, lowest, farthest] = extremes(y);
+        for (const i of new Set([highest, lowest, farthest].filter((place) => place >= 0))) {
+          const found = y[i] * factor, of = (same(1) ? found : 1 / found) / value;
+          const miss = Math.abs((i === farthest ? Math.abs(of) : of) - 1); // of what is farthest from 0 its size is meant
           if (miss < ALIKE && miss < (best?.miss ?? Infinity)) best = { chart, x: x[x.length === 1 ? 0 : i], y: y[i], miss };
         }
       }
@@ -97,7 +99,7 @@ function extremes(y) {
     if (at[1] < 0 || y[i] < y[at[1]]) at[1] = i;
     if (at[2] < 0 || Math.abs(y[i]) > Math.abs(y[at[2]])) at[2] = i;
   }
-  return new Set(at.filter((i) => i >= 0));
+  return at;
 }
 
 /** An outline, for a while. @param {HTMLElement} element */

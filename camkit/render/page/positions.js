@@ -13,8 +13,9 @@ export class Positions {
   constructor(structure, units, values, moved, ask) {
     const begin = structure.quantities.length;
     Object.assign(this, { structure, values, begin, moved, ask, playing: false, range: [0, 2 * Math.PI] });
-    this.rows = structure.positions.map((/** @type {any} */ { label, value }, /** @type {number} */ k) => new Row(
-      { name: label, symbol: label, unit: "deg", factor: DEGREE, low: -180, high: 180, meaning: "", value, written: ".4g" },
+    const end = (/** @type {any} */ given, /** @type {number} */ otherwise) => (typeof given === "number" ? given / DEGREE : otherwise);
+    this.rows = structure.positions.map((/** @type {any} */ { label, value, low, high }, /** @type {number} */ k) => new Row(
+      { name: label, symbol: label, unit: "deg", factor: DEGREE, low: end(low, -180), high: end(high, 180), meaning: "", value, written: ".4g" },
       units, (value, settled) => moved(begin + k, value, settled)));
     this.turn = this._named("turn");
     this.button = make("button", { type: "button", title: "Play", "aria-label": "Play", onclick: () => this.play() }, "\u25B6");
@@ -49,6 +50,15 @@ export class Positions {
     const row = this.rows[k];
     row.show(Math.min(Math.max(value, row.low), row.high));
     this.moved(this.begin + k, row.value, false);
+  }
+
+  /** Stand as others of the same name did. @param {Positions} before */
+  resume(before) {
+    this.structure.positions.forEach((/** @type {any} */ { name }, /** @type {number} */ k) => {
+      const j = before._named(name);
+      if (j >= 0) this.rows[k].show(this.values[this.begin + k] = before.values[before.begin + j]);
+    });
+    this.ask(true);
   }
 
   /** Stand at an angle, degrees. @param {number} angle */

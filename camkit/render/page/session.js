@@ -27,7 +27,7 @@ export async function stand(panel, left) {
   if (typeof left.units === "string") panel.use(left.units);
   if (typeof left.tab === "string") panel.showTab(left.tab);
   if (!numbers(left.pinned, length) || panel.ghost) return;
-  const values = Float64Array.from(left.pinned), outputs = await panel.engine.run(values);
+  const values = Float64Array.from(left.pinned), outputs = await panel.engine.run(values, true);
   if (!panel.ended && !panel.ghost && !outputs.sentence) panel.pin({ values, outputs });
 }
 

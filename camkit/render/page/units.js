@@ -14,7 +14,7 @@ for (const [lengths, other] of [["mm", METRIC], ["inch", IMPERIAL]]) {
 }
 const NAME = /[A-Za-zµμ%°]+/g;
 const NUMBER = String.raw`[-\u2212]?\d+(?:\.\d+)?(?:e[+-]\d+)?`;
-const JOINED = String.raw`(?:,? (?:and|to|or|x|\u00D7) |, )`; // numbers that have one unit, as in 3 to 4 mm
+const JOINED = String.raw`(?:,? (?:and|to|or|\u00D7) )`; // numbers that have one unit, as in 3 to 4 mm; after a comma alone stands something else
 
 const PART = String.raw`(?:mm|cm|m|um|inch|ft|deg|rad|\u00B0|N|kN|lbf|kg|g|lb|Pa|MPa|GPa|psi|W|kW|hp|s|min|h|rpm)(?:\^[-+]?\d+(?:\.\d+)?|[\u00B2\u00B3])?(?![A-Za-z])`;
 /** What a unit looks like in a text: a product of powers, such as N mm or mm/rad\u00B2; "in" is a word. */

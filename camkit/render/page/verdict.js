@@ -8,11 +8,11 @@ const MOST = 5; // chips, if few have a limit
 export class Verdict {
   /** @param {(element: HTMLElement, measure: () => any) => void} explain what shows why a measure is what it is
    * @param {(element: HTMLElement, measure: any) => void} go what a click on a measure does
-   * @param {(sentence: string) => void} goTo what a click on a sentence does */
+   * @param {() => void} goTo what a click on the trouble does */
   constructor(explain, go, goTo) {
     Object.assign(this, { explain, go });
     this.trouble = pressed(make("div", { class: "camkit-trouble camkit-chip camkit-bad", role: "button", "data-lm-suppress-shortcuts": true, hidden: true }),
-      () => goTo(this.told));
+      goTo);
     this.chips = make("div", { class: "camkit-chips", role: "group", "aria-label": "limits and measures" });
     this.others = make("button", { type: "button", class: "camkit-others", hidden: true, onclick: () => {
       this.chips.classList.toggle("camkit-all");
@@ -27,7 +27,6 @@ export class Verdict {
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled
    * @param {import("./units.js").Units} units */
   tell(rows, trouble, settled, units) {
-    this.told = trouble;
     const limited = rows.filter(({ m }) => m.limit !== undefined).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));

@@ -17,6 +17,7 @@ export class Why {
     this.element = make("div", { class: "camkit-why", role: "tooltip", id: `camkit-why-${++count}`, hidden: true });
     this.element.addEventListener("pointerenter", () => clearTimeout(this.timer));
     this.element.addEventListener("pointerleave", () => this.hide());
+    panel.root.addEventListener("camkit-shown", () => this._follow(), { signal: panel.leaving.signal });
   }
 
   /** Show the card of a measure whenever the pointer rests on an element or it has the focus.
@@ -40,11 +41,18 @@ export class Why {
     this.panel.slopes.stop();
   }
 
+  /** The design has moved under the card. */
+  _follow() {
+    if (this.measure && this.design !== this._design) this.show(this.at, this.measure);
+  }
+
+  get _design() { return this.panel.values.slice(0, this.panel.history.count).join(); }
+
   /** @param {HTMLElement} at @param {any} measure */
   show(at, measure) {
     clearTimeout(this.timer);
     if (!measure || !this.panel.outputs) return;
-    Object.assign(this, { at, measure });
+    Object.assign(this, { at, measure, design: this._design });
     const { why } = measure, now = this.panel.numbers.find((/** @type {any} */ m) => m.name === measure.name);
     const line = (/** @type {string} */ name, /** @type {string} */ words) =>
       make("p", {}, make("b", {}, `${name} `), ...lettered(words.replace(/``?/g, "")));

@@ -19,25 +19,30 @@ const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b
 /** How long a question waits for its answer before another one is asked, ms. */
 const PATIENCE = 10_000;
 
-/** The kernel computes: one question at a time, and of those that wait the newest. @param {any} model */
+/** The kernel computes: one question at a time, and of those that wait the newest, and those that must be answered. @param {any} model */
 function asking(model) {
   let number = Math.floor(Math.random() * 2 ** 40); // each view of the model has its own
   /** @type {any} */ let asked = null;
-  /** @type {any} */ let waiting = null;
+  /** @type {any[]} */ let waiting = [];
   const send = (/** @type {any} */ question) => { asked = question; asked.at = performance.now(); model.send({ compute: question.values, number: ++number }); };
-  model.on("msg:custom", (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
+  const hear = (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
     if (message.answer !== number) return;
-    const { pictures, positions, measures, trouble, sentence } = message, { answered } = asked, next = waiting;
-    asked = waiting = null;
+    const { pictures, positions, measures, trouble, sentence } = message, { answered } = asked, next = waiting.shift();
+    asked = null;
     if (next) send(next);
     answered(Object.assign(arrays(buffers), sentence ? { sentence } : { structure: { pictures, positions, measures, trouble } }));
-  });
-  const ask = (/** @type {any} */ question) => { if (asked && performance.now() - asked.at < PATIENCE) waiting = question; else send(question); };
-  return { run: (/** @type {Float64Array} */ values) => new Promise((answered) => { ask({ values: [...values], answered }); }) };
+  };
+  model.on("msg:custom", hear);
+  const ask = (/** @type {any} */ question) => { if (asked && performance.now() - asked.at < PATIENCE) waiting = [...waiting.filter(({ must }) => must), question]; else send(question); };
+  return {
+    run: (/** @type {Float64Array} */ values, must = false) => new Promise((answered) => { ask({ values: [...values], answered, must }); }),
+    end: () => model.off("msg:custom", hear),
+  };
 }
 
 const TRUST = "The page is saved: a browser runs it; inside JupyterLab it stands still until you press Trust HTML above it.";
-const SAID = 20_000; // how long that stays, ms
+const ANEW = "Undo begins anew, as this design is of another kind than those before.";
+const SAID = 20_000; // how long these stay, ms
 
 /** @param {import("./cell.js").Host} host */
 async function view({ model, el }) {
@@ -63,14 +68,17 @@ async function view({ model, el }) {
   const begin = () => (ready = starting());
   const starting = async () => {
     const number = ++begun, first = !panel, engine = await engineFor(model), structure = structuredClone(model.get("structure"));
-    if (number < begun) return; // structure and program come together
+    if (number < begun) { engine.end?.(); return; } // structure and program come together
     const before = panel;
     before?.end();
     panel = new Panel(root, structure, engine, host);
     Object.assign(root.parentElement ?? {}, { camkit: panel });
     await dock();
-    if (before) { panel.use(before.units.name); panel.showTab(before.tabs.shown?.name); }
     panel.say(model.get("message"));
+    if (before) {
+      panel.use(before.units.name); panel.showTab(before.tabs.shown?.name); panel.positions.resume(before.positions);
+      if (before.history.past.length && !model.get("message")) briefly(ANEW);
+    }
     moved(); // the design may have moved since the structure was made
     if (first) void stand(panel, model.get("page"));
     session.ask();
@@ -81,10 +89,9 @@ async function view({ model, el }) {
     const values = model.get("values"), shown = panel?.values ?? [];
     if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
   };
-  const saved = (/** @type {string} */ name) => {
-    if (!name.endsWith(".html")) return;
-    panel.say(TRUST);
-    setTimeout(() => { if (panel.note.textContent === TRUST) panel.say(""); }, SAID);
+  const briefly = (/** @type {string} */ sentence) => {
+    panel.say(sentence);
+    setTimeout(() => { if (panel.note.textContent === sentence) panel.say(""); }, SAID);
   };
   const heard = {
     "change:structure": begin, // and with it the program, which may be the same
@@ -93,11 +100,11 @@ async function view({ model, el }) {
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); saved(message.file); } // not in every view
+      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); if (message.file.endsWith(".html")) briefly(TRUST); } // not in every view
       if (message.offer !== undefined) session.offer(message.offer);
       if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
-      if (message.still) panel?.redraw(message.pictures, arrays(buffers));
+      if (message.still) panel?.redraw(message.pictures, arrays(buffers), message.values);
     },
     "comm_live_update": left, // it happens once more after the beginning: at the end
   };
