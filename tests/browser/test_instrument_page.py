@@ -103,10 +103,12 @@ def test_a_choice_is_made_by_the_kernel_and_drawn_by_the_page(shown):
     menu.locator("summary").click()
     select = menu.locator("select").first
     option = select.locator("option").nth(3).inner_text()
+    page.evaluate(f"{PAGE}.positions.turnTo(40)")
     select.select_option(option)
     eventually(lambda: kernel_value(page, "app.design.motion_law.name") == option)
     page.wait_for_function(f"() => {PAGE}?.structure.choices[0].chosen === {option!r}")
     settled(page)
+    assert page.evaluate(f"{PAGE}.positions.angle") == pytest.approx(40)
     law = STUDY.start.replace(motion_law=choices_of(STUDY.start)["motion_law"].named[option])
     compare(of_page(page), law, default_views(law.analyse()), measures_of(law), LIMITS)
 

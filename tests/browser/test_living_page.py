@@ -574,7 +574,9 @@ def test_a_kernel_that_computes_is_asked_one_question_at_a_time(browser):
     page.evaluate("answer()")
     page.evaluate(ASKED)  # the kernel hears of what has been answered, not of what is asked now
     assert page.evaluate("told[0]") == page.evaluate("questions[2].compute[0]") != page.evaluate("camkit.values[0]")
-    page.evaluate("camkit.engine.run(Float64Array.from(camkit.inputs), true).then(() => { window.answered = true; })")
+    page.evaluate(
+        "void camkit.engine.run(Float64Array.from(camkit.inputs), true).then(() => { window.answered = true; })"
+    )
     page.evaluate(DRAG, [0.9, 0])
     page.evaluate(ASKED)
     for _ in range(3):
