@@ -52,7 +52,9 @@ def on_front(page, panel, k):
     x, y = shown_objectives(FRONT)[:, k]
     return page.evaluate(
         f"""([x, y]) => {{ const parts = [...{panel}.sheets[1].parts.values()].map((p) => p.part);
-            const [chart] = parts.find((part) => part.charts).charts, box = chart.canvas.getBoundingClientRect();
+            const [chart] = parts.find((part) => part.charts).charts;
+            chart.canvas.scrollIntoView({{ block: "center" }});
+            const box = chart.canvas.getBoundingClientRect();
             return [box.left + chart.x(x), box.top + chart.y(y)]; }}""",
         [float(x), float(y)],
     )
