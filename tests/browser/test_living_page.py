@@ -507,6 +507,9 @@ def test_chips_below_the_first_line_are_counted_and_shown_by_a_press(opened):
     assert chips.evaluate(seen) == 5
     page.get_by_role("button", name="fewer").click()
     assert more.is_visible()
+    chips.locator("> *").last.focus()  # by a key: then it has to be seen
+    assert chips.evaluate(seen) == 5
+    page.get_by_role("button", name="fewer").click()
     page.set_viewport_size({"width": 2000, "height": 800})
     page.wait_for_function("() => document.querySelector('.camkit-others').hidden")
 

@@ -11,6 +11,15 @@ CALL = """([source, ends]) => import(URL.createObjectURL(new Blob([source], {typ
     .then(scales => scales.logTicks(...ends))"""
 
 
+@pytest.mark.parametrize("ends", [(-29, 31, 1.1), (-7, 3, 0.4), (0.9, 4.2, 1), (-1e-9, 1e-9, 1)])
+def test_an_axis_has_two_ticks_at_least(browser, ends):
+    page = browser.new_page()
+    marks = page.evaluate(CALL.replace("logTicks", "ticks"), [SOURCE.read_text(encoding="utf-8"), ends])
+    assert len(marks) >= 2
+    assert all(ends[0] <= mark <= ends[1] for mark in marks)
+    page.close()
+
+
 @pytest.mark.parametrize(
     ("ends", "marks"),
     [

@@ -99,7 +99,7 @@ def test_texts_keep_what_is_no_number_with_a_unit(opened):  # noqa: F811
     choose(page, "inch, deg, lbf")
     for text, shown in (
         ("arm 50.8 mm long", "arm 2 inch long"),
-        ("between 25.4 and 50.8 mm, at 30 deg", "between 1 and 2 inch, at 30 deg"),
+        ("between 25.4 and 50.8 mm, at 30 deg", "between 1 and 2 inch, at 30 °"),
         ("of 3 parts, mm or m; design 3, 50.8 mm", "of 3 parts, mm or m; design 3, 2 inch"),
         ("M8 x 50.8 mm", "M8 x 2 inch"),
         ("50.8 × 25.4 mm", "2 × 1 inch"),

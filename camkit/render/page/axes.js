@@ -35,12 +35,13 @@ export function windowOf(chart, outputs, settled) {
     const asked = found(axes[`${name}lim`], outputs) ?? [null, null], log = axes.log.includes(name);
     let [low, high] = reach[name];
     if (!(low <= high)) [low, high] = log ? [0.1, 1] : [0, 1];
-    const free = axes.equal || (name === "x" && scattered) ? 0.04 : name === "x" ? 0 : 0.06;
+    const free = axes.equal ? 0.06 : name === "x" && scattered ? 0.04 : name === "x" ? 0 : 0.06;
     const margin = log ? 0 : free * (high - low) || (high === low ? Math.abs(low) * 0.1 || 1 : 0);
     const fit = { low: low - margin, high: high + margin, log };
     const before = chart.window?.[name], span = before ? before.high - before.low : 0;
     const alike = before && !log && high - low > (settled ? 0.6 : 0.25) * span && high - low < 4 * span;
-    if (alike && low >= before.low && high <= before.high) Object.assign(fit, { low: before.low, high: before.high });
+    const room = axes.equal ? 0.02 * (high - low) : 0; // for what is drawn around a point, as a pivot is
+    if (alike && low - room >= before.low && high + room <= before.high) Object.assign(fit, { low: before.low, high: before.high });
     else if (alike && !settled) Object.assign(fit, { low: Math.min(before.low, fit.low), high: Math.max(before.high, fit.high) });
     else if (!log && !axes.equal && name === "y" && fit.high > fit.low) {
       const per = chart.per.y, marks = ticks(fit.low * per, fit.high * per, 8); // round as they are shown

@@ -87,6 +87,7 @@ export class Panel {
   put(values) {
     this.values.set(values);
     this.rows.forEach((row, k) => row.show(this.values[k]));
+    this.quantities.element.classList.add("camkit-jumped"); // what is painted is of a design that is far away
     this.ask(true);
   }
 
@@ -207,6 +208,7 @@ export class Panel {
   /** What is painted on tracks is of another design, but on that which is being moved. */
   _leaveTracks() {
     this.painting.stop();
+    this.quantities.element.classList.remove("camkit-jumped");
     this.quantities.element.classList.add("camkit-moving");
   }
 

@@ -191,10 +191,15 @@ export class Chart {
     for (let k = 0; k < x.length; k++) if (real(x[k]) && real(y[k])) there.push(k);
     if (!there.length) return;
     const i = there[there.length >> 1];
-    const font = pen.font = this.font(11, 600), left = Math.min(this.x(x[i]) + 9, box.right - widthOf(font, words));
-    const up = Math.max(this.y(y[i]) - 9, box.top + 8 * em);
-    pen.textAlign = "left"; pen.textBaseline = "middle"; pen.lineWidth = 3; pen.setLineDash([]);
-    pen.strokeStyle = this.colour("paper"); pen.strokeText(words, left, up);
+    const font = pen.font = this.font(11.5, 600), [px, py] = [this.x(x[i]), this.y(y[i])], ring = 7 * em;
+    const left = Math.min(px + 22 * em, box.right - widthOf(font, words)), up = Math.max(py - 22 * em, box.top + 8 * em);
+    pen.textAlign = "left"; pen.textBaseline = "middle"; pen.lineJoin = "round"; pen.setLineDash([]);
+    for (const [tint, wide] of [[this.colour("paper"), 5], [this.colour("trouble"), 2]]) { // with a halo
+      pen.lineWidth = wide;
+      stroke(pen, tint, [[px + 0.7 * ring, py - 0.7 * ring], [left - 2, up]]);
+      pen.beginPath(); pen.arc(px, py, ring, 0, 7); pen.stroke();
+    }
+    pen.lineWidth = 5; pen.strokeStyle = this.colour("paper"); pen.strokeText(words, left, up);
     pen.fillStyle = this.ink("trouble"); pen.fillText(words, left, up);
     this.list.troubles.push({ words, x: x[i], y: y[i] });
   }

@@ -2,13 +2,13 @@
 
 /** @typedef {import("./marks.js").Ends} Ends */
 
-/** Round numbers from one end to the other, about `count` of them. @param {number} low @param {number} high @param {number} count */
+/** Round numbers from one end to the other, about `count` of them and two at least. @param {number} low @param {number} high @param {number} count */
 export function ticks(low, high, count) {
   const rough = (high - low) / Math.max(count, 1), power = 10 ** Math.floor(Math.log10(rough));
   const step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
   const marks = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) marks.push(+(k * step).toPrecision(12));
-  return marks;
+  return marks.length < 2 && high > low && count < 16 ? ticks(low, high, 2 * Math.max(count, 1)) : marks;
 }
 
 /** Round numbers along a logarithmic scale: powers of ten and, where there is room for them, 2 and 5 times those.

@@ -12,6 +12,7 @@ for (const [lengths, other] of [["mm", METRIC], ["inch", IMPERIAL]]) {
   SYSTEMS[`${lengths}, deg, ${force}`] = { ...other, rad: "deg" };
   SYSTEMS[`${lengths}, rad, ${force}`] = { ...other, deg: "rad" };
 }
+const DEGREES = /(?<=\d) deg\b(?![/^\u00B2])/g; // of a number
 const NAME = /[A-Za-zµμ%°]+/g;
 const NUMBER = String.raw`[-\u2212]?\d+(?:\.\d+)?(?:e[+-]\d+)?`;
 const JOINED = String.raw`(?:,? (?:and|to|or|\u00D7) )`; // numbers that have one unit, as in 3 to 4 mm; after a comma alone stands something else
@@ -65,7 +66,10 @@ export class Units {
   }
 
   /** A text, its numbers with a unit in the units that are shown. @param {string} text */
-  words(text) {
+  words(text) { return this._converted(text).replace(DEGREES, " \u00B0"); }
+
+  /** @param {string} text */
+  _converted(text) {
     if (this.name === this.own) return text;
     return text.replace(this.said, (whole, numbers, unit) => {
       const shown = this.of(unit.replace("\u00B0", "deg"));

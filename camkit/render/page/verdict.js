@@ -20,6 +20,11 @@ export class Verdict {
     } });
     this.said = make("div", { class: "camkit-said", role: "status" });
     this.elements = [this.trouble, this.chips, this.others, this.said];
+    this.chips.addEventListener("focusin", (/** @type {any} */ { target }) => { // by a key: it is not seen
+      if (!this._below().includes(target)) return;
+      this.chips.classList.add("camkit-all");
+      this._count();
+    });
     new ResizeObserver(() => this._count()).observe(this.chips);
     /** @type {{element: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
   }
@@ -55,16 +60,21 @@ export class Verdict {
     this.chips.replaceChildren(...this.made.slice(0, chips.length).map(({ element }) => element));
   }
 
+  /** The chips below those that are shown. @returns {any[]} */
+  _below() {
+    const { chips } = this;
+    return [...chips.children].filter((/** @type {any} */ chip) => chip.offsetTop >= chips.offsetTop + chips.clientHeight);
+  }
+
   /** Of the chips one line is shown, and how many there are below it; a press shows all. */
   _count() {
     const { chips, others } = this, all = chips.classList.contains("camkit-all");
-    const below = () => [...chips.children].filter((/** @type {any} */ chip) => chip.offsetTop >= chips.offsetTop + chips.clientHeight).length;
     chips.classList.remove("camkit-cut");
     chips.scrollTop = 0;
-    const cut = all || below() > 0;
+    const cut = all || this._below().length > 0;
     chips.classList.toggle("camkit-cut", cut);
     others.hidden = !cut;
-    const words = all ? "fewer" : `+${below()} more`;
+    const words = all ? "fewer" : `+${this._below().length} more`;
     if (others.textContent !== words) others.textContent = words;
     others.setAttribute("aria-expanded", String(all));
   }

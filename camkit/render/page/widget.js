@@ -100,7 +100,7 @@ async function view({ model, el }) {
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); if (message.file.endsWith(".html")) briefly(TRUST); } // not in every view
+      if (message.file && saving) { saving = false; download(message.file, new Blob([buffers[0]])); if (message.file.endsWith(".html")) briefly(TRUST); else if (panel.note.textContent === TRUST) panel.say(""); } // not in every view
       if (message.offer !== undefined) session.offer(message.offer);
       if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
