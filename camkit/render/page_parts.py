@@ -13,9 +13,9 @@ from .roles import ROLES, STROKES, colour, letter_colour
 PAGE = Path(__file__).with_name("page")
 MODULES = (
     *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
-    *("files", "kernel", "parts"),
+    *("positions", "pointer", "files", "kernel", "parts"),
     *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "verdict", "quantities"),
-    *("positions", "pointer", "tabs", "why", "handles", "places", "names", "panel", "session", "cell"),
+    *("tabs", "why", "handles", "places", "names", "panel", "session", "cell"),
 )
 """What every page is made of, each on those before it."""
 STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))

@@ -95,6 +95,8 @@ def test_every_part_has_a_name_of_its_own(page: Page, sheet: Locator) -> None:
         exact = isinstance(name, str)
         expect(sheet.get_by_role(role, name=name, exact=exact)).to_have_count(1)  # type: ignore[arg-type]
     expect(sheet.get_by_role("img")).to_have_attribute("aria-label", re.compile("wave"))
+    sheet.get_by_role("img").hover()
+    expect(sheet.locator(".camkit-tip")).to_have_text(re.compile(r"x [\d.]+\s+y [\d.]+"))
     for control in sheet.locator("input, select, button, canvas").all():
         assert control.get_attribute("data-lm-suppress-shortcuts") == "true", control.evaluate("e => e.outerHTML")
 

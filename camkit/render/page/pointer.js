@@ -52,14 +52,21 @@ export function listen(panel, chart) {
 /** The values of the curves under the pointer. @param {import("./panel.js").Panel} panel
  * @param {import("./picture.js").Chart} chart @param {number} px @param {number} py @param {PointerEvent} event */
 function hover(panel, chart, px, py, event) {
-  const { tip, root } = panel, { axes } = chart.picture, curve = !axes.equal && !axes.bare;
+  const { tip, root } = panel;
   if (!panel.outputs || !chart.inside(px, py)) { tip.hidden = true; return; }
-  const said = axes.bare ? [] : curve && chart.valuesAt(chart.x.back(px)).length ? onCurves(chart, px) : atPoint(chart, px, py);
+  const said = under(chart, px, py);
   tip.textContent = [...said, ...(panel.hinted ? [] : [HINT])].join("\n");
   tip.hidden = !tip.textContent;
   const box = root.getBoundingClientRect();
   tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - tip.offsetWidth - 4)}px`;
   tip.style.top = `${Math.min(event.clientY - box.top + 14, box.height - tip.offsetHeight)}px`;
+}
+
+/** What is under the pointer, in lines: the values of the curves there, or a place. @param {import("./picture.js").Chart} chart
+ * @param {number} px @param {number} py */
+export function under(chart, px, py) {
+  const { equal, bare } = chart.picture.axes;
+  return bare ? [] : !equal && chart.valuesAt(chart.x.back(px)).length ? onCurves(chart, px) : atPoint(chart, px, py);
 }
 
 /** A number of an axis with the unit that is shown. @param {import("./picture.js").Chart} chart @param {"x"|"y"} name

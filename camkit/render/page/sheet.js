@@ -2,7 +2,8 @@
 import { make } from "./controls.js";
 import { PARTS } from "./parts.js";
 import { Chart } from "./picture.js";
-import { fill, format } from "./numbers.js";
+import { fill } from "./numbers.js";
+import { under } from "./pointer.js";
 import { download } from "./files.js";
 import { atTheEnd } from "./kernel.js";
 
@@ -283,9 +284,7 @@ function designAt(chart, [px, py], within = 18) {
 /** The place under the pointer, or the values of the curves there. @param {Chart} chart @param {HTMLElement} tip @param {number[]} place */
 function hover(chart, tip, [px, py]) {
   if (!chart.inside(px, py) || chart.picture.axes.bare) { tip.hidden = true; return; }
-  const x = chart.x.back(px), y = chart.y.back(py), { per } = chart, round = (/** @type {number} */ v) => format(v, ".4g");
-  const rows = chart.valuesAt(x).map(({ mark, value }) => `${chart.how.words(mark.label) || chart.axes.title} ${round(value * per.y)}`);
-  tip.textContent = rows.length ? [`at ${round(x * per.x)}`, ...rows.slice(0, 8)].join("\n") : `${round(x * per.x)}, ${round(y * per.y)}`;
+  tip.textContent = under(chart, px, py).slice(0, 9).join("\n");
   tip.hidden = false;
   tip.style.left = `${chart.canvas.offsetLeft + px + 14}px`; tip.style.top = `${chart.canvas.offsetTop + py + 14}px`;
 }
