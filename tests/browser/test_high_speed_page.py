@@ -90,7 +90,7 @@ def test_optimise_from_here_improves_and_says_why_it_stopped(book: Workbook) -> 
 
 def test_a_long_search_can_be_stopped_and_keeps_the_best(book: Workbook) -> None:
     menus = book.better.locator("select")
-    menus.nth(0).select_option(label="contact stress: sizes and laws")
+    menus.nth(0).select_option(label="stress index: sizes and laws")
     menus.nth(1).select_option(label="de")
     book.better.get_by_role("button", name="Optimise from here").click()
     expect(book.better).to_contain_text(re.compile(r"\d+ designs evaluated, best so far"))
