@@ -107,8 +107,10 @@ def test_the_cycle_time_search_can_be_stopped(book: Workbook) -> None:
     expect(run).to_be_enabled()
     stopped = book.value("len(faster.steps)")
     run.click()
-    expect(book.faster).to_contain_text(re.compile(r"An interval of [\d.]+ (?:deg|°) keeps .* % more output"))
-    expect(run).to_be_enabled()
+    expect(book.faster).to_contain_text(
+        re.compile(r"An interval of [\d.]+ (?:deg|°) keeps .* % more output"), timeout=120_000
+    )
+    expect(run).to_be_enabled(timeout=120_000)
     assert book.value("len(faster.steps)") > stopped
     book.faster.get_by_role("button", name="Load the design").click()
     phi = book.value("faster.step.high")
