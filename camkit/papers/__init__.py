@@ -1,6 +1,6 @@
 """What published papers print, beside what is computed: one module for each paper; sketches with their letters."""
 
-from . import cabin_door, door_handle, high_speed_cam, optimiser_trials, shaft, valve_cam
+from . import cabin_door, door_handle, high_speed_cam, high_speed_optima, optimiser_trials, shaft, valve_cam
 from .optimiser_trials import Trials, measured_trials, probability_faster, trial_table
 from .published import Comparison, Row, Table
 from .sketch_in_space import linkage_sketch
@@ -17,6 +17,7 @@ __all__ = [
     "evaluations_needed",
     "flat_face_sketch",
     "high_speed_cam",
+    "high_speed_optima",
     "linkage_sketch",
     "measured_trials",
     "optimiser_trials",
