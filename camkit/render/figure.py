@@ -30,7 +30,8 @@ def picture(
     """
     from .still import figure_of
 
-    return figure_of(shown, views, width, height, turn, azimuth, elevation, limits)
+    given = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
+    return figure_of(shown, *views, width=width, height=height, limits=limits, **given)
 
 
 def small_png(*figures: Still) -> bytes:

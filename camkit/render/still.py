@@ -94,7 +94,7 @@ def draw(analysis: object, axes: Sequence[Axes], views: Sequence[View], **asked:
 
 def figure_of(
     shown: object,
-    views: Sequence[View],
+    *views: View,
     width: float,
     height: float,
     turn: float | None,
@@ -111,9 +111,9 @@ def figure_of(
         refuse_design(shown, "what the picture shows")
     refuse_population(shown, "what the picture shows")
     analysis = shown.analyse() if isinstance(shown, Analysable) else shown
-    views = views or default_views(analysis)
-    figure, axes = layout(views, width, height)
-    draw(analysis, axes, views, **asked)
+    drawn = views or default_views(analysis)
+    figure, axes = layout(drawn, width, height)
+    draw(analysis, axes, drawn, **asked)
     return figure
 
 

@@ -990,7 +990,7 @@ def test_a_remark_shows_in_the_panel(page, monkeypatch, tmp_path):
     page.load_json((FILES / OLD[2]).read_bytes())
     assert len(page.front) == 20
     assert said(page).startswith(f"The file is loaded, but {UNMARKED}; and friction is now friction.coefficient, ")
-    assert " and 11 names more are others." in said(page)
+    assert " and 12 names more are others." in said(page)
     app.load(DoorHandleCam())
 
 
