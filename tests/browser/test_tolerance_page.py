@@ -11,7 +11,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, mm
 from camkit.panels.tolerances import SETTLED
 from camkit.study.tolerances import Tolerances
-from lab import LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, LabServer, eventually, kernel_value, open_notebook, run_all
 
 SIZES = {"lift_arm": 45 * mm, "lift_start_angle": 27 * deg, "relief_cam_angle": 45 * deg}
 CAM = DoorHandleCam(**SIZES, lift_load=ArmLoad(torque=10))
@@ -37,7 +37,7 @@ def explorer(page: Page) -> Locator:
 def panel(page: Page) -> Locator:
     """As it was at first."""
     kernel_value(page, "app.load(cam)")
-    panel = page.locator(".camkit-sheet").filter(has_text="Tolerances").first
+    panel = page.locator(OWN_SHEETS).filter(has_text="Tolerances").first
     panel.get_by_role("button", name="Reset").click()
     panel.scroll_into_view_if_needed()
     shows(panel, MEDIUM)

@@ -44,7 +44,9 @@ export class Sheet {
     this.heard = {
       "change:body": () => this.show(),
       "msg:custom": (/** @type {any} */ message) => {
-        if (message.text !== undefined) download(message.name, new Blob([message.text], { type: message.mime }));
+        if (message.text === undefined || !this.spoke) return; // another view of the sheet asked for it
+        this.spoke = false;
+        download(message.name, new Blob([message.text], { type: message.mime }));
       },
       "comm_live_update": () => this._gone(), // it happens once more after the beginning: at the end
     };
@@ -159,6 +161,7 @@ export class Sheet {
     this.waiting.delete(key);
     this.sentAt = performance.now();
     this.parts.get(id).sent = ++this.asked;
+    this.spoke = true;
     this.model.send({ ...done, part: id, count: this.asked }, undefined, buffers);
   }
 
