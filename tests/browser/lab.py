@@ -343,6 +343,9 @@ def numbers_in(design: Any, measures: Iterable[Any]) -> list[str]:
     return [m.text(m.one(analysis)).partition(" ")[0] for m in measures]
 
 
+STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.filter(({ model }) => model.type === 'code')
+    .map(({ model }) => model.outputs.toJSON().map(({ data }) => 'image/png' in data))"""
+"""Of each cell's outputs, whether a picture is stored with it."""
 OWN_SHEETS = ".camkit-sheet:not(.camkit-page *)"
 """The sheets that are the output of a cell of their own, not those in a tab of an instrument."""
 

@@ -3,7 +3,7 @@
 import nbformat
 import pytest
 
-from lab import open_notebook, run_all
+from lab import STORED, open_notebook, run_all
 
 CELL = """
 from camkit import ArmLoad, DoorHandleCam, deg, explore
@@ -29,6 +29,7 @@ def instrument(server, browser):
     run_all(page)
     page.wait_for_selector(".camkit-page canvas")
     page.wait_for_function(f"() => {PANEL}.outputs && !{PANEL}.frame")
+    page.wait_for_function(f"() => ({STORED})().flat().some(Boolean)")  # then the focus is taken and given back
     page.evaluate("() => document.querySelectorAll('.camkit-page details').forEach((group) => { group.open = true; })")
     yield page
     context.close()

@@ -5,7 +5,7 @@ from pathlib import Path
 import nbformat
 from playwright.sync_api import Page
 
-from lab import Instrument, LabServer, open_notebook, run_all
+from lab import STORED, Instrument, LabServer, open_notebook, run_all
 
 REPOSITORY = Path(__file__).parents[2]
 NOTEBOOKS = sorted(path.name for path in (REPOSITORY / "notebooks").glob("*.ipynb"))
@@ -40,9 +40,6 @@ CELLS = (
     "app = explore(TranslatingRollerCam(), mechanism, pressure_angle)\napp",
     "presets(app, buttons={'itself': lambda cam: cam})",
 )
-STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.filter(({ model }) => model.type === 'code')
-    .map(({ model }) => model.outputs.toJSON().map(({ data }) => 'image/png' in data))"""
-"""Of each cell's outputs, whether a picture is stored with it."""
 
 
 def test_a_panel_comes_before_its_stored_picture_and_stays_as_it_stands(page: Page, server: LabServer) -> None:

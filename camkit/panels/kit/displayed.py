@@ -60,7 +60,7 @@ class Displayed(w.DOMWidget):
         """Show the panel alone, and its picture later; all at once where no page runs the cell."""
         place = here()
         if not place.cell:
-            raise NotImplementedError
+            raise NotImplementedError  # IPython then asks for the whole bundle
         (data, about), draw = self._live(), self.drawing()
         shown: Any = display(data, metadata=about, raw=True, display_id=True)
         LATER.add(place, lambda: shown.update(data | _drawn(draw), metadata=about, raw=True))
