@@ -63,7 +63,8 @@ class Displayed(w.DOMWidget):
             raise NotImplementedError  # IPython then asks for the whole bundle
         (data, about), draw = self._live(), self.drawing()
         shown: Any = display(data, metadata=about, raw=True, display_id=True)
-        LATER.add(place, lambda: shown.update(data | _drawn(draw), metadata=about, raw=True))
+        if not published():
+            LATER.add(place, lambda: shown.update(data | _drawn(draw), metadata=about, raw=True))
 
 
 def _drawn(draw: Callable[[], bytes]) -> dict[str, object]:

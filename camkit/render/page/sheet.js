@@ -97,8 +97,8 @@ export class Sheet {
 
   /** Show what the kernel says. */
   show() {
-    if (this.ended) return;
     const body = this.model.get("body"), heading = this.model.get("heading");
+    if (this.ended || !body.kind) return; // the kernel opens a sheet first and fills it then; a page may show it between
     this.heading ??= make("h3", {}, heading);
     this.heading.hidden = !heading;
     this.answered = body.heard;
