@@ -92,10 +92,11 @@ WATCH = """() => {
     window.camkitCount = (box, kind) => {
         const look = painted[kind].now;
         let last = look(box);
-        window.camkitSeen = 0; window.camkitCounting = true; window.camkitSlow = 0;
+        const mine = (window.camkitCounting = Symbol()); // one that was stopped may still wait for its frame
+        window.camkitSeen = 0; window.camkitSlow = 0;
         const begin = performance.now(); let before = begin;
         const each = () => {
-            if (!camkitCounting) return;
+            if (camkitCounting !== mine) return;
             const now = look(box), at = performance.now();
             if (now && now !== last) {
                 window.camkitSeen += 1;
@@ -106,7 +107,7 @@ WATCH = """() => {
         };
         each();
         window.camkitStop = () => {
-            window.camkitCounting = false;
+            window.camkitCounting = null;
             return { rate: (1000 * camkitSeen) / (performance.now() - begin), slowest: camkitSlow };
         };
     };
@@ -143,7 +144,7 @@ class Contender:
         return float(found["rate"]), float(found["slowest"])
 
     def drag(self, seconds: float = SECONDS) -> tuple[float, float]:
-        """As `count`, while the mouse drags the handle to and fro."""
+        """As `count`, while the mouse drags the handle to and fro, one move a frame, as the browser hands them on."""
         self.handle.scroll_into_view_if_needed()
         box = self.handle.bounding_box()
         assert box
@@ -155,7 +156,6 @@ class Contender:
             nonlocal moves
             moves += 1
             self.page.mouse.move(x + abs((moves + 20) % 80 - 40) - 20, y)
-            time.sleep(0.008)
 
         found = self.count(move, seconds)
         self.page.mouse.up()

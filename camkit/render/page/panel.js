@@ -20,6 +20,7 @@ import { Why } from "./why.js";
 
 const NARROW = 60; // letters: below it everything stands in one column
 const QUIET = 250; // ms without a move before tracks are painted
+const APART = 150; // ms between two values that the host hears of in a drag: a notebook shows that its kernel is busy with each
 const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 
 /**
@@ -48,8 +49,8 @@ export class Panel {
     this.theme = new MutationObserver(() => this.ask(true));
     this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
     this.resized = new ResizeObserver(() => this._resize());
-    for (const part of [root, this.middle, this.tabs.element]) this.resized.observe(part);
-    this.ask(true);
+    for (const part of [root, ...this.charts.map((/** @type {Chart} */ chart) => chart.canvas)]) this.resized.observe(part);
+    this._resize();
   }
 
   /** Other sizes: they are read now and not in every picture, which would lay the page out twice. */
@@ -62,6 +63,7 @@ export class Panel {
 
   /** Leave the page. */
   end() {
+    clearTimeout(this.resting); clearTimeout(this.reporting);
     this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop(); this.handles.end();
     this.positions.playing = false; this.ended = true;
     this.root.classList.remove("camkit-refused");
@@ -208,6 +210,7 @@ export class Panel {
   /** What is painted on tracks is of another design, but on that which is being moved. */
   _leaveTracks() {
     this.painting.stop();
+    clearTimeout(this.resting);
     this.quantities.element.classList.remove("camkit-jumped");
     this.quantities.element.classList.add("camkit-moving");
   }
@@ -266,8 +269,20 @@ export class Panel {
     if (outputs.structure) this._adopt(outputs.structure);
     if (this.ghost && this.engine.twin) this._turnGhost();
     this._draw(outputs, settled);
-    if (settled) this._paint();
-    this._report(values.subarray(0, this.history.count));
+    this.computed = values.subarray(0, this.history.count);
+    this._report(settled);
+    if (!settled) return;
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this._rest()); // the picture comes first
+  }
+
+  /** What follows a design that is settled on. */
+  _rest() {
+    const letter = parseFloat(getComputedStyle(this.root).fontSize);
+    if (letter !== this.letter) { this._resize(); return; }
+    for (const chart of this.charts) if (chart.list) this._describe(chart);
+    this.verdict.rest();
+    this._paint();
   }
 
   /** Pictures, positions and measures that somebody else has made. @param {any} structure */
@@ -276,12 +291,15 @@ export class Panel {
     this.charts.forEach((/** @type {Chart} */ chart, /** @type {number} */ k) => { chart.picture = structure.pictures[k]; });
   }
 
-  /** The host hears of other values, with the measures that the page has computed for them. @param {Float64Array} design */
-  _report(design) {
-    const values = [...design];
+  /** The host hears of other values, with the measures that the page has computed for them; in a drag now and then.
+   * @param {boolean} settled */
+  _report(settled) {
+    const values = [...this.computed], now = performance.now(), wait = (this.reportedAt ?? 0) + APART - now;
+    clearTimeout(this.reporting);
     if (!this.host || (this.reported && values.every((value, k) => value === this.reported[k]))) return;
+    if (!settled && wait > 0) { this.reporting = setTimeout(() => this._report(true), wait); return; }
     const first = !this.reported, number = (/** @type {any} */ { now }) => (Number.isFinite(now) ? now : null);
-    this.reported = values;
+    Object.assign(this, { reported: values, reportedAt: now });
     if (!first) this.host.changed(values, this.sentence ? [] : this.judged.map(number));
   }
 
@@ -314,7 +332,6 @@ export class Panel {
     if (!refused) Object.assign(this, { outputs, built: this.values.slice() });
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
-    if (settled) this.letter = parseFloat(getComputedStyle(this.root).fontSize);
     const { words, dark, playing, units } = this, em = this.letter / 13, low = 190 * em;
     this.root.classList.toggle("camkit-dark", dark);
     for (const chart of this.charts) {
@@ -322,9 +339,8 @@ export class Panel {
       chart.em = em;
       const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor, low, older: this._older(chart) };
       chart.draw(chart.own ?? this.outputs, how);
-      if (settled && chart.list) this._describe(chart);
     }
-    if (!refused) this._tell(outputs, settled);
+    if (!refused) this._tell(outputs);
     this.root.dispatchEvent(new CustomEvent("camkit-shown"));
   }
 
@@ -367,13 +383,13 @@ export class Panel {
     return alone.length ? alone : other;
   }
 
-  /** Measures as numbers, limits as chips. @param {ArrayLike<number>[]} outputs @param {boolean} settled */
-  _tell(outputs, settled) {
+  /** Measures as numbers, limits as chips. @param {ArrayLike<number>[]} outputs */
+  _tell(outputs) {
     this.first ??= outputs;
     const { structure: { first }, ghost } = this, before = ghost?.outputs ?? this.first;
     const rows = judged(this.structure, outputs, (m) => (first && !ghost ? first[m.name] ?? NaN : numberOf(m, before)));
     this.judged = rows;
-    this.verdict.tell(rows, this.words(this.structure.trouble), settled, this.units);
+    this.verdict.tell(rows, this.words(this.structure.trouble), this.units);
     if (!this.table.element.hidden) this.table.fill(rows, this.ghost ? "pinned" : "start", this.units);
   }
 }

@@ -31,7 +31,7 @@ export class Chart {
   /** Draw what the program gave: all of it if anything in it is new, else only what moves over it.
    * @param {ArrayLike<number>[]} outputs @param {How} how */
   draw(outputs, how) {
-    if (how.settled || !this.size) this._measure();
+    if (!this.size) this._measure();
     const { width, height } = this.size;
     if (!width || !height) return;
     const same = this._same(outputs, how), at = this.how?.cursor, rows = this.heading?.rows;

@@ -198,6 +198,7 @@ const KINDS = {
     /** @type {any} */ const part = { element, charts: [] };
     part.draw = () => {
       for (const chart of part.charts) {
+        chart.size = null; // whatever made this sheet draw may have laid it out anew
         if (!chart.canvas.clientWidth) continue;
         chart.em = parseFloat(getComputedStyle(element).fontSize) / 13;
         const said = (/** @type {any} */ text) => words(typeof text === "string" ? text : fill(text, chart.own));

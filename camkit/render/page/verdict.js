@@ -29,13 +29,12 @@ export class Verdict {
     /** @type {{element: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
   }
 
-  /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {boolean} settled
-   * @param {import("./units.js").Units} units */
-  tell(rows, trouble, settled, units) {
+  /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {import("./units.js").Units} units */
+  tell(rows, trouble, units) {
     const limited = rows.filter(({ m }) => m.limit !== undefined).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
-    if (settled) this._say(limited, trouble);
+    this.verdict = verdictOf(limited, trouble);
     const told = [...limited, ...others], chips = told.map((row) => chipOf(row, units)), written = JSON.stringify([trouble, chips]);
     if (this.written !== written) { // else the page would be laid out anew in every frame
       this.written = written;
@@ -43,7 +42,12 @@ export class Verdict {
       if (trouble) this.trouble.tabIndex = 0; else this.trouble.removeAttribute("tabindex");
       this._fill(told.map(({ m }) => m), chips);
     }
-    if (settled) this._count();
+  }
+
+  /** The design stays: it is said to those who hear, and how many chips do not fit. */
+  rest() {
+    if (this.said.textContent !== this.verdict) this.said.textContent = this.verdict;
+    this._count();
   }
 
   /** Chips stay as elements, so that one keeps the focus. @param {any[]} measures @param {string[][]} chips */
@@ -86,14 +90,13 @@ export class Verdict {
     pressed(element, () => this.go(element, made.m));
     return made;
   }
+}
 
-  /** @param {import("./measures.js").Judged[]} limited @param {string} trouble */
-  _say(limited, trouble) {
-    const missed = limited.filter(({ kept }) => !kept).map(({ m }) => m.name);
-    const limits = missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? "every limit is kept" : "";
-    const verdict = [trouble, limits].filter(Boolean).join("; ");
-    if (this.said.textContent !== verdict) this.said.textContent = verdict;
-  }
+/** In words, for those who hear it. @param {import("./measures.js").Judged[]} limited @param {string} trouble */
+function verdictOf(limited, trouble) {
+  const missed = limited.filter(({ kept }) => !kept).map(({ m }) => m.name);
+  const limits = missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? "every limit is kept" : "";
+  return [trouble, limits].filter(Boolean).join("; ");
 }
 
 /** A button that is no native one, as its words may stand in lines. @param {HTMLElement} element @param {() => void} act */
