@@ -40,10 +40,10 @@ from camkit.machines import CamLever, SliderLoad, cam_lever_study
 from camkit.machines.high_speed_measures import peak_stress
 from camkit.machines.shaft import shaft_study
 from camkit.motion import FreePolynomial, Skewed, SplineLaw, TableLaw
-from camkit.quantities import Choice, Quantity, UnitRemark
+from camkit.quantities import Choice, LeastMeasure, Quantity, UnitRemark
 from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.front import dominated, front_of
-from camkit.study import AnalysisCurve, SumOfResiduals
+from camkit.study import AnalysisCurve, RobustStudy, Source, SumOfResiduals, Tolerance
 
 ITSELF: list = []
 ITSELF.append(ITSELF)
@@ -127,6 +127,10 @@ GIVEN = {
     Sweep: (STUDY,),
     DesignMap: (shaft_study(),),
     Tolerances: (STUDY, {"base_radius": 0.001}),
+    Tolerance: (0.001,),
+    Source: ("wall", {"base_radius": -2.0}),
+    RobustStudy: (TranslatingRollerCam(), ["base_radius"], [HEIGHT], {}, {}, 31, False, {"base_radius": 0.001}),
+    LeastMeasure: ("height", "mm", len),
     SliderLoad: (0.2, 100.0, 1.0, abs),
     AnalysisCurve: ("pressure_angle", "deg", "pressure angle"),
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
@@ -137,7 +141,7 @@ GIVEN = {
 """What the constructors that have no defaults are given."""
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
-NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "SideBySide"}
+NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "Recheck", "SideBySide"}
 NOT_MADE_BY_HAND |= {"TorqueBalance", "WeightedSum", "WinnerMap"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]

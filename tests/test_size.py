@@ -25,6 +25,7 @@ DEFAULTS = {
     "Kinked": {"kinks", "kinks_move"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
     "SlidingAnalysis": {"start_height"},
+    "Study": {"nominal"},
 }
 """What a base computes as most of its kinds have it, and some of them in their own way, by name on purpose."""
 

@@ -11,7 +11,8 @@ import numpy as np
 from ..quantities import Design, Measure, measures_of, quantities_of
 from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..quantities.types import Array
-from ..study.study import Study, WeightedSum, refuse_bounds, weighted
+from ..study.study import Study, refuse_bounds
+from ..study.weighted import WeightedSum, weighted
 from ..units import factor
 from .checks import all_numbers, listed, mapping, plain
 from .entries import Reading, entry_of, exact_in_unit, is_number, key

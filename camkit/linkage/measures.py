@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..quantities import Measure, PeakMeasure
+from ..quantities import LeastMeasure, Measure, PeakMeasure
 from ..quantities.kinds import numbers, one_number, refuse_arguments
 from ..quantities.types import Array, Value
 from ..study.residuals import SumOfResiduals
@@ -75,7 +75,11 @@ def room_in(box: Box) -> Measure:
     """How far the centre lines of all links stay within a box, from the nearest wall; < 0 where one leaves it."""
     refuse_arguments(room_in, locals())
     made = ("room in", tuple(box.low), tuple(box.high), box.name)
-    return Measure(f"room within {box.name}", "mm", lambda a: box.depth(a.chain).min((0, -1)), made=made)
+
+    def room(analysis: RSSRAnalysis) -> Array:
+        return np.concatenate([joint for wall in box.depths(analysis.chain) for joint in wall], axis=-1)
+
+    return LeastMeasure(f"room within {box.name}", "mm", room, made=made)
 
 
 def clearance_from(box: Box) -> Measure:

@@ -37,7 +37,8 @@ from ..motion import LAW_MENU, Cycloidal, Dwell, MotionProgram, Return, Rise
 from ..quantities import Design, Measure, choice, counted, quantity, unless
 from ..quantities.kinds import listed, refuse_arguments
 from ..quantities.types import Array, Value
-from ..study.study import Space, Study, weighted
+from ..study.study import Space, Study
+from ..study.weighted import weighted
 from ..units import deg, mm
 from .door_handle_analysis import DoorHandleAnalysis
 

@@ -11,7 +11,8 @@ from ..cam.follower_measures import jump_margin, leaving_speed
 from ..cam.measures import max_pressure_angle, peak, peak_force
 from ..quantities import Measure
 from ..quantities.kinds import listed, refuse_arguments
-from ..study.study import Space, Study, WeightedSum, weighted
+from ..study.study import Space, Study
+from ..study.weighted import WeightedSum, weighted
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
 from .valve_cam import ValveCam

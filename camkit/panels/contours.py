@@ -11,7 +11,8 @@ from ..quantities import Measure, Quantity, label, with_quantities, words
 from ..quantities.kinds import a_number, refuse_arguments
 from ..quantities.types import Array
 from ..study.design_map import DesignMap
-from ..study.study import Study, WeightedSum, named_studies
+from ..study.study import Study, named_studies
+from ..study.weighted import WeightedSum
 from ..units import factor
 from ..views.design_map import ShownPlane, objective_plane
 from .instrument import Instrument

@@ -108,12 +108,36 @@ class PeakMeasure(Measure):
 
     def curve(self, analysis: object) -> np.ndarray:
         """The value at every point, before the sign."""
-        curve = self.given(analysis)
-        if not np.ndim(curve) or not np.shape(curve)[-1]:
-            raise ValueError(
-                f"the {self.name} gives {shown(curve)}; it is the largest value of a curve, its points last"
-            )
-        return cast(np.ndarray, curve)
+        return _curve(self, analysis, "largest")
 
     def __call__(self, analysis: object) -> Value:
         return self.sign * self.curve(analysis).max(-1)
+
+
+@dataclass(frozen=True)
+class LeastMeasure(Measure):
+    """The least value of a curve, or of several things such as the walls of a box: their points come last.
+
+    A search, and a study under tolerances, then see every point, as they do of a `PeakMeasure`.
+
+    >>> room = LeastMeasure("room", "mm", lambda analysis: analysis["room"])
+    >>> float(room({"room": np.array([0.05, 0.02, 0.04])}))
+    0.02
+    """
+
+    def curve(self, analysis: object) -> np.ndarray:
+        """The value at every point, before the sign."""
+        return _curve(self, analysis, "least")
+
+    def __call__(self, analysis: object) -> Value:
+        return self.sign * self.curve(analysis).min(-1)
+
+
+def _curve(measure: Measure, analysis: object, which: str) -> np.ndarray:
+    """What a measure gives that is the largest or least value of a curve."""
+    curve = measure.given(analysis)
+    if not np.ndim(curve) or not np.shape(curve)[-1]:
+        raise ValueError(
+            f"the {measure.name} gives {shown(curve)}; it is the {which} value of a curve, its points last"
+        )
+    return cast(np.ndarray, curve)

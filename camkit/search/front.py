@@ -121,14 +121,14 @@ def _why_empty(evaluation: Evaluation, study: Study) -> str:
 def reference_point(study: Study, n: int = 256) -> np.ndarray:
     """A fixed point for hypervolumes: the worst objectives among the feasible of ``n`` Sobol points of the box.
 
-    It depends on the study alone, so hypervolumes of different searches can be compared.
+    It depends on the study without its tolerances alone, so hypervolumes of different searches can be compared.
     """
     from scipy.stats import qmc
 
     refuse_arguments(reference_point, locals())
     unit = qmc.Sobol(len(study.free), rng=0).random(counted(n, "Sobol points", 1))
-    evaluation = study.evaluate(qmc.scale(unit, *study.bounds))
+    evaluation = study.nominal.evaluate(qmc.scale(unit, *study.bounds))
     usable = evaluation.feasible if evaluation.feasible.any() else np.isfinite(evaluation.f).all(-1)
     if not usable.any():
-        return study.evaluate(study.x0).f[0]
+        return study.nominal.evaluate(study.x0).f[0]
     return evaluation.f[usable].max(axis=0)

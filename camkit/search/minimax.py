@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure, PeakMeasure
-from ..study.study import KEPT, Study, WeightedSum
+from ..study.study import KEPT, Study
+from ..study.weighted import parts_of, points_of
 
 STEP = 1e-6
 """Step of a central difference, as a share of the bounds' width."""
@@ -23,22 +23,6 @@ SEEN, NEAR = 100, 0.02
 """Of each curve SLSQP sees at least so many points, evenly, and all that come this near to their bound."""
 ROUNDS, STEPS = 20, 100
 """How often points are added at most, and how many steps SLSQP may take each time."""
-
-
-def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
-    """A measure as a sum of factor times part: the parts of a weighted sum, or the measure alone."""
-    if isinstance(measure, WeightedSum) and measure.sign > 0:
-        shares = zip(measure.weights, measure.reference, measure.parts, strict=True)
-        return [(w / r, part) for w, r, part in shares if w > 0]
-    return [(1.0, measure)]
-
-
-def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.ndarray:
-    """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
-    if isinstance(measure, PeakMeasure) and factor * measure.sign > 0:
-        curve = np.asarray(abs(factor) * measure.curve(analysis))
-        return np.broadcast_to(curve, (p, curve.shape[-1]))
-    return np.broadcast_to(factor * measure(analysis), p)[:, None]
 
 
 class Descent(NamedTuple):
@@ -76,12 +60,14 @@ class Epigraph:
     def _blocks(self, u: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
         """The points of each part of the objective and of each limit, for designs ``(p, n)``."""
         self.evaluations += len(u)
-        p, analysis, heads = len(u), self.study.analysis(self.x(u)), []
+        x = self.x(u)
+        p, analysis, heads = len(u), self.study.analysis(x), []
         for factor, part in parts_of(self.study.minimise[0]):
             heads.append(points_of(part, analysis, factor / self.scale, p))
+        margins = np.broadcast_to(self.margins + self.study.tightening(x), (p, len(self.study.limits)))
         limits = [
-            points_of(m, analysis, sense / (abs(v) or 1.0), p) - (sense * np.sign(v) - margin)
-            for (m, v, sense), margin in zip(self.study.limits, self.margins, strict=True)
+            points_of(m, analysis, sense / (abs(v) or 1.0), p) - (sense * np.sign(v) - margin[:, None])
+            for (m, v, sense), margin in zip(self.study.limits, margins.T, strict=True)
         ]
         return heads, limits
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
+from ..study.robust import RobustStudy
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
 from .minimum import SAME, Found, Minimum, described
@@ -26,6 +27,8 @@ SPARE = 3
 """How many more starts there may be if no descent ended at a design that keeps every limit."""
 CROWD = 32
 """How many random designs compete to be a further start."""
+PASSES, SETTLED = 6, 1e-5
+"""How often margins for tolerances are renewed at most, and by how much less than this they then change."""
 TRIES = 4
 """How often limits are tightened until the result keeps them; it is aimed at half of ``KEPT`` inside them."""
 
@@ -47,6 +50,8 @@ def minimise(
     - ``"de"`` (differential evolution, scipy), ``"ga"`` (pymoo) and ``"competitive"`` (`CompetitiveAlgorithm`, with a
       ``narrowing`` of 0.9 that is not its paper's) need no slopes and no start: they look at about ``designs`` designs.
       How far they came is then checked by a descent from their result; the message says it, ``descended`` has its end.
+
+    Of a study under tolerances (`Study.under`) ``"slsqp"`` tightens the limits until enough of the parts keep them.
 
     ``recheck``: how many angles the result is judged on, if not those of the study; ``"slsqp"`` tightens limits until
     they hold there.  The result is never worse than the study's start, and repeatable for a seed.
@@ -113,6 +118,8 @@ def _start(study: Study) -> np.ndarray:
 
 
 def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
+    if isinstance(study, RobustStudy) and isinstance(judge, RobustStudy):
+        return _within_tolerances(study, judge, seed, starts, designs)
     ends, merits, evaluations = [], [], 0
     for x in islice(_starts(study, seed), starts + SPARE):
         end, used, _ = _descent(study, x, ROUGH, 2 * ROUGH)
@@ -125,6 +132,29 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
     stopped = "Converged: no small change lowers it further" if finished else "Stopped: no step made the design better"
     f = tuple(f if broken < SAME else np.inf for broken, f in merits)
     return Found(best, evaluations + used, f, stopped)
+
+
+def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts: int, designs: int) -> Found:
+    """Descents with margins in place of tolerances, which are renewed from exact parts at each end."""
+    inside = partial(np.clip, a_min=0, a_max=1)
+    margins = inside(np.nan_to_num(study.margins(_start(study))[0], posinf=0.0))
+    used, ends, finished = 0, [_start(study)], ""
+    for number in range(PASSES):
+        tight, exact = (which.tightened(partial(_constant, margins)) for which in (study, judge))
+        found = _slsqp(tight.replace(start=study.design(ends[-1])), exact, seed, 1 if number else starts, designs)
+        ends.append(found.x)
+        used, finished = used + found.evaluations, found.why
+        before, margins = margins, inside(judge.exact_margins(found.x))
+        missed = plain(judge).evaluate(found.x).missed[0]
+        if (abs(margins - before) < SETTLED).all() and not missed.any():
+            break
+        margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.minimum(missed, 1), 0))
+    return Found(_better(plain(judge), *ends), used, (), finished)
+
+
+def _constant(margins: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The same margins for all designs ``(p, n_free)``."""
+    return np.broadcast_to(margins, (len(x), len(margins)))
 
 
 def _descent(

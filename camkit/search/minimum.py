@@ -9,8 +9,8 @@ import numpy as np
 
 from ..quantities import D, Measure, PeakMeasure, label
 from ..study.study import Evaluation, Study
+from ..study.weighted import parts_of
 from ..units import deg
-from .minimax import parts_of
 
 CLOSE = 1e-4
 """A peak or a limit is active if it is reached to within this share of it."""

@@ -21,6 +21,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..quantities.kinds import refuse_arguments
+from ..study.margins import TightenedStudy
+from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
 from .front import Front, front_of
 from .minimum import Minimum
@@ -142,7 +144,7 @@ class SearchStopped(Exception):
 
 
 @dataclass(frozen=True)
-class _FollowedStudy(Study):
+class _FollowedStudy(TightenedStudy):
     """A study that hands every analysis of designs on."""
 
     follow: Callable[[Evaluation], None] | None = None
@@ -155,11 +157,39 @@ class _FollowedStudy(Study):
         return analysis
 
 
+@dataclass(frozen=True)
+class _FollowedRobustStudy(RobustStudy):
+    """A study under tolerances that hands every evaluation of designs on, and those of itself as it is tightened."""
+
+    follow: Callable[[Evaluation], None] | None = None
+
+    def evaluate(self, x: ArrayLike) -> Evaluation:
+        """Objectives and limits of designs."""
+        found = super().evaluate(x)
+        assert self.follow is not None
+        self.follow(found)
+        return found
+
+    def tightened(self, margins: Callable[[np.ndarray], np.ndarray]) -> TightenedStudy:
+        """The nominal study with limits tightened by ``margins``."""
+        return _FollowedStudy(**_fields(self, Study), margins=margins, follow=self.follow)
+
+
+def _fields(study: Study, kind: type) -> dict[str, Any]:
+    return {f.name: getattr(study, f.name) for f in fields(kind)}
+
+
 def plain(study: Study) -> Study:
     """``study`` as it was before somebody followed it."""
-    if not isinstance(study, _FollowedStudy):
-        return study
-    return Study(**{f.name: getattr(study, f.name) for f in fields(Study)})
+    if isinstance(study, _FollowedRobustStudy):
+        return RobustStudy(**_fields(study, RobustStudy))
+    return Study(**_fields(study, Study)) if isinstance(study, _FollowedStudy) else study
+
+
+def _followed(study: Study, follow: Callable[[Evaluation], None]) -> Study:
+    if isinstance(study, RobustStudy):
+        return _FollowedRobustStudy(**_fields(study, RobustStudy), follow=follow)
+    return _FollowedStudy(**_fields(study, Study), follow=follow)
 
 
 def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Iterator[Step]:
@@ -177,8 +207,7 @@ def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Ite
                 best = Minimum(study, evaluation.x[i].copy(), step.summary.f, True, count)
             give(replace(step, best=best))
 
-        known = {f.name: getattr(study, f.name) for f in fields(Study)}
-        found = work(_FollowedStudy(**known, follow=note))
+        found = work(_followed(study, note))
         end = partial(found.study.evaluate, found.x)
         give(Step(count, count, study, end, count, found, found.message))
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..quantities import Measure, PeakMeasure
 from ..quantities.types import Array
-from .study import WeightedSum
+from .weighted import WeightedSum
 
 
 @dataclass(frozen=True)

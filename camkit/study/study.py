@@ -6,9 +6,9 @@ It knows measures, not mechanisms: it carries a design from numbers to measures 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any, Generic, Self
+from typing import TYPE_CHECKING, Any, Generic, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,69 +31,21 @@ from ..quantities.kinds import (
     listed,
     number,
     numbers,
-    one_number,
     refuse_empty,
     refuse_fields,
     refuse_kinds,
     shown,
 )
 from ..quantities.types import Array, Value
+from .weighted import WeightedSum, checked_weight
+
+if TYPE_CHECKING:
+    from .robust import RobustStudy
 
 TRIED = 32
 """So many pairs of designs, at random, say whether a free quantity has any effect."""
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
-
-
-@dataclass(frozen=True)
-class WeightedSum(Measure):
-    """Measures divided by their values at a reference design, weighted and added (see `weighted`)."""
-
-    parts: tuple[Measure, ...] = ()
-    weights: tuple[float, ...] = ()
-    reference: tuple[float, ...] = ()
-
-    def with_weights(self, weights: object) -> WeightedSum:
-        """The same sum with other weights."""
-        weights = listed(weights, "the tuple of weights", "measure")
-        if len(weights) != len(self.parts):
-            raise ValueError(f"there are {len(weights)} weights for the {self.name}; it has {len(self.parts)} measures")
-        return replace(weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference), sign=self.sign)
-
-
-def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[float]) -> WeightedSum:
-    """The measure ``sum(w_i * measure_i / reference_i)``; 1 at the reference if the weights add to 1.
-
-    >>> a, b = Measure("a", "", lambda x: x[0]), Measure("b", "", lambda x: x[1])
-    >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
-    1.75
-    """
-    if not isinstance(weights, Mapping):
-        raise ValueError(f"the weights are {shown(weights)}; they must be a mapping from measures to numbers")
-    reference = listed(reference, "the reference", "measure")
-    if not weights or len(weights) != len(reference):
-        raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
-    for measure in weights:
-        if not isinstance(measure, Measure):
-            raise ValueError(f"the weighted sum has {shown(measure)} where a Measure belongs")
-    parts, shares = tuple(weights), tuple(_weight(w, f"the {m.name}") for m, w in weights.items())
-    if not any(shares):
-        raise ValueError(f"every weight of the {name} is 0; one or more must be above 0")
-    divisors = tuple(
-        one_number(
-            value, f"the {m.name} at the reference design", "be finite and not 0", lambda v: v != 0 and finite(v)
-        )
-        for m, value in zip(parts, reference, strict=True)
-    )
-
-    def total(analysis: object) -> Value:
-        return sum(w * part(analysis) / r for part, w, r in zip(parts, shares, divisors, strict=True))
-
-    return WeightedSum(name, "", total, 1, parts, shares, divisors)
-
-
-def _weight(value: object, of: str) -> float:
-    return one_number(value, f"the weight of {of}", "be a finite number of at least 0", lambda w: w >= 0 and finite(w))
 
 
 KEPT = 1e-9
@@ -274,6 +226,32 @@ class Study(Generic[D]):
         refuse_design(design, "the design")
         return np.array(self._paths.values(_ready(design, self.free)), dtype=float)
 
+    @property
+    def nominal(self) -> Study[D]:
+        """The same study without tolerances: this one, unless it is `under` some."""
+        return self
+
+    def under(
+        self,
+        tolerances: Mapping[Any, object],
+        yield_at_least: float = 0.99,
+        worst_case: bool = False,
+        objective: str = "nominal",
+        correlation: Mapping[Any, float] | None = None,
+    ) -> RobustStudy[D]:
+        """The same study of designs that are made within ``tolerances``, as every search takes it: see `RobustStudy`.
+
+        >>> from camkit import mm, shaft_study
+        >>> robust = shaft_study().under({"outer_diameter": 0.5 * mm, "inner_diameter": 0.3 * mm})
+        >>> robust.evaluate([[0.1292, 0.103], [0.1298, 0.103]]).feasible.tolist()
+        [False, True]
+        """
+        from .robust import RobustStudy
+
+        known = {f.name: getattr(self, f.name) for f in fields(Study)}
+        return RobustStudy(**known, tolerances=tolerances, yield_at_least=yield_at_least, worst_case=worst_case,
+            objective=objective, correlation=correlation)  # fmt: skip
+
     @cached_property
     def limits(self) -> tuple[tuple[Measure, float, int], ...]:
         """Every limit as measure, value, sense: +1 for at most, -1 for at least."""
@@ -302,11 +280,20 @@ class Study(Generic[D]):
 
     def analysis(self, x: ArrayLike) -> Any:
         """The analysis of the design or population ``x``."""
-        analysis = self.design(x).analyse(self.angles)
+        return self.analysis_of(self.design(x))
+
+    def analysis_of(self, design: Any) -> Any:
+        """The analysis of a design, or of a population of them."""
+        analysis = design.analyse(self.angles)
         return replace(analysis, rough=True) if self.rough and hasattr(analysis, "rough") else analysis
 
     def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
+        rows = self.rows(x)
+        return self.judge(rows, self.analysis(rows))
+
+    def rows(self, x: ArrayLike) -> np.ndarray:
+        """``x`` as a table with a row for each design; ``ValueError`` in a sentence for what is none."""
         try:
             x = np.atleast_2d(numbers(x, "the free values"))
         except (TypeError, ValueError, OverflowError):
@@ -315,7 +302,7 @@ class Study(Generic[D]):
             raise ValueError(f"x has the shape {x.shape}; it must be a table, a row for each design")
         if x.shape[1] != len(self.free):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
-        return self.judge(x, self.analysis(x))
+        return x
 
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
@@ -327,6 +314,10 @@ class Study(Generic[D]):
     @staticmethod
     def _columns(values: list[Array], p: int) -> np.ndarray:
         return np.stack(values, axis=-1) if values else np.zeros((p, 0))
+
+    def tightening(self, x: Array) -> Array:
+        """By how much its limits are tighter than they say, as shares of them: not at all."""
+        return np.zeros(())
 
     def worst_miss(self, g: np.ndarray) -> str:
         """Which limit one design, with ``g`` of an `Evaluation`, misses by most and by how much, in words."""
@@ -381,7 +372,7 @@ class Study(Generic[D]):
         given = listed(weights, "the tuple of weights", "measure")
         changed = tuple(m.with_weights(given) if isinstance(m, WeightedSum) else m for m in self.minimise)
         for i, weight in enumerate(given, 1):
-            _weight(weight, f"measure {i}")
+            checked_weight(weight, f"measure {i}")
         return replace(self, minimise=changed)
 
     def replace(self, **changes: Any) -> Self:

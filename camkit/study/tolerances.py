@@ -15,20 +15,16 @@ import numpy as np
 
 from ..quantities import Measure, Paths, Quantity, counted, floats, value_of, words
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
-from ..units import deg, factor, mm
+from ..units import deg, factor
+from .spread import SPREADS, iso_2768, spread_shares
 from .study import Evaluation, Study
 
-SPREADS = ("uniform", "normal")
 ANGLES = ("cam_angle", "crank_angle")
 """Over what a curve may be drawn."""
-WITHIN = 3
-"""How many standard deviations of a normal spread the tolerance is: 99.7 % of parts keep it."""
 CONFIDENCE = 0.95
 
-ISO_2768_M = ((6, 0.1), (30, 0.2), (120, 0.3), (400, 0.5), (1000, 0.8), (2000, 1.2), (4000, 2.0))
-"""ISO 2768-1:1989, table 1, class m (medium): up to which length, mm, which deviation is permitted, mm."""
 ISO_ANGLE = 0.5 * deg
-"""Table 3, class m, for an angle whose shorter leg is between 10 and 50 mm."""
+"""ISO 2768-1:1989, table 3, class m, for an angle whose shorter leg is between 10 and 50 mm."""
 OTHERWISE = 0.01
 """Share of its value, for what is neither a length nor an angle."""
 
@@ -46,7 +42,7 @@ def general_tolerance(declared: Quantity, value: float) -> float:
     if declared.unit in ("deg", "rad"):
         return ISO_ANGLE
     if declared.unit in ("mm", "cm", "m"):
-        return next((t for upto, t in ISO_2768_M if abs(value) <= upto * mm), ISO_2768_M[-1][1]) * mm
+        return float(iso_2768(value))
     return OTHERWISE * abs(value)
 
 
@@ -102,6 +98,7 @@ class Tolerances:
     three standard deviations.  ``parts`` is a power of two; a seed gives the same parts again.
 
     >>> from camkit.machines import lift_curve_study
+    >>> from camkit.units import mm
     >>> lift = Tolerances(lift_curve_study(), {"lift_arm": 0.3 * mm, "lift_start_angle": 0.5 * deg}, parts=256)
     >>> lift.share, lift.x.shape, lift.measures[0].name
     (1.0, (256, 2), 'effort')
@@ -152,14 +149,14 @@ class Tolerances:
     @cached_property
     def _halves(self) -> np.ndarray:
         """Two independent halves of the parts, ``(2, parts / 2, n)``: Saltelli's matrices A and B."""
-        from scipy.stats import norm, qmc, uniform
+        from scipy.stats import qmc
 
         n = len(self.names)
         unit = qmc.Sobol(2 * n, rng=self.seed).random(self.parts // 2)
         low, high = self._box.bounds
         middle, half = (low + high) / 2, (high - low) / 2
-        law = uniform(-1, 2) if self.spread == "uniform" else norm(0, 1 / WITHIN)
-        return middle + half * np.stack([law.ppf(unit[:, :n]), law.ppf(unit[:, n:])])
+        shares = spread_shares(unit, [self.spread] * 2 * n)
+        return middle + half * np.stack([shares[:, :n], shares[:, n:]])
 
     @property
     def x(self) -> np.ndarray:

@@ -30,7 +30,7 @@ from camkit.motion import (
     Rise,
 )
 from camkit.quantities import measures_of, quantities_of, unremarked, with_quantities
-from camkit.study.study import weighted
+from camkit.study.weighted import weighted
 from camkit.units import GPa, MPa, N, deg, kg, m, mm, rpm
 from camkit.views.cam import contact_pressure
 from camkit.views.defaults import default_views

@@ -59,7 +59,7 @@ from camkit.panels import Instrument
 from camkit.papers.high_speed_cam import with_printed_sizes
 from camkit.quantities import Design, Quantity, declarations
 from camkit.search.front import front_of
-from camkit.study.study import WeightedSum, weighted
+from camkit.study.weighted import WeightedSum, weighted
 from camkit.units import deg, factor, mm
 from camkit.views import pressure_angle
 

@@ -22,7 +22,7 @@ from camkit.quantities import Design, quantity
 from camkit.render.contours import level_curve
 from camkit.search.minimise import minimise
 from camkit.study.design_map import DesignMap
-from camkit.study.study import weighted
+from camkit.study.weighted import weighted
 from camkit.units import mm, rpm
 from camkit.views.cam import pressure_angle
 from camkit.views.design_map import SHADES, ShownPlane, objective_plane

@@ -17,7 +17,8 @@ from camkit.papers.high_speed_cam import STRESS_CAP
 from camkit.quantities import Design, PeakMeasure, quantity
 from camkit.search.minimise import METHODS, minimise
 from camkit.search.protocol import search
-from camkit.study.study import Study, weighted
+from camkit.study.study import Study
+from camkit.study.weighted import weighted
 from camkit.units import mm
 from known_problems import KNOWN_PROBLEMS
 

@@ -19,7 +19,7 @@ from camkit.linkage.universal_joint import fluctuation
 from camkit.motion import LAWS, Cycloidal, ShapedLaw
 from camkit.quantities import Design, Quantity, declarations, quantity, value_of, with_quantities
 from camkit.study import weighted
-from camkit.study.study import WeightedSum
+from camkit.study.weighted import WeightedSum
 from camkit.units import mm
 
 

@@ -13,7 +13,8 @@ from ...files import Session, designs, sessions
 from ...quantities import Analysable, Measure
 from ...quantities.kinds import kind_words
 from ...search.checkpoint import fingerprint, resume, why
-from ...study.study import Study, WeightedSum
+from ...study.study import Study
+from ...study.weighted import WeightedSum
 from .search_files import Kept, keep, pending
 from .search_job import SIZE, SessionSearch
 

@@ -1,0 +1,74 @@
+"""A study whose limits are tightened, so that a search that knows nothing of tolerances leaves room for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from ..quantities import D
+from ..quantities.types import Array
+from .study import Evaluation, Study
+
+RIDGE = 1e-2
+"""How much a fit prefers margins that are the same everywhere."""
+
+
+@dataclass(frozen=True)
+class TightenedStudy(Study[D]):
+    """A study whose limits are tightened by ``margins``: a function of designs ``(p, n_free)``, ``(p, n_limits)``."""
+
+    margins: Callable[[Array], Array] | None = None
+
+    def tightening(self, x: Array) -> Array:
+        """The margins at designs ``(p, n_free)``."""
+        return np.zeros(()) if self.margins is None else self.margins(x)
+
+    def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
+        """Objectives and tightened limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
+        found = super().judge(x, analysis)
+        return replace(found, g=found.g + self.tightening(x))
+
+
+def tightened(study: Study[D], margins: Callable[[Array], Array]) -> TightenedStudy[D]:
+    """``study`` without tolerances, its limits tightened by ``margins``."""
+    known: dict[str, Any] = {f.name: getattr(study, f.name) for f in fields(Study)}
+    return TightenedStudy(**known, margins=margins)
+
+
+class FittedMargins(NamedTuple):
+    """Margins that change slowly over the bounds: a quadratic through some designs, within what was seen of them."""
+
+    bounds: Array
+    coefficients: Array
+    low: Array
+    high: Array
+    raised: Array
+
+    @classmethod
+    def to(cls, bounds: Array, x: Array, margins: Array) -> Self:
+        """A fit to designs ``(p, n_free)`` and their ``margins`` ``(p, n_limits)``."""
+        mean, basis = margins.mean(0), _basis(bounds, x)
+        ridge = RIDGE * np.eye(basis.shape[1])
+        slopes = np.linalg.solve(basis.T @ basis + ridge, basis.T @ (margins - mean))
+        slopes[0] += mean
+        return cls(bounds, slopes, margins.min(0), margins.max(0), np.zeros(margins.shape[1]))
+
+    def __call__(self, x: Array) -> Array:
+        """The margins at designs ``(p, n_free)``, ``(p, n_limits)``."""
+        return np.clip(_basis(self.bounds, x) @ self.coefficients, self.low, self.high) + self.raised
+
+    def above(self, x: Array, margins: Array) -> Self:
+        """The same fit, raised for each limit by as much as it falls short of ``margins`` at ``x`` at worst."""
+        short = np.maximum(margins - self(x), 0).max(0, initial=0.0)
+        return self._replace(raised=self.raised + short)
+
+
+def _basis(bounds: Array, x: Array) -> Array:
+    """1, the shares of the bounds from -1 to 1, and their products, ``(p, 1 + n + n (n + 1) / 2)``."""
+    low, high = bounds
+    u = 2 * (x - low) / (high - low) - 1
+    i, j = np.triu_indices(u.shape[1])
+    return np.hstack([np.ones((len(u), 1)), u, u[:, i] * u[:, j]])

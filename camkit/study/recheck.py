@@ -1,0 +1,148 @@
+"""The yield of designs by parts that are judged exactly, as few of them as are needed, and what is sure of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..quantities import counted
+from ..quantities.types import Array
+from .study import KEPT
+from .three_point import FLOOR, ThreePoint
+
+if TYPE_CHECKING:
+    from .robust import RobustStudy
+
+SEED = 20768
+"""Of parts that no search has seen."""
+FIRST, MOST = 1024, 16384
+"""How many parts there are at first, and at most while it is not decided."""
+BATCH, SURE = 8, 2.0
+"""So many parts are judged at a time, until the next lies so many of the model's errors within its limits."""
+CONFIDENCE = 0.95
+CORNERS = 10
+"""Of up to so many tolerances all corners are judged; of more the one where the model is worst."""
+
+
+@dataclass(frozen=True)
+class Recheck:
+    """What exact parts say of ``p`` designs.
+
+    In a worst case the parts are the corners of the tolerances, and nothing is left open.
+    """
+
+    share: Array
+    """The yield, ``(p,)``."""
+    interval: Array
+    """Between which yields the true one lies, ``(p, 2)`` (Clopper and Pearson; each end holds with 95 %)."""
+    missed: Array
+    """How many parts miss a limit or cannot be built, ``(p,)``."""
+    parts: Array
+    """Of how many, ``(p,)``."""
+    wanted: float
+    """The yield that there has to be."""
+    evaluations: int
+    """How many designs were evaluated, all together."""
+
+    @property
+    def kept(self) -> Array:
+        """Which designs have the yield for sure, ``(p,)``."""
+        return np.asarray(self.interval[:, 0] >= self.wanted)
+
+    @property
+    def decided(self) -> Array:
+        """For which designs it is sure whether they have the yield or not, ``(p,)``."""
+        return np.asarray(self.kept | (self.interval[:, 1] < self.wanted))
+
+    def __str__(self) -> str:
+        rows = zip(self.share, self.interval, self.decided, strict=True)
+        return "; ".join(
+            f"{100 * share:.1f} % ({100 * low:.1f} to {100 * high:.1f}){'' if sure else ', not decided'}"
+            for share, (low, high), sure in rows
+        )
+
+
+def clopper_pearson(missed: Array, parts: Array) -> Array:
+    """The ends of the yield's interval when ``missed`` of ``parts`` miss, ``(..., 2)``; each holds with 95 %.
+
+    >>> clopper_pearson(np.array([4, 5]), np.array([1024, 1024]))[:, 0].round(4).tolist()
+    [0.9911, 0.9898]
+    """
+    from scipy.special import betaincinv
+
+    missed, parts = np.asarray(missed, dtype=float), np.asarray(parts, dtype=float)
+    kept, beyond = parts - missed, 1 - CONFIDENCE
+    low = np.where(kept > 0, betaincinv(np.maximum(kept, 1), missed + 1, beyond), 0.0)
+    high = np.where(missed > 0, betaincinv(kept + 1, np.maximum(missed, 1), CONFIDENCE), 1.0)
+    return np.stack([low, high], axis=-1)
+
+
+def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
+    """`RobustStudy.recheck`."""
+    p, wanted = len(x), study.yield_at_least
+    models, looked = study.models(x), p * (2 * len(study.tolerances) + 1)
+    if study.worst_case:
+        found = largest(study, study.made(x, corners(study, models)))
+        missed, used = (found > KEPT).sum(1), found.shape[1]
+        share = 1 - missed / used
+        return Recheck(share, np.stack([share, share], -1), missed, np.full(p, used), 1.0, looked + found.size)
+    number = FIRST if parts is None else counted(parts, "parts", 4, 2**20)
+    if number & (number - 1):
+        raise ValueError(f"the number of parts is {number}; it must be a power of 2")
+    missed, of = np.zeros(p, dtype=int), np.full(p, number)
+    open_ = np.arange(p)
+    while len(open_):
+        missed[open_], judged = _missed(study, x[open_], [_rows(model, open_) for model in models], number)
+        of[open_], looked = number, looked + judged
+        low, high = clopper_pearson(missed[open_], of[open_]).T
+        open_ = open_[(low < wanted) & (high >= wanted)] if parts is None and number < MOST else open_[:0]
+        number *= 4
+    return Recheck(1 - missed / of, clopper_pearson(missed, of), missed, of, wanted, looked)
+
+
+def _rows(model: ThreePoint, rows: Array) -> ThreePoint:
+    return ThreePoint(*(part[rows] for part in model))
+
+
+def largest(study: RobustStudy, parts: Array) -> Array:
+    """The largest ``g`` of each of ``parts`` ``(p, m, n_paths)``, ``(p, m)``; ``inf`` for what cannot be built."""
+    found = study.judged(parts.reshape(-1, parts.shape[-1]))
+    worst = found.g.max(-1, initial=FLOOR)
+    return np.where(np.isfinite(found.f).all(-1), worst, np.inf).reshape(parts.shape[:2])
+
+
+def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int) -> tuple[Array, int]:
+    """How many of ``number`` parts of each design miss a limit, ``(p,)``, and how many were judged for it.
+
+    The worst by the model are judged, until the next lies well within its limits by the largest error seen.
+    """
+    z = study.shares(number, SEED)
+    g = np.full((len(x), number), FLOOR)
+    for rows in np.array_split(np.arange(number), max(1, number // 1024)):
+        for model in models:
+            g[:, rows] = np.maximum(g[:, rows], model.at(z[rows]))
+    order = np.argsort(-g, axis=1, kind="stable")
+    missed, error, at, judged = np.zeros(len(x), dtype=int), np.zeros(len(x)), 0, 0
+    open_, batch = np.arange(len(x)), BATCH
+    while at < number and len(open_):
+        tried = order[open_, at : at + batch]
+        found = largest(study, study.made(x[open_], z[tried]))
+        guess = np.take_along_axis(g[open_], tried, 1)
+        missed[open_] += (found > KEPT).sum(1)
+        error[open_] = np.maximum(error[open_], np.minimum(abs(found - guess), 1.0).max(1))
+        at, judged = at + tried.shape[1], judged + tried.size
+        batch = min(2 * batch, 256)
+        if at < number:
+            open_ = open_[g[open_, order[open_, at]] >= -SURE * error[open_] - KEPT]
+    return missed, judged
+
+
+def corners(study: RobustStudy, models: list[ThreePoint]) -> Array:
+    """The corners of the tolerances that count, as shares, ``(m, k)`` or ``(p, m, k)``."""
+    k = len(study.tolerances)
+    if k <= CORNERS or not models:
+        return np.array(list(product((-1.0, 1.0), repeat=min(k, CORNERS))))
+    return np.stack([model.corner for model in models], axis=1)

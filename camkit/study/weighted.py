@@ -1,0 +1,81 @@
+"""Measures that are sums of others, and measures as the points of which they are the largest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..quantities import LeastMeasure, Measure, PeakMeasure
+from ..quantities.kinds import finite, listed, one_number, shown
+from ..quantities.types import Value
+
+
+@dataclass(frozen=True)
+class WeightedSum(Measure):
+    """Measures divided by their values at a reference design, weighted and added (see `weighted`)."""
+
+    parts: tuple[Measure, ...] = ()
+    weights: tuple[float, ...] = ()
+    reference: tuple[float, ...] = ()
+
+    def with_weights(self, weights: object) -> WeightedSum:
+        """The same sum with other weights."""
+        weights = listed(weights, "the tuple of weights", "measure")
+        if len(weights) != len(self.parts):
+            raise ValueError(f"there are {len(weights)} weights for the {self.name}; it has {len(self.parts)} measures")
+        return replace(weighted(self.name, dict(zip(self.parts, weights, strict=True)), self.reference), sign=self.sign)
+
+
+def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[float]) -> WeightedSum:
+    """The measure ``sum(w_i * measure_i / reference_i)``; 1 at the reference if the weights add to 1.
+
+    >>> a, b = Measure("a", "", lambda x: x[0]), Measure("b", "", lambda x: x[1])
+    >>> weighted("both", {a: 0.75, b: 0.25}, (2.0, 4.0))((4.0, 4.0))
+    1.75
+    """
+    if not isinstance(weights, Mapping):
+        raise ValueError(f"the weights are {shown(weights)}; they must be a mapping from measures to numbers")
+    reference = listed(reference, "the reference", "measure")
+    if not weights or len(weights) != len(reference):
+        raise ValueError(f"the weighted sum has {len(weights)} measures and {len(reference)} reference values")
+    for measure in weights:
+        if not isinstance(measure, Measure):
+            raise ValueError(f"the weighted sum has {shown(measure)} where a Measure belongs")
+    parts, shares = tuple(weights), tuple(checked_weight(w, f"the {m.name}") for m, w in weights.items())
+    if not any(shares):
+        raise ValueError(f"every weight of the {name} is 0; one or more must be above 0")
+    divisors = tuple(
+        one_number(
+            value, f"the {m.name} at the reference design", "be finite and not 0", lambda v: v != 0 and finite(v)
+        )
+        for m, value in zip(parts, reference, strict=True)
+    )
+
+    def total(analysis: object) -> Value:
+        return sum(w * part(analysis) / r for part, w, r in zip(parts, shares, divisors, strict=True))
+
+    return WeightedSum(name, "", total, 1, parts, shares, divisors)
+
+
+def checked_weight(value: object, of: str) -> float:
+    """A weight as a float; ``ValueError`` in a sentence for what is none."""
+    return one_number(value, f"the weight of {of}", "be a finite number of at least 0", lambda w: w >= 0 and finite(w))
+
+
+def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
+    """A measure as a sum of factor times part: the parts of a weighted sum, or the measure alone."""
+    if isinstance(measure, WeightedSum) and measure.sign > 0:
+        shares = zip(measure.weights, measure.reference, measure.parts, strict=True)
+        return [(w / r, part) for w, r, part in shares if w > 0]
+    return [(1.0, measure)]
+
+
+def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.ndarray:
+    """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
+    sided = factor * measure.sign
+    if (isinstance(measure, PeakMeasure) and sided > 0) or (isinstance(measure, LeastMeasure) and sided < 0):
+        curve = np.asarray(sided * measure.curve(analysis))
+        return np.broadcast_to(curve, (p, curve.shape[-1]))
+    return np.broadcast_to(factor * measure(analysis), p)[:, None]
