@@ -59,6 +59,26 @@ def test_a_page_gets_the_panels_first_and_their_pictures_when_no_cell_runs(cell)
     assert last == [{LIVE, "text/plain", "image/png"}] * 3
 
 
+def test_pictures_wait_while_a_person_moves_something(monkeypatch):
+    app, made, events = panels()[0], [], EventManager(None, available_events)
+    monkeypatch.setattr(displayed, "get_ipython", lambda: SimpleNamespace(events=events))
+    monkeypatch.setattr(displayed, "LATER", later := displayed.Later())
+
+    async def moves():
+        later.add(Place("a", "run"), lambda: made.append("picture"))
+        events.trigger("post_run_cell", None)
+        before = later._timer
+        app._handle_msg({"content": {"data": {"method": "update", "state": {"values": app.values}}}, "buffers": []})
+        assert before.cancelled()
+        assert later._timer.when() > before.when()
+        events.trigger("pre_run_cell", None)
+        app._handle_msg({"content": {"data": {"method": "request_state"}}, "buffers": []})
+        assert later._timer is None  # the end of the cell begins anew
+
+    asyncio.run(moves())
+    assert not made
+
+
 def test_a_cell_that_runs_again_asks_for_its_new_pictures_alone(cell):
     app, judged, _ = panels()
     _, last = cell((Place("a", "first"), [app]), (Place("b", "first"), [judged]), (Place("a", "second"), [app, app]))

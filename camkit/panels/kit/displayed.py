@@ -1,7 +1,7 @@
 """How a panel shows itself in a cell, and when the picture is made that stands for it where there is no kernel.
 
 That picture takes longer than all else.  A page that runs the cell gets the panel alone first; the picture follows when
-no cell has run for a while, and nobody waits for it.
+no cell has run and no page has spoken for a while, and nobody waits for it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .kept_designs import published
 from .running import Place, here
 
 REST = 1.0
-"""Seconds without a running cell after which pictures are made."""
+"""Seconds without a running cell and without a word from a page after which pictures are made."""
 BETWEEN = 0.1
 """Seconds between two of them, in which the kernel hears what a person does."""
 Bundle = tuple[dict[str, object], dict[str, object]]
@@ -43,6 +43,11 @@ class Displayed(w.DOMWidget):
 
     def settle(self) -> None:
         """Wait until everything that is shown belongs to what was asked for last."""
+
+    def _handle_msg(self, msg: dict[str, Any]) -> None:
+        """A page speaks: a picture that comes now would take the slider out of somebody's hand."""
+        LATER.postpone()
+        super()._handle_msg(msg)
 
     def _live(self) -> Bundle:
         """The live view, and the numbers where there is no kernel."""
@@ -89,9 +94,15 @@ class Later:
             events.register("pre_run_cell", self._wait)
             events.register("post_run_cell", lambda *_: self._rest(REST))
 
+    def postpone(self) -> None:
+        """Begin to rest anew."""
+        if self._timer:
+            self._rest(REST)
+
     def _wait(self, *_: object) -> None:
         if self._timer:
             self._timer.cancel()
+            self._timer = None
 
     def _rest(self, seconds: float) -> None:
         self._wait()
