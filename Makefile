@@ -13,10 +13,12 @@ LAB :=
 # JupyterLab refuses to run as root unless told so.
 AS_ROOT := $(if $(filter 0,$(shell id -u)),--allow-root)
 
-# Two processes, each with a file of tests at a time: what a file's tests share is made once.
+# Two processes, each with a notebook, or with a file of tests, at a time: what is shared is made once.
 NOTEBOOKS := $(BIN)/python -m pytest -n 2 --dist loadscope
 # nbval, which takes seconds to load, is for the notebooks.
 PYTEST := $(NOTEBOOKS) -p no:nbval
+# Whichever process is done takes over some of the other's tests: none waits while a long file is gone through.
+SPREAD := $(PYTEST) --dist worksteal
 
 # Coverage is asked of the maths alone, and not of its long searches and tables of cases: watching makes these tests slower by half.
 UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py \
@@ -56,9 +58,9 @@ app: $(VENV)/.app
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(PYTEST) $(addprefix --ignore=,$(UNWATCHED) tests/browser) --cov --cov-report=term-missing:skip-covered
+	$(SPREAD) $(addprefix --ignore=,$(UNWATCHED) tests/browser) --cov --cov-report=term-missing:skip-covered
 	@echo "== tests of panels, pictures, long searches and tables of cases (pytest)"
-	$(PYTEST) $(UNWATCHED)
+	$(SPREAD) $(UNWATCHED)
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(NOTEBOOKS) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"

@@ -7,7 +7,7 @@ import numpy as np
 
 from camkit.program.operations import ALONG, EACH, FOLDS, MOVES, operands
 from camkit.program.written import BY, picked, whole
-from camkit.quantities import quantities_of, value_of
+from camkit.quantities import Paths, quantities_of
 
 AWKWARD = [
     np.nan,
@@ -189,4 +189,5 @@ def designs_beside(design, p, seed):
 
 
 def start_of(design):
-    return {path: value_of(design, path) for path in quantities_of(design)}
+    paths = quantities_of(design)
+    return dict(zip(paths, Paths(design, paths).values(design), strict=True))
