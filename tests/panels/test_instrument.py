@@ -8,7 +8,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from hand import ask, move
+from hand import ask, choose, move
 from PIL import Image
 from stubborn import Stubborn
 
@@ -16,6 +16,7 @@ from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointS
 from camkit.cam import max_pressure_angle, min_profile_radius
 from camkit.files import to_json
 from camkit.motion import ShapedLaw
+from camkit.panels import Instrument
 from camkit.quantities import quantities_of, value_of
 from camkit.views import mechanism, pressure_angle
 
@@ -155,6 +156,23 @@ def test_a_follower_that_fails_is_said_and_stops_no_other(app):
     move(app, "base_radius", 45)
     assert heard == [app.design]
     assert app.message.startswith("What follows this panel cannot be shown everywhere: ")
+
+
+def test_an_option_that_is_taken_back_is_not_recorded_again(app, monkeypatch):
+    made, recorded = [], Instrument._recorded
+    monkeypatch.setattr(Instrument, "_recorded", lambda self, *given: made.append(0) or recorded(self, *given))
+    plain, first = app.structure, app.program
+    choose(app, "motion.rise.law", "modified sine")
+    other = app.program
+    move(app, "base_radius", 45)
+    choose(app, "motion.rise.law", "cycloidal")
+    assert (app.structure, app.program) == (plain, first)
+    assert app.rows()[0][1] == max_pressure_angle.one(app.design.analyse())
+    choose(app, "motion.rise.law", "modified sine")
+    assert (app.program, other != first, len(made)) == (other, True, 1)
+    for law in ("simple harmonic", "cycloidal"):
+        choose(app, "motion.rise.law", law)
+    assert len(made) == 3  # of three, the last two are held
 
 
 def test_what_does_not_record_the_kernel_computes(monkeypatch):
