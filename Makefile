@@ -20,6 +20,9 @@ PYTEST := $(NOTEBOOKS) -p no:nbval
 # Whichever process is done takes over some of the other's tests: none waits while a long file is gone through.
 SPREAD := $(PYTEST) --dist worksteal
 
+# The files in tests/browser as conftest.py there puts them, the slowest first, so that both processes end together.
+IN_ORDER := --no-loadscope-reorder
+
 # Coverage is asked of the maths alone, and not of its long searches and tables of cases: watching makes these tests slower by half.
 UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py \
     tests/files/test_files.py tests/files/test_profile_files.py tests/machines/test_populations.py tests/test_public_names.py \
@@ -64,7 +67,7 @@ test: lint
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(NOTEBOOKS) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
-	$(PYTEST) -m browser tests/browser
+	$(PYTEST) $(IN_ORDER) -m browser tests/browser
 
 lint: $(VENV)/.test
 	@echo "== errors and habits (ruff check)"

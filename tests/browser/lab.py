@@ -30,12 +30,11 @@ from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
 from camkit.quantities import quantities_of, value_of
 
-SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
+_SHOWN = """() => { const { pictures, measures, sentence, values } = camkit.shown();
     const plain = (v) => (typeof v === "number" ? [String(v)] : typeof v === "object" && v ? Array.from(v, String) : v);
     const mark = (m) => Object.fromEntries(Object.entries(m).map(([name, v]) => [name, plain(v)]));
-    return { sentence, values, measures: measures.map((m) => m.text),
-             pictures: pictures.map((p) => ({ ...p, marks: p.marks.map(mark) })) }; }"""
-"""What a page shows, as data."""
+    return JSON.stringify({ sentence, values: [...values], measures: measures.map((m) => m.text),
+                            pictures: pictures.map((p) => ({ ...p, marks: p.marks.map(mark) })) }); }"""
 CHROMIUM_FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
@@ -79,12 +78,12 @@ class LabServer:
 
     def end_kernels(self) -> None:
         """Ends what the last test left running."""
-        for session in self.api("sessions"):
-            self.api(f"sessions/{session['id']}", "DELETE")
+        for kernel in self.api("kernels"):
+            self.api(f"kernels/{kernel['id']}", "DELETE")
 
 
 @contextmanager
-def lab_server(folder: Path, root: Path, source: Path, timeout: float = 60) -> Iterator[LabServer]:
+def lab_server(folder: Path, root: Path, source: Path, timeout: float = 120) -> Iterator[LabServer]:
     """JupyterLab on a free port, serving ``root``; its kernels import from ``source`` first.
 
     Its settings are those of `make lab`; none of the user's count.
@@ -222,17 +221,53 @@ _ASK = """async ([expression, seconds]) => {
 }"""
 
 
+_CLOSE = "() => { for (const widget of [...(window.jupyterapp?.shell.widgets('main') ?? [])]) widget.dispose(); }"
+_OPEN = f"""async (name) => {{
+    ({_CLOSE})();
+    const {{ commands, shell }} = window.jupyterapp;
+    const panel = await commands.execute("docmanager:open", {{ path: name }});
+    for (const other of [...shell.widgets('main')]) if (other !== panel) other.dispose(); // a launcher
+}}"""
+
+
 def open_notebook(page: Page, name: str, timeout: float = 60) -> None:
-    """Opens a notebook of the server's folder in an empty workspace and waits until its kernel is idle."""
+    """Opens a notebook of the server's folder, alone, and waits until its kernel is idle."""
+    if page.evaluate("() => Boolean(window.jupyterapp)"):
+        page.evaluate(_OPEN, name)
+        _wait_until_ready(page, name, timeout)
+    else:
+        load_notebook(page, name, timeout)
+
+
+def load_notebook(page: Page, name: str, timeout: float = 60) -> None:
+    """Loads JupyterLab, again if it is there, with a notebook in an empty workspace."""
     page.goto(f"/lab/tree/{name}?reset")
+    _wait_until_ready(page, name, timeout)
+
+
+def _wait_until_ready(page: Page, name: str, timeout: float) -> None:
     try:
         page.wait_for_function(_READY, arg=name, timeout=1000 * timeout)
     except PlaywrightTimeout:
         raise AssertionError(f"{name} was not open with an idle kernel after {timeout:g} s{_dialog(page)}") from None
 
 
-def run_all(page: Page, timeout: float = 120) -> None:
-    """Runs all cells and waits until the kernel is idle; a cell that ends in an error fails the test."""
+def close_all(page: Page) -> None:
+    """Closes all notebooks of the window as they are; JupyterLab stays."""
+    page.evaluate(_CLOSE)
+
+
+_NO_PICTURES = "setattr(__import__('camkit.panels.kit.displayed', fromlist=['REST']), 'REST', 3600)"
+"""A kernel draws the pictures that are stored when it has rested for so long: nobody waits for them here."""
+
+
+def run_all(page: Page, timeout: float = 120, pictures: bool = False) -> None:
+    """Runs all cells and waits until the kernel is idle; a cell that ends in an error fails the test.
+
+    The pictures that are stored with panels take most of a kernel's time: they are made only if ``pictures`` says so.
+    """
+    if not pictures:
+        kernel_value(page, _NO_PICTURES)
     page.evaluate(_RUN)
     try:
         page.wait_for_function(_RAN, timeout=1000 * timeout)
@@ -320,7 +355,7 @@ class Instrument:
         """What it shows, when nothing is left to be drawn."""
         panel = f"document.querySelectorAll('.camkit-page')[{self.place}].parentElement.camkit"
         self.page.wait_for_function(f"() => {panel}?.outputs && !{panel}.frame")
-        return self.page.evaluate(SHOWN.replace("camkit.shown", f"{panel}.shown"))
+        return shown_by(self.page, panel)
 
     def shows(self, design: Any, measures: Iterable[Any]) -> None:
         """The page and the kernel come to ``design``; the page has its measures, computed here."""
@@ -330,6 +365,11 @@ class Instrument:
         known = f"[{self.name}.values, {self.name}.message]"  # the page has let go, and both agree
         eventually(lambda: kernel_value(self.page, known)[0] == pytest.approx(wanted, rel=1e-9))
         assert "The page computes" not in kernel_value(self.page, known)[1]
+
+
+def shown_by(page: Page, panel: str = "camkit") -> Any:
+    """What a page shows, as data: one text, since many small values take long from a browser to Python."""
+    return json.loads(page.evaluate(_SHOWN.replace("camkit.shown", f"{panel}.shown")))
 
 
 def numbers_of(shown: Any) -> list[str]:

@@ -1,19 +1,18 @@
 """The decision notebook in JupyterLab: judging by keyboard, brushing, the tray; the page against the package."""
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
 from camkit.decision import CHOOSERS, judgement_ranges, side_by_side, weighted_sum
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.views.decision import triangle
-from lab import OWN_SHEETS, LabServer, eventually, kernel_value, open_notebook, run_all, screenshot
+from lab import OWN_SHEETS, eventually, kernel_value, open_notebook, run_all
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
 PAPER, SPACE = DoorHandleCam(lift_load=ArmLoad(torque=10)), DOOR_HANDLE_SPACE
@@ -21,22 +20,11 @@ STUDY = door_handle_study(PAPER).replace(minimise=(ANGLE, FORCE, -RADIUS))
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page) -> Page:
     """The notebook opened and run once."""
-    page = context.new_page()
-    open_notebook(page, "16_decision.ipynb")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
-
-
-@pytest.fixture(autouse=True)
-def _kept_if_it_fails(page: Page, request: pytest.FixtureRequest) -> Iterator[None]:
-    failed = request.session.testsfailed
-    yield
-    if request.session.testsfailed > failed:
-        screenshot(page, Path(__file__).parents[2] / ".browser" / f"{request.node.name}.png")
+    open_notebook(window, "16_decision.ipynb")
+    run_all(window)
+    return window
 
 
 def panel(page: Page, words: str) -> Any:

@@ -106,8 +106,10 @@ def test_a_front_in_a_tab_shows_a_ghost_and_loads_a_design(page, server, tmp_pat
     assert kernel_value(page, "app.add_tab('Judgements', ahp_panel(judged.judgements))") is None
     page.wait_for_function(f"() => window.old.ended && {panel}.sheets.length === 2")
 
-    page.goto((tmp_path / "cam.html").as_uri())
-    page.wait_for_function("() => globalThis.camkit?.outputs && camkit.sheets.length === 2")
-    assert look_and_choose(page, "camkit") == pytest.approx(chosen, rel=1e-14)
-    assert page.get_by_role("tab", name="Judgements").is_visible()
+    alone = page.context.new_page()
+    alone.goto((tmp_path / "cam.html").as_uri())
+    alone.wait_for_function("() => globalThis.camkit?.outputs && camkit.sheets.length === 2")
+    assert look_and_choose(alone, "camkit") == pytest.approx(chosen, rel=1e-14)
+    assert alone.get_by_role("tab", name="Judgements").is_visible()
+    alone.close()
     assert (tmp_path / "cam.html").stat().st_size < 500_000

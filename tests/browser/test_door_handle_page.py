@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, deg, door_handle_study, mm
 from camkit.decision import CHOOSERS
@@ -19,13 +18,11 @@ from camkit.machines.door_handle import DOOR_HANDLE_SPACE
 from camkit.quantities import quantities_of, value_of
 from lab import (
     OWN_SHEETS,
-    LabServer,
     eventually,
     kernel_value,
     marks_of,
     open_notebook,
     run_all,
-    screenshot,
     type_number,
 )
 
@@ -47,21 +44,18 @@ class Workbook:
 
 
 @pytest.fixture(scope="module")
-def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
+def book(window: Page) -> Workbook:
     """The notebook opened and run once for all tests of this file."""
-    page = context.new_page()
-    open_notebook(page, "01_door_handle_cam.ipynb")
-    run_all(page, timeout=300)
-    sheets = page.locator(OWN_SHEETS)
+    open_notebook(window, "01_door_handle_cam.ipynb")
+    run_all(window, timeout=300)
+    sheets = window.locator(OWN_SHEETS)
     titles = ("What makes up the effort", "Effort against radius", "free quantities")
-    yield Workbook(page, *(sheets.filter(has_text=title) for title in titles))
-    page.close()
-    server.end_kernels()
+    return Workbook(window, *(sheets.filter(has_text=title) for title in titles))
 
 
 @pytest.fixture(autouse=True)
-def _from_the_start(book: Workbook, request: pytest.FixtureRequest) -> Iterator[None]:
-    """Each test begins with the paper's design and judgements; what a failed one showed is kept in .browser/."""
+def _from_the_start(book: Workbook) -> None:
+    """Each test begins with the paper's design and judgements."""
     for sheet in (book.criteria, book.importance):
         sheet.get_by_role("button", name="Reset").click()
     book.value("app.load(app.start)")
@@ -69,10 +63,6 @@ def _from_the_start(book: Workbook, request: pytest.FixtureRequest) -> Iterator[
         lambda: book.value("[criteria.judgements.above, importance.judgements.above]") == [[5, 5, 1], [1]],
     )
     shows(book, START)
-    failed = request.session.testsfailed
-    yield
-    if request.session.testsfailed > failed:
-        screenshot(book.page, Path(__file__).parents[2] / ".browser" / f"{request.node.name}.png")
 
 
 def shows(book: Workbook, design: DoorHandleCam) -> None:

@@ -9,7 +9,7 @@ from camkit import HighSpeedCam, OscillatingRollerCam
 from camkit.machines import high_speed_measures as fast
 from camkit.quantities import quantities_of, with_quantities
 from camkit.render.living import living
-from lab import SHOWN, Instrument, eventually, kernel_value, open_notebook, run_all
+from lab import Instrument, eventually, kernel_value, open_notebook, run_all, shown_by
 
 CELL = """
 from camkit import HighSpeedCam, explore
@@ -52,7 +52,7 @@ def middle(box):
 
 def acceleration(page):
     """The curve as it is drawn, and the values of all quantities."""
-    shown = page.evaluate(SHOWN)
+    shown = shown_by(page)
     (curve,) = [p for p in shown["pictures"] if p["name"] == "acceleration"]
     (line,) = [mark for mark in curve["marks"] if mark["key"] == "curve"]
     return np.array(line["y"], dtype=float), shown["values"]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import deg, mm
 from camkit.machines.cam_lever import CamLever, lever_stress
@@ -19,7 +18,7 @@ from camkit.machines.high_speed_measures import GEOMETRY, HIGH_SPEED_MEASURES, h
 from camkit.motion import ShapedLaw
 from camkit.quantities import quantities_of
 from camkit.search.minimise import minimise
-from lab import OWN_SHEETS, Instrument, LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, Instrument, eventually, kernel_value, open_notebook, run_all
 
 START = HighSpeedCam()
 SHAPED = ShapedLaw(c=(0.0, -0.15, 0.0, 0.0))
@@ -39,16 +38,13 @@ class Workbook:
 
 
 @pytest.fixture(scope="module")
-def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
-    page = context.new_page()
-    open_notebook(page, "06_high_speed_cam.ipynb")
-    run_all(page)
-    panels = page.locator(OWN_SHEETS)
-    optimise = panels.filter(has=page.get_by_role("button", name="Optimise from here"))
-    shorten = panels.filter(has=page.get_by_role("button", name="Shorten the cycle"))
-    yield Workbook(page, Instrument(page), optimise.first, shorten.first)
-    page.close()
-    server.end_kernels()
+def book(window: Page) -> Workbook:
+    open_notebook(window, "06_high_speed_cam.ipynb")
+    run_all(window)
+    panels = window.locator(OWN_SHEETS)
+    optimise = panels.filter(has=window.get_by_role("button", name="Optimise from here"))
+    shorten = panels.filter(has=window.get_by_role("button", name="Shorten the cycle"))
+    return Workbook(window, Instrument(window), optimise.first, shorten.first)
 
 
 @pytest.fixture(autouse=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
 
 import nbformat
 import pytest
@@ -82,18 +81,15 @@ PANELS = (
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page, server: LabServer) -> Page:
     cells = [DESIGN, f"evil_study = {json.dumps({'schema': EVIL})!r}", *PANELS]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in cells])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "hostile.ipynb")
-    page = context.new_page()
-    open_notebook(page, "hostile.ipynb")
-    page.evaluate("window.ran = 0")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "hostile.ipynb")
+    window.evaluate("window.ran = 0")
+    run_all(window, pictures=True)
+    return window
 
 
 # Waits until another image that does not exist has said so: one that is on the page would have, too.

@@ -26,7 +26,7 @@ def instrument(server, browser):
     context.request.get(f"/api/me?token={server.token}")
     page = context.new_page()
     open_notebook(page, "hosts.ipynb")
-    run_all(page)
+    run_all(page, pictures=True)
     page.wait_for_selector(".camkit-page canvas")
     page.wait_for_function(f"() => {PANEL}.outputs && !{PANEL}.frame")
     page.wait_for_function(f"() => ({STORED})().flat().some(Boolean)")  # then the focus is taken and given back

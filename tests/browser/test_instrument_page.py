@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from camkit import ArmLoad, DoorHandleCam, door_handle_study
 from camkit.quantities import choices_of, measures_of
 from camkit.views import default_views
-from lab import SHOWN, eventually, kernel_value, open_notebook, run_all
+from lab import Instrument, eventually, kernel_value, open_notebook, run_all, shown_by
 from test_living_page import DRAG, compare
 
 START = """
@@ -28,20 +28,30 @@ PAGE = "document.querySelector('.camkit-page').parentElement.camkit"
 
 
 @pytest.fixture
-def shown(page, server):
+def shown(window, server):
     """Runs one cell, and gives the page when its panel has drawn."""
 
-    def show(source):
+    def show(source, name):
         notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source)])
         notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
-        nbformat.write(notebook, server.root / "instrument.ipynb")
-        open_notebook(page, "instrument.ipynb")
-        run_all(page)
-        page.wait_for_selector(".camkit-page canvas")
-        settled(page)
-        return page
+        nbformat.write(notebook, server.root / name)
+        open_notebook(window, name)
+        run_all(window)
+        window.wait_for_selector(".camkit-page canvas")
+        settled(window)
+        return window
 
     return show
+
+
+@pytest.fixture
+def started(window, shown):
+    """The page of ``START`` as it was at first; its notebook is opened unless it is open."""
+    if window.evaluate("window.jupyterapp?.shell.currentWidget?.context?.path") != "started.ipynb":
+        shown(START, "started.ipynb")
+    kernel_value(window, "app.load(app.start)")
+    Instrument(window).shows(STUDY.start, measures_of(STUDY.start))
+    return window
 
 
 def settled(page):
@@ -49,11 +59,89 @@ def settled(page):
 
 
 def of_page(page):
-    return page.evaluate(SHOWN.replace("camkit.shown", f"{PAGE}.shown"))
+    return shown_by(page, PAGE)
+
+
+def test_everything_is_on_one_screen(started):
+    page = started
+    page.set_viewport_size({"width": 1366, "height": 768})
+    settled(page)
+    box = page.locator(".camkit-page").bounding_box()
+    assert box["height"] <= 647
+    assert box["width"] <= 960
+    for part in ("left", "middle", "right-side", "chips", "play"):
+        inner = page.locator(f".camkit-{part}").bounding_box()
+        assert box["x"] <= inner["x"]
+        assert inner["x"] + inner["width"] <= box["x"] + box["width"] + 1
+        assert inner["y"] + inner["height"] <= box["y"] + box["height"] + 1
+
+
+def test_the_kernel_moves_the_page_and_undo_moves_the_kernel(started):
+    page = started
+    kernel_value(page, "setattr(app, 'design', app.design.replace(lift_arm=0.052))")
+    page.wait_for_function(f"() => {PAGE}.values[0] === 0.052 && !{PAGE}.frame")
+    page.get_by_role("button", name="Undo").click()
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.05)
+    page.get_by_role("button", name="Redo").click()
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.052)
+
+
+def test_a_choice_is_made_by_the_kernel_and_drawn_by_the_page(started):
+    page = started
+    menu = page.locator(".camkit-left details", has_text="Choices")
+    menu.locator("summary").click()
+    select = menu.locator("select").first
+    option = select.locator("option").nth(3).inner_text()
+    page.evaluate(f"{PAGE}.positions.turnTo(40)")
+    select.select_option(option)
+    eventually(lambda: kernel_value(page, "app.design.motion_law.name") == option)
+    page.wait_for_function(f"() => {PAGE}?.structure.choices[0].chosen === {option!r}")
+    settled(page)
+    assert page.evaluate(f"{PAGE}.positions.angle") == pytest.approx(40)
+    law = STUDY.start.replace(motion_law=choices_of(STUDY.start)["motion_law"].named[option])
+    compare(of_page(page), law, default_views(law.analyse()), measures_of(law), LIMITS)
+
+
+def test_a_kernel_that_is_busy_stops_nothing(started):
+    page = started
+    page.evaluate(BUSY)
+    before = page.evaluate(f"{PAGE}.shownAt")
+    page.get_by_label("lift arm, mm", exact=True).focus()
+    for _ in range(10):
+        page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(30)
+    settled(page)
+    assert page.evaluate(f"{PAGE}.shownAt") >= before + 5
+    assert of_page(page)["values"][0] == pytest.approx(0.051)
+
+
+def test_a_number_is_typed_as_people_type(started):
+    page = started
+    box = page.get_by_label("lift arm, mm, number")
+    for text, value in (("48,123456789", 0.048123456789), ("1 7/8 in", 0.047625), ("52.5", 0.0525)):
+        box.fill(text)
+        box.press("Enter")
+        eventually(lambda value=value: kernel_value(page, "app.design.lift_arm") == pytest.approx(value, rel=1e-14))
+        box.blur()  # the box shows fewer digits than count
+        assert page.evaluate(f"{PAGE}.values[0]") == pytest.approx(value, rel=1e-14)
+    box.fill("400")
+    box.press("Enter")
+    expect(page.locator(".camkit-over")).to_contain_text("This cannot be built: ")
+    assert kernel_value(page, "app.design.lift_arm") == pytest.approx(0.0525)
+    box.fill("abc")
+    box.press("Enter")
+    expect(page.locator(".camkit-refusal:not(:empty)")).to_contain_text("is no number")
+
+
+def test_what_does_not_record_is_computed_by_the_kernel(shown):
+    page = shown(STUBBORN, "stubborn.ipynb")
+    page.evaluate(DRAG, [0.8, 0])
+    page.wait_for_function(f"() => {PAGE}.numbers && Math.abs({PAGE}.values[0] - 0.00322) < 1e-9 && !{PAGE}.frame")
+    eventually(lambda: of_page(page)["pictures"][0]["marks"][0]["y"][-1] == "3.22")
 
 
 def test_the_page_computes_with_the_kernel_ended(shown, server):
-    page = shown(START)
+    page = shown(START, "instrument.ipynb")
     views = default_views(STUDY.start.analyse())
     compare(of_page(page), STUDY.start, views, measures_of(STUDY.start), LIMITS)
     slider = page.get_by_label("lift arm, mm", exact=True)
@@ -71,81 +159,3 @@ def test_the_page_computes_with_the_kernel_ended(shown, server):
     found = of_page(page)
     assert found["values"][0] == pytest.approx(0.0506)
     compare(found, STUDY.start, views, measures_of(STUDY.start), LIMITS)
-
-
-def test_everything_is_on_one_screen(shown):
-    page = shown(START)
-    page.set_viewport_size({"width": 1366, "height": 768})
-    settled(page)
-    box = page.locator(".camkit-page").bounding_box()
-    assert box["height"] <= 647
-    assert box["width"] <= 960
-    for part in ("left", "middle", "right-side", "chips", "play"):
-        inner = page.locator(f".camkit-{part}").bounding_box()
-        assert box["x"] <= inner["x"]
-        assert inner["x"] + inner["width"] <= box["x"] + box["width"] + 1
-        assert inner["y"] + inner["height"] <= box["y"] + box["height"] + 1
-
-
-def test_the_kernel_moves_the_page_and_undo_moves_the_kernel(shown):
-    page = shown(START)
-    kernel_value(page, "setattr(app, 'design', app.design.replace(lift_arm=0.052))")
-    page.wait_for_function(f"() => {PAGE}.values[0] === 0.052 && !{PAGE}.frame")
-    page.get_by_role("button", name="Undo").click()
-    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.05)
-    page.get_by_role("button", name="Redo").click()
-    eventually(lambda: kernel_value(page, "app.design.lift_arm") == 0.052)
-
-
-def test_a_choice_is_made_by_the_kernel_and_drawn_by_the_page(shown):
-    page = shown(START)
-    menu = page.locator(".camkit-left details", has_text="Choices")
-    menu.locator("summary").click()
-    select = menu.locator("select").first
-    option = select.locator("option").nth(3).inner_text()
-    page.evaluate(f"{PAGE}.positions.turnTo(40)")
-    select.select_option(option)
-    eventually(lambda: kernel_value(page, "app.design.motion_law.name") == option)
-    page.wait_for_function(f"() => {PAGE}?.structure.choices[0].chosen === {option!r}")
-    settled(page)
-    assert page.evaluate(f"{PAGE}.positions.angle") == pytest.approx(40)
-    law = STUDY.start.replace(motion_law=choices_of(STUDY.start)["motion_law"].named[option])
-    compare(of_page(page), law, default_views(law.analyse()), measures_of(law), LIMITS)
-
-
-def test_what_does_not_record_is_computed_by_the_kernel(shown):
-    page = shown(STUBBORN)
-    page.evaluate(DRAG, [0.8, 0])
-    page.wait_for_function(f"() => {PAGE}.numbers && Math.abs({PAGE}.values[0] - 0.00322) < 1e-9 && !{PAGE}.frame")
-    eventually(lambda: of_page(page)["pictures"][0]["marks"][0]["y"][-1] == "3.22")
-
-
-def test_a_kernel_that_is_busy_stops_nothing(shown):
-    page = shown(START)
-    page.evaluate(BUSY)
-    before = page.evaluate(f"{PAGE}.shownAt")
-    page.get_by_label("lift arm, mm", exact=True).focus()
-    for _ in range(10):
-        page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(30)
-    settled(page)
-    assert page.evaluate(f"{PAGE}.shownAt") >= before + 5
-    assert of_page(page)["values"][0] == pytest.approx(0.051)
-
-
-def test_a_number_is_typed_as_people_type(shown):
-    page = shown(START)
-    box = page.get_by_label("lift arm, mm, number")
-    for text, value in (("48,123456789", 0.048123456789), ("1 7/8 in", 0.047625), ("52.5", 0.0525)):
-        box.fill(text)
-        box.press("Enter")
-        eventually(lambda value=value: kernel_value(page, "app.design.lift_arm") == pytest.approx(value, rel=1e-14))
-        box.blur()  # the box shows fewer digits than count
-        assert page.evaluate(f"{PAGE}.values[0]") == pytest.approx(value, rel=1e-14)
-    box.fill("400")
-    box.press("Enter")
-    expect(page.locator(".camkit-over")).to_contain_text("This cannot be built: ")
-    assert kernel_value(page, "app.design.lift_arm") == pytest.approx(0.0525)
-    box.fill("abc")
-    box.press("Enter")
-    expect(page.locator(".camkit-refusal:not(:empty)")).to_contain_text("is no number")

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study, mm
 from camkit.search.fast_front import quick_front
 from camkit.views.front import shown_objectives
-from lab import OWN_SHEETS, LabServer, eventually, kernel_value, marks_of, open_notebook, run_all, type_number
+from lab import OWN_SHEETS, eventually, kernel_value, marks_of, open_notebook, run_all, type_number
 
 PAPER = DoorHandleCam(lift_load=ArmLoad(torque=10))
 
@@ -45,13 +44,10 @@ class Workbook:
 
 
 @pytest.fixture(scope="module")
-def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
-    page = context.new_page()
-    open_notebook(page, "15_live_front.ipynb")
-    run_all(page)
-    yield Workbook(page, page.locator(OWN_SHEETS).filter(has_text="choose by").first)
-    page.close()
-    server.end_kernels()
+def book(window: Page) -> Workbook:
+    open_notebook(window, "15_live_front.ipynb")
+    run_all(window)
+    return Workbook(window, window.locator(OWN_SHEETS).filter(has_text="choose by").first)
 
 
 def test_sliders_and_judgements_move_the_front(book: Workbook) -> None:

@@ -18,7 +18,7 @@ from camkit.render.page_parts import script
 from camkit.render.positions import given_to, positions_of
 from camkit.views import default_views, mechanism, pressure_angle
 from camkit.views.picture import Axes, Contour, Line, Picture, Points, Text
-from lab import SHOWN, numbers_in, numbers_of
+from lab import numbers_in, numbers_of, shown_by
 
 MOST_BYTES = 500_000
 DRAWN = "() => globalThis.camkit?.outputs && !camkit.frame"
@@ -28,25 +28,28 @@ DRAG = """([share, k]) => { const slider = document.querySelectorAll(".camkit-le
 
 
 @pytest.fixture
-def opened(browser, tmp_path):
+def opened(reader, tmp_path):
     """Opens the page of a design; gives it with its own errors and what it asks for from outside."""
-    pages = []
+    heard = []
+    hear = {
+        "pageerror": lambda error: heard.append(str(error)),
+        "request": lambda r: heard.append(r.url) if not r.url.startswith(("file:", "blob:")) else None,
+    }
+    for kind, act in hear.items():
+        reader.on(kind, act)
 
     def open_page(design, *views, **options):
         path = tmp_path / "design.html"
         to_html(design, *views, path=path, **options)
-        page = browser.new_page(viewport={"width": 934, "height": 612})
-        page.heard = []
-        page.on("pageerror", lambda error: page.heard.append(str(error)))
-        page.on("request", lambda r: page.heard.append(r.url) if not r.url.startswith(("file:", "blob:")) else None)
-        page.goto(path.as_uri())
-        page.wait_for_function(DRAWN)
-        pages.append(page)
-        return page
+        reader.set_viewport_size({"width": 934, "height": 612})
+        reader.goto(path.as_uri())
+        reader.heard = heard
+        reader.wait_for_function(DRAWN)
+        return reader
 
     yield open_page
-    for page in pages:
-        page.close()
+    for kind, act in hear.items():
+        reader.remove_listener(kind, act)
 
 
 def same(found, expected, name):
@@ -107,14 +110,14 @@ def test_a_page_shows_what_the_package_computes(name, opened):
     assert still <= {"plane_of_sizes", "section"}  # a search stands behind them
     views = [view for view in default_views(design.analyse()) if view.__name__ not in still]
     page = opened(design, *views)
-    compare(page.evaluate(SHOWN), design, views, measures_of(design))
+    compare(shown_by(page), design, views, measures_of(design))
     for measure, picture in page.evaluate(PLACES):
         assert picture in next(made_of for words, made_of in CURVES.items() if words in measure), measure
     seen = 0
     for k in range(4):
         page.evaluate(DRAG, [0.35 + 0.1 * k, k])
         page.wait_for_function(DRAWN)
-        shown = page.evaluate(SHOWN)
+        shown = shown_by(page)
         if not shown["sentence"]:
             compare(shown, design, views, measures_of(design))
             seen += 1
@@ -136,12 +139,12 @@ def test_a_page_is_small_and_asks_for_nothing(tmp_path):
 def test_a_page_refuses_in_the_words_of_the_package(opened):
     design = MACHINES["door handle"]
     page = opened(design)
-    before = page.evaluate(SHOWN)
+    before = shown_by(page)
     box = page.get_by_label("lift arm, mm, number")
     box.fill("400")
     box.press("Enter")
     page.wait_for_function("() => camkit.sentence && !camkit.frame")
-    shown = page.evaluate(SHOWN)
+    shown = shown_by(page)
     with pytest.raises(ValueError) as refused:  # noqa: PT011
         design.replace(lift_arm=400 * mm)
     assert shown["sentence"] == str(refused.value)
@@ -149,7 +152,7 @@ def test_a_page_refuses_in_the_words_of_the_package(opened):
     assert shown["pictures"] == before["pictures"]  # the last good one
     page.keyboard.press("Control+z")
     page.wait_for_function("() => !camkit.sentence && !camkit.frame")
-    assert page.evaluate(SHOWN) == before
+    assert shown_by(page) == before
 
 
 GUILTY = """() => [...document.querySelectorAll(".camkit-guilty")].map((row) =>
@@ -271,7 +274,7 @@ def test_it_turns_and_one_line_runs_through_the_curves(opened):
     page.wait_for_function(f"() => camkit.values[{turn}] > 0.3")
     page.get_by_role("button", name="Pause").click()
     page.wait_for_function("() => !camkit.playing && !camkit.frame")
-    shown = page.evaluate(SHOWN)
+    shown = shown_by(page)
     compare(
         shown,
         MACHINES["door handle"],
@@ -451,7 +454,7 @@ def test_names_that_are_pieces_of_a_page_stay_names(opened):
     page.get_by_role("tab", name="Numbers").click()
     page.evaluate(DRAG, [0.9, 0])
     page.wait_for_function(DRAWN)
-    shown = page.evaluate(SHOWN)
+    shown = shown_by(page)
     assert shown["pictures"][0]["name"] == EVIL
     assert page.locator(".evil").count() == 0
     assert page.evaluate("window.ran") is None
@@ -616,7 +619,7 @@ def test_texts_of_axes_have_their_numbers_and_what_a_page_cannot_write_stands_st
     page.evaluate(DRAG, [1.0, 0])
     page.wait_for_function(DRAWN)
     assert page.evaluate("camkit.charts[0].describe()").startswith("of 4; at 4 [constructor] from ")
-    level, line = page.evaluate(SHOWN)["pictures"][0]["marks"]
+    level, line = shown_by(page)["pictures"][0]["marks"]
     assert (level["kind"], line["x"]) == ("line", ["0", "0.004"])
     assert "written as" in page.evaluate("camkit.structure.pictures[1].still")
     box = page.locator(".camkit-left .camkit-box input")

@@ -6,7 +6,7 @@ from playwright.sync_api import expect
 from camkit import DoorHandleCam, explore, mm
 from camkit.panels.kit.keeper import Keeper
 from camkit.quantities import choices_of
-from lab import eventually, kernel_value, open_notebook
+from lab import eventually, kernel_value, load_notebook
 from test_instrument_page import PAGE, settled
 from test_session_page import RESTART, SAVE, notebook, run, step
 
@@ -49,7 +49,7 @@ def test_names_outlive_a_reload_and_a_kernel(page, notebook):
     expect(head).to_have_text("Designs (2)")
     eventually(lambda: kernel_value(page, "list(app._keeper.named)") == [EVIL, "thick"])
     page.evaluate(SAVE)
-    open_notebook(page, notebook)  # the kernel is the same
+    load_notebook(page, notebook)  # the kernel is the same
     page.wait_for_selector(".camkit-page canvas")
     expect(head).to_have_text("Designs (2)")
     page.evaluate(RESTART)
@@ -66,7 +66,7 @@ def test_names_outlive_a_reload_and_a_kernel(page, notebook):
     assert arm(page) == before
     press(page, "Forget thick")
     eventually(lambda: kernel_value(page, "list(app._keeper.named)") == [EVIL])
-    assert page.evaluate("window.ran") is None
+    assert not page.evaluate("window.ran")
 
 
 def test_a_name_brings_back_what_was_chosen_too(page, notebook):

@@ -19,12 +19,17 @@ TRACE = """async ([source, x, y]) => {
 SEEN = 0.2  # pixels
 
 
-def traced(browser, x, y):
-    """The parts of a path through points in pixels."""
+@pytest.fixture(scope="module")
+def page(browser):
     page = browser.new_page()
+    yield page
+    page.close()
+
+
+def traced(page, x, y):
+    """The parts of a path through points in pixels."""
     lists = [[None if np.isnan(v) else float(v) for v in values] for values in (x, y)]
     parts = page.evaluate(TRACE, [SOURCE.read_text(encoding="utf-8"), *lists])
-    page.close()
     return [np.array(part) for part in parts]
 
 
@@ -48,22 +53,22 @@ CURVES = {
 
 
 @pytest.mark.parametrize("name", CURVES)
-def test_every_point_is_near_the_path_that_is_drawn(browser, name):
+def test_every_point_is_near_the_path_that_is_drawn(page, name):
     points = np.transpose(CURVES[name])
-    (path,) = traced(browser, *CURVES[name])
+    (path,) = traced(page, *CURVES[name])
     assert away(points, path).max() < SEEN
     assert away(path, points).max() < 1e-9  # nothing is drawn that is no point
     assert (path[0] == points[0]).all()
     assert (path[-1] == points[-1]).all()
 
 
-def test_a_curve_of_many_points_is_drawn_through_few(browser):
+def test_a_curve_of_many_points_is_drawn_through_few(page):
     for name in ("a circle", "a wave", "there and back"):
-        (path,) = traced(browser, *CURVES[name])
+        (path,) = traced(page, *CURVES[name])
         assert len(path) < 120
 
 
-def test_what_is_no_number_parts_a_path(browser):
+def test_what_is_no_number_parts_a_path(page):
     x, y = np.arange(9.0), np.array([0, 1, 2, np.nan, 5, np.nan, np.nan, 7, 3])
-    parts = traced(browser, x, y)
+    parts = traced(page, x, y)
     assert [part.tolist() for part in parts] == [[[0, 0], [2, 2]], [[4, 5]], [[7, 7], [8, 3]]]

@@ -12,7 +12,8 @@ from camkit.render.living import living
 from camkit.render.positions import given_to
 from camkit.units import convert, factor
 from camkit.views import default_views
-from test_living_page import DRAWN, SHOWN, opened, same  # noqa: F401
+from lab import shown_by
+from test_living_page import DRAWN, opened, same  # noqa: F401
 
 IMPERIAL = {"mm": "inch", "cm": "inch", "m": "ft", "N": "lbf", "kN": "lbf", "kg": "lb", "MPa": "psi", "GPa": "psi"}
 
@@ -37,9 +38,9 @@ def choose(page, name):
 def test_every_number_is_in_the_units_that_are_chosen(name, opened):  # noqa: F811
     design, others = MACHINES[name], IMPERIAL | {"deg": "rad"}
     page = opened(design)
-    before = page.evaluate(SHOWN)
+    before = shown_by(page)
     choose(page, "inch, rad, lbf")
-    shown, analysis = page.evaluate(SHOWN), design.analyse()
+    shown, analysis = shown_by(page), design.analyse()
     assert shown["values"] == before["values"]
     position = living(design).first
     for view, drawn in zip(default_views(analysis), shown["pictures"], strict=True):
@@ -65,7 +66,7 @@ def test_every_number_is_in_the_units_that_are_chosen(name, opened):  # noqa: F8
             convert(given, quantity.unit, shown_in(quantity.unit, others)), rel=1e-5, abs=1e-9
         )
     choose(page, page.locator("select[aria-label=units] option").first.inner_text())
-    assert page.evaluate(SHOWN) == before
+    assert shown_by(page) == before
     assert not page.heard
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import nbformat
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from lab import Instrument, LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
 
@@ -41,18 +41,17 @@ TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page, server: LabServer) -> Iterator[Page]:
     cells = [EXPLORER, "ahp_panel(Judgements(['pressure angle', 'contact force', 'cam torque'], [1, 1, 1]))"]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in cells])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "panels.ipynb")
-    page = context.new_page()
-    open_notebook(page, "panels.ipynb")
-    run_all(page)
-    page.evaluate("window.jupyterapp.commands.execute('application:toggle-left-area')")  # more room for the notebook
-    yield page
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "panels.ipynb")
+    run_all(window)
+    toggle = "window.jupyterapp.commands.execute('application:toggle-left-area')"
+    window.evaluate(toggle)  # more room for the notebook
+    yield window
+    window.evaluate(toggle)
 
 
 @pytest.fixture

@@ -1,10 +1,8 @@
 """The editor of a motion program in JupyterLab: handles that follow the pointer, rows and verdicts that follow them."""
 
-from collections.abc import Iterator
-
 import nbformat
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from lab import LabServer, cell_output, eventually, in_picture, kernel_value, open_notebook, run_all
 
@@ -18,16 +16,13 @@ editor"""
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page, server: LabServer) -> Page:
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(SOURCE)])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "editor.ipynb")
-    page = context.new_page()
-    open_notebook(page, "editor.ipynb")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "editor.ipynb")
+    run_all(window)
+    return window
 
 
 @pytest.fixture

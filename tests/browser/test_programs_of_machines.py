@@ -8,7 +8,7 @@ from camkit.program.page import numbers
 from camkit.quantities import choices_of, quantities_of, value_of
 from machine_cases import LAWS, designs_of_every_menu, everything
 from program_cases import designs_beside, start_of
-from test_programs_page import RUN, TOLERANCE, page  # noqa: F401
+from test_programs_page import TOLERANCE, page, replies  # noqa: F401
 
 ANGLES, ROWS = 61, 12
 DESIGNS = dict(designs_of_every_menu(2))
@@ -50,7 +50,7 @@ def test_a_machine_is_in_the_page_what_it_is_in_numpy(page, name):  # noqa: F811
     program = record(function, DESIGNS[name], position)
     inputs = inputs_of(program, DESIGNS[name], position)
     expected = replayed(program, inputs)
-    (found,) = page.evaluate(RUN, [[numbers(program), inputs.tolist()]])
+    (found,) = replies(page, [[numbers(program), inputs.tolist()]])
     places, moved = list(program.outputs), None
     assert sum(np.isfinite(np.concatenate([*expected.values()], axis=-1)).mean(-1) > 0.5) >= 3
     for key, values in expected.items():

@@ -100,3 +100,4 @@ def test_a_page_that_is_loaded_again_still_shows_the_search(running: Page) -> No
     run_all(running)
     assert kernel_value(running, THREADS) == threads
     stop(running)
+    running.close()  # the next one is not that patient

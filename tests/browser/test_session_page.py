@@ -8,7 +8,7 @@ from playwright.sync_api import expect
 
 from camkit.quantities import measures_of
 from camkit.views import default_views
-from lab import eventually, kernel_value, open_notebook, run_all, screenshot
+from lab import eventually, kernel_value, load_notebook, open_notebook, run_all, screenshot
 from test_instrument_page import LIMITS, PAGE, START, STUDY, of_page, settled
 from test_living_page import DRAG, compare
 
@@ -67,7 +67,7 @@ def test_a_reload_brings_back_the_page_as_it_was(page, notebook):
     run(page)
     before = work(page)
     page.evaluate(SAVE)
-    open_notebook(page, notebook)  # the kernel is the same
+    load_notebook(page, notebook)  # the kernel is the same
     page.wait_for_selector(".camkit-page canvas")
     page.wait_for_function(f"() => {PAGE}?.ghost")
     settled(page)
@@ -83,7 +83,7 @@ def test_a_saved_notebook_reopens_with_a_page_that_computes(page, notebook, serv
     before = work(page)
     page.evaluate(SAVE)
     server.end_kernels()
-    open_notebook(page, notebook)
+    load_notebook(page, notebook)
     page.wait_for_selector(".camkit-page canvas")
     page.wait_for_function(f"() => {PAGE}?.ghost")
     settled(page)

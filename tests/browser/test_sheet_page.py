@@ -1,11 +1,10 @@
 """Sheets in JupyterLab: what a person does with each kind of part, and what the kernel and the page make of it."""
 
 import re
-from collections.abc import Iterator
 
 import nbformat
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from lab import LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
 
@@ -61,16 +60,13 @@ SHEET = "document.querySelector('.camkit-sheet').parentElement.camkit"
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page, server: LabServer) -> Page:
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(SOURCE)])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "sheet.ipynb")
-    page = context.new_page()
-    open_notebook(page, "sheet.ipynb")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "sheet.ipynb")
+    run_all(window)
+    return window
 
 
 @pytest.fixture

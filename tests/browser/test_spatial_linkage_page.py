@@ -1,18 +1,17 @@
 """The spatial linkage in JupyterLab: what the page shows against what camkit computes in this process."""
 
-from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, expect
+from playwright.sync_api import Page, expect
 
 from camkit.linkage.measures import SWEEP, max_pressure_angle, room_in
 from camkit.machines.cabin_door import HOUSING, ninety_degree_study
 from camkit.quantities import quantities_of
 from camkit.units import deg, mm
 from camkit.views import default_views, linkage_in_space
-from lab import Instrument, LabServer, kernel_value, open_notebook, run_all
+from lab import Instrument, kernel_value, open_notebook, run_all
 from test_living_page import compare
 
 STUDY = ninety_degree_study()
@@ -26,14 +25,11 @@ IN_SPACE.__name__ = "linkage_in_space"
 
 
 @pytest.fixture(scope="module")
-def app(context: BrowserContext, server: LabServer) -> Iterator[Instrument]:
+def app(window: Page) -> Instrument:
     """The notebook opened and run once for all tests of this file."""
-    page = context.new_page()
-    open_notebook(page, "10_spatial_linkage.ipynb")
-    run_all(page)
-    yield Instrument(page)
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "10_spatial_linkage.ipynb")
+    run_all(window)
+    return Instrument(window)
 
 
 @pytest.fixture(autouse=True)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, mm
 from camkit.panels.tolerances import SETTLED
 from camkit.study.tolerances import Tolerances
-from lab import OWN_SHEETS, LabServer, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, eventually, kernel_value, open_notebook, run_all
 
 SIZES = {"lift_arm": 45 * mm, "lift_start_angle": 27 * deg, "relief_cam_angle": 45 * deg}
 CAM = DoorHandleCam(**SIZES, lift_load=ArmLoad(torque=10))
@@ -19,13 +18,10 @@ MEDIUM = {"lift_arm": 0.3 * mm, "lift_centre_distance": 0.3 * mm, "lift_start_an
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
-    page = context.new_page()
-    open_notebook(page, "17_tolerances.ipynb")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
+def page(window: Page) -> Page:
+    open_notebook(window, "17_tolerances.ipynb")
+    run_all(window)
+    return window
 
 
 @pytest.fixture

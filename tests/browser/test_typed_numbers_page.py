@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 import nbformat
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from lab import LabServer, cell_output, eventually, kernel_value, open_notebook, run_all
 
@@ -31,16 +30,13 @@ finder""",
 
 
 @pytest.fixture(scope="module")
-def page(context: BrowserContext, server: LabServer) -> Iterator[Page]:
+def page(window: Page, server: LabServer) -> Page:
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell.strip()) for cell in CELLS])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "typed.ipynb")
-    page = context.new_page()
-    open_notebook(page, "typed.ipynb")
-    run_all(page)
-    yield page
-    page.close()
-    server.end_kernels()
+    open_notebook(window, "typed.ipynb")
+    run_all(window)
+    return window
 
 
 def type_into(box: Locator, text: str) -> None:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import deg, kW, mm, rpm
 from camkit.linkage.universal_joint import DOUBLE_UNIVERSAL_JOINT_MEASURES, DoubleUniversalJoint
 from camkit.machines.shaft import TUBE_NUMBERS, UniversalJointShaft, lightest_shaft
 from camkit.quantities import quantities_of
 from camkit.views import plane_of_sizes
-from lab import Instrument, LabServer, eventually, open_notebook, run_all
+from lab import Instrument, eventually, open_notebook, run_all
 
 START = UniversalJointShaft()
 
@@ -33,14 +32,11 @@ class Workbook:
 
 
 @pytest.fixture(scope="module")
-def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
-    page = context.new_page()
-    open_notebook(page, "12_universal_joint_shaft.ipynb")
-    run_all(page)
-    bench = page.locator(".camkit-sheet").filter(has=page.get_by_role("button", name="lightest, by formula"))
-    yield Workbook(page, bench, Instrument(page), Instrument(page, "drive_app", 1))
-    page.close()
-    server.end_kernels()
+def book(window: Page) -> Workbook:
+    open_notebook(window, "12_universal_joint_shaft.ipynb")
+    run_all(window)
+    bench = window.locator(".camkit-sheet").filter(has=window.get_by_role("button", name="lightest, by formula"))
+    return Workbook(window, bench, Instrument(window), Instrument(window, "drive_app", 1))
 
 
 @pytest.fixture(autouse=True)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from camkit import mm
 from camkit.machines.valve_cam import ValveCam
@@ -21,7 +20,7 @@ from camkit.machines.valve_measures import (
 from camkit.machines.valve_train import ROLLER
 from camkit.quantities import quantities_of
 from camkit.search.minimise import minimise
-from lab import Instrument, LabServer, eventually, in_picture, kernel_value, open_notebook, run_all
+from lab import Instrument, eventually, in_picture, kernel_value, open_notebook, run_all
 
 START = ValveCam()
 
@@ -40,17 +39,13 @@ class Workbook:
 
 
 @pytest.fixture(scope="module")
-def book(context: BrowserContext, server: LabServer) -> Iterator[Workbook]:
-    page = context.new_page()
-    open_notebook(page, "08_valve_cam.ipynb")
-    run_all(page)
-    panels = page.locator(".camkit-sheet")
-    bench = panels.filter(has=page.get_by_role("button", name="Weakest spring"))
-    yield Workbook(
-        page, bench, panels.filter(has=page.get_by_role("button", name="Load the optimum")).first, Instrument(page)
-    )
-    page.close()
-    server.end_kernels()
+def book(window: Page) -> Workbook:
+    open_notebook(window, "08_valve_cam.ipynb")
+    run_all(window)
+    panels = window.locator(".camkit-sheet")
+    bench = panels.filter(has=window.get_by_role("button", name="Weakest spring"))
+    plane = panels.filter(has=window.get_by_role("button", name="Load the optimum"))
+    return Workbook(window, bench, plane.first, Instrument(window))
 
 
 @pytest.fixture(autouse=True)
