@@ -23,7 +23,6 @@ from ..quantities import (
     declared_in,
     label,
     measures_of,
-    quantities_of,
     refuse_design,
     value_of,
 )
@@ -37,10 +36,11 @@ from ..study.study import refuse_limits
 from ..units import factor, in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
-from .kit.changes import alike, changed, numbers_of
+from .kit.changes import changed, numbers_of, with_numbers
 from .kit.design_files import FILES, files_of, remarked
 from .kit.displayed import Displayed
 from .kit.keeper import Keeper
+from .kit.makes import Makes
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
 
 if TYPE_CHECKING:
@@ -48,8 +48,6 @@ if TYPE_CHECKING:
 
 AGREED = 1e-9
 """Page and kernel differ by less than such a share of a measure's size."""
-HELD = 2
-"""How many recordings a panel holds, ten megabytes each: an option that is taken back is there at once."""
 
 
 class Instrument(Displayed, anywidget.AnyWidget):
@@ -66,6 +64,8 @@ class Instrument(Displayed, anywidget.AnyWidget):
     values = traitlets.List(traitlets.Float()).tag(sync=True)
     computed = traitlets.List(traitlets.Float(allow_none=True)).tag(sync=True)
     """The measures of ``values`` as the page computes them."""
+    said = traitlets.Float().tag(sync=True)
+    """When the page said these, by its clock."""
     message = traitlets.Unicode().tag(sync=True)
     tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
     """What stands beside the curves, by its title: sheets."""
@@ -99,8 +99,9 @@ class Instrument(Displayed, anywidget.AnyWidget):
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
         self._followers: list[Callable[..., object]] = []
-        self._living: tuple[Living, ...] = ()
+        self._makes = Makes()
         self._now: list[float] = []
+        self._overtaken = -np.inf
         super().__init__(design=design)
         self._first = self._now
         self._keeper = Keeper(self)
@@ -169,9 +170,8 @@ class Instrument(Displayed, anywidget.AnyWidget):
         self._refuse_other(design)
         analysis = design.analyse()
         now = [measure.one(analysis) for measure in self.measures]
-        made = next((each for each in self._living if alike(each.design, design)), None)
-        made = made or self._recorded(design, analysis)
-        self._living = (made, *(each for each in self._living if each is not made))[:HELD]
+        if not self._makes.find(design):
+            self._makes.add(self._recorded(design, analysis))
         self.analysis, self._now = analysis, now
         return design
 
@@ -198,12 +198,12 @@ class Instrument(Displayed, anywidget.AnyWidget):
     @property
     def _page(self) -> Living:
         """What the page shows, and the program that it runs."""
-        return self._living[0]
+        return self._makes.last[1]
 
     def _send_structure(self) -> None:
         with self.hold_sync():
             first = {m.name: float(n) for m, n in zip(self.measures, self._first, strict=True) if np.isfinite(n)}
-            more = {"files": files_of(self.analysis), "first": first}
+            more = {"files": files_of(self.analysis), "first": first, "make": self._makes.last[0]}
             self.structure, self.program = {**self._page.structure, **more}, self._page.packed
             self._push()
 
@@ -219,15 +219,14 @@ class Instrument(Displayed, anywidget.AnyWidget):
     def _settled(self, change: traitlets.Bunch) -> None:
         """What the page shows becomes the design, if it can be built."""
         numbers = list(numbers_of(self.design).values())
-        if len(change.new) == len(numbers) and change.new != numbers:
+        if self.said <= self._overtaken:
+            self._push()
+        elif len(change.new) == len(numbers) and change.new != numbers:
             self._try(lambda: self._of(change.new))
 
     def _of(self, values: Sequence[float]) -> Any:
         """The design whose quantities have these values, in their order."""
-        paths = list(quantities_of(self.design))
-        if len(values) != len(paths):
-            raise ValueError(f"the page sends {len(values)} numbers; the design has {len(paths)}")
-        return changed(self.design, dict(zip(paths, values, strict=True)))
+        return with_numbers(self.design, values)
 
     def _try(self, make: Callable[[], Analysable]) -> None:
         before = self.design
@@ -256,6 +255,8 @@ class Instrument(Displayed, anywidget.AnyWidget):
     @traitlets.observe("computed")
     def _compare(self, change: traitlets.Bunch) -> None:
         """A visible error where page and kernel differ."""
+        if self.said <= self._overtaken or self.values != list(numbers_of(self.design).values()):
+            return  # they are of another design
         for measure, first, now, page in zip(self.measures, self._first, self._now, change.new, strict=False):
             size = np.nanmax(np.abs([first, now, 0.0])) if np.isfinite([first, now]).all() else abs(now)
             if page is not None and np.isfinite(now) and abs(page - now) > AGREED * (size or factor(measure.unit)):
@@ -266,10 +267,15 @@ class Instrument(Displayed, anywidget.AnyWidget):
     def _asked(self, message: Mapping[str, Any]) -> None:
         """What the page asks for: a choice from a menu, a file, or what it may not compute itself."""
         try:
+            self._catch_up(message)
             if "choose" in message:
                 path, option = message["choose"]
                 Paths(self.design, [path], Choice)
                 self.design = changed(self.design, {path: option})
+            elif "back" in message:
+                self.load(self._makes.design(*message["back"]))
+            elif "pin" in message:
+                self._show_pinned(*message["pin"])
             elif "reset" in message:
                 self.load(self.start)
             elif "file" in message:
@@ -283,6 +289,13 @@ class Instrument(Displayed, anywidget.AnyWidget):
         except Exception as error:  # a page must always be answered
             self.message = f"{reason(error)[:1].upper()}{reason(error)[1:]}."
 
+    def _catch_up(self, message: Mapping[str, Any]) -> None:
+        """What the page shows when it asks comes with the question, which may overtake it; then it is old."""
+        if message.get("make") == self._makes.last[0]:
+            self.said = message["said"]
+            self.values = message["values"]
+        self._overtaken = message.get("said", self._overtaken)
+
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])
         values, names = message["compute"], (p["name"] for p in self.structure["positions"])
@@ -291,6 +304,12 @@ class Instrument(Displayed, anywidget.AnyWidget):
         except Exception as error:  # whatever somebody's own mechanism raises
             shown = {"sentence": reason(error), "arrays": []}
         self._answer(shown, {"answer": message["number"]})
+
+    def _show_pinned(self, make: object, values: Sequence[float], position: Sequence[float]) -> None:
+        """The pictures and measures of a design of another make, for a page that has pinned it."""
+        design, living = self._makes.design(make, values), self._makes.living(make)
+        seen = living.show(design, **dict(zip(living.first, position, strict=True)))
+        self._answer(seen, {"pinned": {"make": make, "values": values}})
 
     def _answer(self, shown: Mapping[str, Any], more: Mapping[str, object]) -> None:
         arrays = [np.asarray(array, dtype=float).tobytes() for array in shown["arrays"]]

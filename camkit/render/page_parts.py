@@ -14,7 +14,7 @@ PAGE = Path(__file__).with_name("page")
 MODULES = (
     *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
     *("positions", "pointer", "files", "kernel", "parts"),
-    *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "verdict", "quantities"),
+    *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "beside", "verdict", "quantities"),
     *("tabs", "why", "handles", "places", "names", "panel", "session", "cell"),
 )
 """What every page is made of, each on those before it."""

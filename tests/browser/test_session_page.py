@@ -17,7 +17,7 @@ SAVE = "() => window.jupyterapp.commands.execute('docmanager:save')"
 RESTART = "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
 SHUT_DOWN = "() => window.jupyterapp.shell.currentWidget.sessionContext.shutdown()"
 STAND = f"""() => {{
-    const {{ values, history, ghost, tabs, units }} = {PAGE}, plain = (steps) => steps.map((step) => [...step]);
+    const {{ values, history, ghost, tabs, units }} = {PAGE}, plain = (steps) => steps.map((step) => step.values);
     const pinned = ghost && [...ghost.values];
     return [units.name, [...values], plain(history.past), plain(history.future), pinned, tabs.shown.name];
 }}"""

@@ -16,8 +16,9 @@ from camkit import DoorHandleCam, Measure, TranslatingRollerCam, UniversalJointS
 from camkit.cam import max_pressure_angle, min_profile_radius
 from camkit.files import to_json
 from camkit.motion import ShapedLaw
-from camkit.panels import Instrument
+from camkit.panels.kit.changes import numbers_of
 from camkit.quantities import quantities_of, value_of
+from camkit.render import living
 from camkit.views import mechanism, pressure_angle
 
 
@@ -159,8 +160,8 @@ def test_a_follower_that_fails_is_said_and_stops_no_other(app):
 
 
 def test_an_option_that_is_taken_back_is_not_recorded_again(app, monkeypatch):
-    made, recorded = [], Instrument._recorded
-    monkeypatch.setattr(Instrument, "_recorded", lambda self, *given: made.append(0) or recorded(self, *given))
+    made, record = [], living.record
+    monkeypatch.setattr(living, "record", lambda *given: made.append(0) or record(*given))
     plain, first = app.structure, app.program
     choose(app, "motion.rise.law", "modified sine")
     other = app.program
@@ -418,3 +419,40 @@ def test_a_page_that_is_saved_begins_with_the_design_as_it_is_now(app, tmp_path)
     structure = json.loads(text.partition('id="structure">')[2].partition("</script>")[0])
     place = list(quantities_of(app.design)).index("base_radius")
     assert structure["quantities"][place]["value"] == 45 * mm
+
+
+def test_what_a_question_overtakes_is_old(app):
+    """The page's last values come with its question, and once more after it."""
+    values, make, law = [*app.values], app.structure["make"], value_of(app.design, "motion.rise.law")
+    values[0] += 1 * mm
+    option = next(o for o in app.structure["choices"] if o["path"] == "motion.rise.law")["options"][-1]
+    late = {"values": values, "computed": [m.one(app.design.analyse()) for m in app.measures], "said": 5.0}
+    ask(app, choose=["motion.rise.law", option], make=make, values=values, said=5.0)
+    assert app.values[0] == values[0]
+    assert value_of(chosen := app.design, "motion.rise.law") != law
+    app.set_state(late)
+    assert app.message == ""
+    assert app.design == chosen
+    app.set_state({**late, "values": [2 * value for value in values]})
+    assert app.values == [*numbers_of(chosen).values()]  # the page hears what there is
+    app.set_state({"values": [*numbers_of(chosen).values()], "computed": [9.0, 9.0], "said": 6.0})
+    assert "The page computes" in app.message
+
+
+def test_the_page_comes_back_to_a_make(app, sent):
+    values, make, first = [*app.values], app.structure["make"], app.design
+    rise, *others = first.motion.segments
+    shaped = (rise.replace(law=ShapedLaw(c=(0.1, 0.0, 0.0, 0.0))), *others)
+    app.design = first.replace(motion=first.motion.replace(segments=shaped))
+    other = app.structure["make"]
+    assert other != make
+    values[0] += 1 * mm
+    ask(app, back=[make, values])
+    assert app.structure["make"] == make
+    assert numbers_of(app.design) == pytest.approx(dict(zip(quantities_of(first), values, strict=True)))
+    assert app._makes.living(make) is app._page  # recorded once
+    ask(app, back=["never", values])
+    assert app.message == "No design of the make 'never' is remembered here."
+    ask(app, pin=[other, [*numbers_of(app._makes.living(other).design).values()], [1.0]])
+    assert sent[-1][0]["pinned"]["make"] == other
+    assert sent[-1][0]["measures"][0]["name"] == max_pressure_angle.name

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ...quantities import Analysable, D, Paths, quantities_of, unremarked, with_quantities
 
@@ -11,6 +11,14 @@ def changed(design: D, values: Mapping[str, object]) -> D:
     """``design`` with other values by path, as a panel gives them."""
     with unremarked():  # a panel's numbers have their units
         return with_quantities(design, values)
+
+
+def with_numbers(design: D, values: Sequence[float]) -> D:
+    """``design`` with these values of its quantities, in their order, as a page sends them."""
+    paths = quantities_of(design)
+    if len(values) != len(paths):
+        raise ValueError(f"the page sends {len(values)} numbers; the design has {len(paths)}")
+    return changed(design, dict(zip(paths, values, strict=True)))
 
 
 def numbers_of(design: Analysable) -> dict[str, float]:

@@ -16,7 +16,7 @@ from ...files import designs
 from ...quantities import declared_in, value_of, words
 from ...quantities.kinds import shown
 from ...search.checkpoint import why
-from .changes import alike, changed, numbers_of
+from .changes import alike, numbers_of, with_numbers
 from .kept_designs import MOST, MOST_NAMED, KeptDesigns, Last, file_of, notebook, published, read, update
 from .running import Place, here
 
@@ -179,8 +179,7 @@ class Keeper:
         kept = self._name(name)
         if len(self.named) >= MOST_NAMED and kept not in self.named:
             raise ValueError(f"{MOST_NAMED} designs have a name, and no more can be kept; remove one first")
-        now = self._panel.design
-        design = changed(now, dict(zip(numbers_of(now), map(float, values), strict=True)))
+        design = with_numbers(self._panel.design, values)
         design.analyse()  # what cannot be built is not kept
         self._put({**self.named, kept: design})
 

@@ -1,49 +1,74 @@
-// Designs that a person has settled on, to go back to and forth again; where they stand (the last values) is no design.
+// Designs that a person has settled on, to go back to and forth again.  Where the mechanism stands is no part of them.
 
 const REMEMBERED = 50;
 const SOON = 500; // ms between designs that somebody else chooses in one drag
 
+/** @typedef {{make: string, values: number[]}} Step a design: its make, as the kernel calls it, and the values of its quantities */
+
 export class History {
-  /** @param {Float64Array} values @param {number} count how many of them are the design's */
-  constructor(values, count) {
-    Object.assign(this, { now: values.slice(), count, loaded: -Infinity });
-    /** @type {Float64Array[]} */ this.past = [];
-    /** @type {Float64Array[]} */ this.future = [];
+  /** @param {ArrayLike<number>} values those of the design, which others may follow @param {number} count how many are the design's
+   * @param {string} [make] */
+  constructor(values, count, make = "") {
+    Object.assign(this, { now: { make, values: Array.from(values).slice(0, count) }, count, loaded: -Infinity });
+    /** @type {Step[]} */ this.past = [];
+    /** @type {Step[]} */ this.future = [];
+    /** The step of another make that the kernel was asked for. @type {Step | null} */ this.asked = null;
   }
 
-  /** One step more, unless it is the same design. @param {Float64Array} values */
+  /** A design of the make that is shown. @param {ArrayLike<number>} values @returns {Step} */
+  _step(values) { return { make: this.now.make, values: Array.from(values).slice(0, this.count) }; }
+
+  /** One step more, unless it is the same design. @param {ArrayLike<number>} values */
   settle(values) {
-    if (!this.now.every((value, k) => k >= this.count || value === values[k])) this.step(values);
+    const step = this._step(values);
+    if (!alike(this.now, step)) this._more(step);
   }
 
-  /** One step more. @param {Float64Array} values */
-  step(values) {
+  /** @param {Step} step */
+  _more(step) {
     this.loaded = -Infinity;
     this.past = [...this.past, this.now].slice(-REMEMBERED);
     this.future = [];
-    this.now = values.slice();
+    this.now = step;
   }
 
-  /** What somebody else chose: one step more, or the last one goes on. @param {Float64Array} values */
+  /** What somebody else chose: one step more, or the last one goes on. @param {ArrayLike<number>} values */
   load(values) {
-    const now = performance.now();
-    if (now - this.loaded < SOON) this.now = values.slice(); else this.step(values);
+    const now = performance.now(), step = this._step(values);
+    if (now - this.loaded < SOON) this.now = step; else this._more(step);
     this.loaded = now;
   }
 
-  /** The design before, if there is one. */
-  undo() { return this._go(this.past, this.future); }
+  /** Go on after another panel's steps: with the design that it asked for, or with one step more.
+   * @param {History} before */
+  follow({ past, future, now, asked }) {
+    const here = this.now;
+    Object.assign(this, { past, future, now });
+    const from = [past, future].find((steps) => asked && steps.at(-1) === asked);
+    if (from && alike(asked, here)) this._take(from);
+    else if (!alike(now, here)) this._more(here);
+  }
+
+  /** The design before, if there is one: taken, or asked for. */
+  undo() { return this._go(this.past); }
 
   /** The design that was left by `undo`, if there is one. */
-  redo() { return this._go(this.future, this.past); }
+  redo() { return this._go(this.future); }
 
-  /** @param {Float64Array[]} from @param {Float64Array[]} to */
-  _go(from, to) {
-    const values = from.pop();
-    if (!values) return null;
+  /** @param {Step[]} steps */
+  _go(steps) {
+    const step = steps.at(-1) ?? null;
+    if (step?.make === this.now.make) this._take(steps); else this.asked = step;
+    return step;
+  }
+
+  /** @param {Step[]} steps its last one is the design from now on */
+  _take(steps) {
     this.loaded = -Infinity;
-    to.push(this.now);
-    this.now = values;
-    return values.slice(0, this.count);
+    (steps === this.past ? this.future : this.past).push(this.now);
+    this.now = /** @type {Step} */ (steps.pop());
   }
 }
+
+/** Whether two steps are the same design; a file rounds. @param {Step} one @param {Step} other */
+const alike = (one, other) => one.make === other.make && one.values.every((value, k) => Math.abs(value - other.values[k]) <= 1e-12 * Math.abs(value));

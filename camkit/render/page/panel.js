@@ -6,6 +6,7 @@ import { button, filesOf, screenOf } from "./bar.js";
 import { Handles } from "./handles.js";
 import { History } from "./history.js";
 import { Around } from "./around.js";
+import { besideOf, drawnOf, measureOf, turn } from "./beside.js";
 import { Idle } from "./idle.js";
 import { Table, judged, numberOf, told } from "./measures.js";
 import { Names } from "./names.js";
@@ -26,6 +27,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
 /**
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
+ *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
  *   reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what
  *   stands behind the page, if anything does
  */
@@ -36,7 +38,7 @@ export class Panel {
     Object.assign(this, { root, structure, engine, host, outputs: null, ghost: null, sentence: "", asked: 0, shownAt: 0 });
     this.inputs = [...structure.quantities, ...structure.positions].map((/** @type {any} */ given) => given.value);
     this.values = Float64Array.from(this.inputs);
-    this.history = new History(this.values, structure.quantities.length);
+    this.history = new History(this.values, structure.quantities.length, structure.make);
     this.leaving = new AbortController();
     /** Designs around this one, if the page computes them. */
     this.around = engine.twin ? new Around(structure, engine.twin()) : null;
@@ -215,12 +217,18 @@ export class Panel {
     this.quantities.element.classList.add("camkit-moving");
   }
 
-  _undo() { this._back(this.history.undo()); }
+  _undo() { if (this._can(this.history.past)) this._back(this.history.undo()); }
 
-  _redo() { this._back(this.history.redo()); }
+  _redo() { if (this._can(this.history.future)) this._back(this.history.redo()); }
 
-  /** A design, where the mechanism stands now. @param {Float64Array | null} design */
-  _back(design) { if (design) this.put([...design, ...this.values.slice(design.length)]); }
+  /** Whether the last of these steps can be come back to: another make needs its kernel. @param {import("./history.js").Step[]} steps */
+  _can(steps) { return steps.length > 0 && (steps.at(-1).make === this.history.now.make || Boolean(this.host && !this.left)); }
+
+  /** A design, where the mechanism stands now. @param {import("./history.js").Step} step */
+  _back(step) {
+    if (step.make === this.history.now.make) this.put([...step.values, ...this.values.slice(step.values.length)]);
+    else this.host.back(step);
+  }
 
   /** @param {KeyboardEvent} event */
   _key(event) {
@@ -230,13 +238,25 @@ export class Panel {
     if (key === "y" || event.shiftKey) this._redo(); else this._undo();
   }
 
-  _pin() { this.pin(this.ghost ? null : this.outputs && { values: this.values.slice(), outputs: this.outputs }); }
+  _pin() { this.pin(this.ghost ? null : this.outputs && besideOf(this, this.values.slice(), this.outputs)); }
 
-  /** Compare with a design from now on, or with none. @param {any} ghost its values and outputs */
+  /** Compare with a design from now on, or with none. @param {import("./beside.js").Beside | null} ghost */
   pin(ghost) {
     this.ghost = ghost;
     this.pinning.textContent = this.ghost ? "Unpin" : "Pin to compare";
     this.ask(true);
+  }
+
+  /** Pin a design of another make, as its kernel draws it. @param {import("./history.js").Step} pinned with where it stands */
+  recall({ make, values }) {
+    const count = values.length - this.structure.positions.length;
+    this.wanted = make; // other pages of the kernel hear its answer, too
+    this.host?.pin({ make, values: values.slice(0, count) }, values.slice(count));
+  }
+
+  /** @param {any} drawn what the kernel draws @param {import("./engine.js").Outputs} outputs */
+  hear({ pinned: { make, values }, pictures, measures }, outputs) {
+    if (!this.ghost && make === this.wanted) this.pin({ make, values: Float64Array.from([...values, ...this.values.slice(this.history.count)]), outputs, pictures, measures });
   }
 
   /** Show a design beside the one in hand as long as somebody looks at it, or none. @param {ArrayLike<number> | null} design */
@@ -245,20 +265,12 @@ export class Panel {
     if (design?.length !== this.history.count) { if (this.looked) { this.looked = null; this.ask(); } return; } // or of another law
     const values = Float64Array.from([...Array.from(design), ...this.values.slice(design.length)]);
     if (this.looked?.values.every((/** @type {number} */ v, /** @type {number} */ k) => v === values[k])) return;
-    this.looked = { values, outputs: this._beside(values) };
+    this.looked = besideOf(this, values, this.runs(values));
     this.ask();
   }
 
-  /** The pinned design stands where the other one does, if the page computes it. */
-  _turnGhost() {
-    const { ghost } = this, { begin } = this.positions;
-    if (ghost.values.subarray(begin).every((/** @type {number} */ v, /** @type {number} */ k) => v === this.values[begin + k])) return;
-    ghost.values.set(this.values.subarray(begin), begin);
-    ghost.outputs = this._beside(ghost.values);
-  }
-
-  /** The outputs of another design, which are not those that the page goes on from. @param {Float64Array} values */
-  _beside(values) { return (this.twin ??= this.engine.twin())(values); }
+  /** What computes other designs of this make beside the one that the page goes on from, if the page does. */
+  get runs() { return this.twin ??= this.engine.twin?.(); }
 
   async _show() {
     const number = ++this.asked, settled = this.settling, values = this.values.slice(), ran = this.engine.run(values);
@@ -267,7 +279,7 @@ export class Panel {
     if (number < this.shownAt || this.ended) return; // a newer one is there
     this.shownAt = number;
     if (outputs.structure) this._adopt(outputs.structure);
-    if (this.ghost && this.engine.twin) this._turnGhost();
+    if (this.ghost) turn(this.ghost, values.subarray(this.history.count));
     this._draw(outputs, settled);
     this.computed = values.subarray(0, this.history.count);
     this._report(settled);
@@ -327,15 +339,15 @@ export class Panel {
     const missed = this.structure.refusals.find((/** @type {any} */ r) => outputs.length && outputs[r.at][0] !== 1);
     const refused = missed ? fill(missed.words, outputs) : outputs.sentence ?? "";
     this._refuse(refused);
-    this.undoing.setAttribute("aria-disabled", String(!this.history.past.length));
-    this.redoing.setAttribute("aria-disabled", String(!this.history.future.length));
+    this.undoing.setAttribute("aria-disabled", String(!this._can(this.history.past)));
+    this.redoing.setAttribute("aria-disabled", String(!this._can(this.history.future)));
     if (!refused) Object.assign(this, { outputs, built: this.values.slice() });
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
     const { words, dark, playing, units } = this, em = this.letter / 13, low = 190 * em;
     this.root.classList.toggle("camkit-dark", dark);
-    for (const chart of this.charts) {
-      const pinned = (this.looked ?? this.ghost)?.outputs, cursor = this._cursorOf(chart);
+    for (const [k, chart] of this.charts.entries()) {
+      const pinned = drawnOf(this.looked ?? this.ghost, chart.picture, k), cursor = this._cursorOf(chart);
       chart.em = em;
       const how = { dark, settled: settled && !playing, words, units, ghost: pinned, cursor, low, older: this._older(chart) };
       chart.draw(chart.own ?? this.outputs, how);
@@ -386,8 +398,9 @@ export class Panel {
   /** Measures as numbers, limits as chips. @param {ArrayLike<number>[]} outputs */
   _tell(outputs) {
     this.first ??= outputs;
-    const { structure: { first }, ghost } = this, before = ghost?.outputs ?? this.first;
-    const rows = judged(this.structure, outputs, (m) => (first && !ghost ? first[m.name] ?? NaN : numberOf(m, before)));
+    const { structure: { first }, ghost } = this;
+    const rows = judged(this.structure, outputs,
+      (m) => (ghost ? measureOf(ghost, m) : first ? first[m.name] ?? NaN : numberOf(m, this.first)));
     this.judged = rows;
     this.verdict.tell(rows, this.words(this.structure.trouble), this.units);
     if (!this.table.element.hidden) this.table.fill(rows, this.ghost ? "pinned" : "start", this.units);

@@ -9,7 +9,7 @@ import { frame, windowOf } from "./axes.js";
  * @typedef {import("./marks.js").Mark} Mark
  * @typedef {import("./marks.js").Picture} Picture
  * @typedef {import("./marks.js").Ends} Ends
- * @typedef {{dark: boolean, cursor?: number, ghost?: ArrayLike<number>[], settled?: boolean, older?: boolean, words: (text: any) => string,
+ * @typedef {{dark: boolean, cursor?: number, ghost?: {picture: Picture, outputs: ArrayLike<number>[]}, settled?: boolean, older?: boolean, words: (text: any) => string,
  *   low?: number, units?: {of(unit: string): import("./units.js").Shown}}} How pictures lower than `low` are compact, one that is
  *   `older` says so
  */
@@ -22,6 +22,7 @@ export class Chart {
     /** What was drawn last, in user units. @type {any} */
     this.list = null;
     this.compact = false;
+    /** Of pictures: the places of the outputs that they name. @type {WeakMap<Picture, number[]>} */ this.given = new WeakMap();
     /** The size of letters, as a share of what it mostly is. */
     this.em = 1;
     /** What is drawn, without what moves over it, as soon as it is needed twice. @type {HTMLCanvasElement | null} */
@@ -55,12 +56,18 @@ export class Chart {
   /** Whether the picture is as it was drawn last, but for what moves over it. @param {ArrayLike<number>[]} outputs @param {How} how */
   _same(outputs, how) {
     const { picture, size, em, zoomed } = this, { dark, units, ghost, older } = how;
-    if (this.given?.picture !== picture) this.given = { picture, places: [...given(picture)] };
-    const { places } = this.given, was = this.from;
+    const places = this._placesOf(picture), was = this.from;
     this.compact = size.height < (how.low ?? 0);
     this.from = [picture, size.width, size.height, globalThis.devicePixelRatio, em, zoomed, dark, units?.name, !ghost, older,
-      ...places.map((at) => outputs[at]), ...(ghost ? places.map((at) => ghost[at]) : [])];
+      ...places.map((at) => outputs[at]), ...(ghost ? this._placesOf(ghost.picture).map((at) => ghost.outputs[at]) : [])];
     return !how.settled && was?.length === this.from.length && this.from.every((part, k) => part === was[k]);
+  }
+
+  /** The places of the outputs that a picture names. @param {Picture} picture @returns {number[]} */
+  _placesOf(picture) {
+    let places = this.given.get(picture);
+    if (!places) this.given.set(picture, places = [...given(picture)]);
+    return places;
   }
 
   /** What outputs say of axes and marks. @param {ArrayLike<number>[]} outputs */
@@ -88,7 +95,7 @@ export class Chart {
     this._place(width, height);
     frame(this);
     this.list = { name: picture.name, window: { ...this.window }, marks: [], troubles: [] };
-    if (ghost) for (const mark of marks) this._ghost(mark, ghost);
+    if (ghost) for (const mark of ghost.picture.marks) this._ghost(mark, ghost.outputs);
     for (const mark of marks) this._mark(mark, outputs);
     if (picture.axes.equal) this._nameTroubles(marks.filter(({ role, kind }) => role === "trouble" && kind === "line"));
   }

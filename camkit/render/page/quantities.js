@@ -36,6 +36,18 @@ export class Quantities {
     return seen.map((k) => [k, away(k)]).sort((a, b) => a[1] - b[1]).map(([k]) => k);
   }
 
+  /** How a person has them before them: the groups that are open, how far it is scrolled. */
+  get held() {
+    const open = this.groups.filter((/** @type {any} */ group) => group.open).map(titleOf);
+    return { known: this.groups.map(titleOf), open, down: this.element.scrollTop };
+  }
+
+  /** Stand as others did; a group that is new stays as it is. @param {{known: string[], open: string[], down: number}} held */
+  hold({ known, open, down }) {
+    for (const group of this.groups) if (known.includes(titleOf(group))) group.open = open.includes(titleOf(group));
+    this.element.scrollTop = down;
+  }
+
   /** Mark what a design cannot be built with: a group that is folded opens. @param {number[]} guilty places of rows */
   blame(guilty) {
     this.rows.forEach((row, k) => {
@@ -66,6 +78,9 @@ export class Quantities {
     this.nothing.hidden = this.groups.some((/** @type {HTMLElement} */ group) => !group.hidden);
   }
 }
+
+/** The name of a group, without how many it has. @param {any} group */
+const titleOf = (group) => group.firstChild.textContent.replace(/ \(\d+\)$/, "");
 
 /** A menu; what nobody takes stays as it is. @param {{path: string, name: string, options: string[], chosen: string}} choice
  * @param {((path: string, option: string) => void) | null} choose @param {(row: HTMLElement) => void} used */

@@ -1,34 +1,59 @@
 // What a page remembers beside its design: where it stands, what Undo goes back to, what is pinned, its units; and what
 // its kernel offers of earlier.  A kernel that has ended leaves no control behind that does nothing.
+import { besideOf } from "./beside.js";
 import { make } from "./controls.js";
 
 const QUIET = 400; // ms of rest after which the kernel hears how the page was left
 
 /** How a panel stands, its design left out: plain numbers. @param {any} panel */
 export function standOf(panel) {
-  const { values, history, ghost, tabs, units } = panel, plain = (/** @type {Float64Array[]} */ steps) => steps.map((step) => [...step]);
+  const { values, history: { count, now, past, future }, ghost, tabs, units } = panel;
   return {
-    at: [...values.slice(history.count)], tab: tabs.shown?.name ?? "", units: units.name, pinned: ghost ? [...ghost.values] : null,
-    past: plain(history.past), future: plain(history.future),
+    at: [...values.slice(count)], tab: tabs.shown?.name ?? "", units: units.name, make: now.make, past, future,
+    pinned: ghost ? { make: ghost.make ?? "", values: [...ghost.values] } : null,
   };
 }
 
-/** Stand as a page was left; what does not belong to this design is left out. @param {any} panel @param {any} left */
+/** Stand as a page was left; what does not belong to this design, or is of a make that this kernel does not know, is left out.
+ * @param {any} panel @param {any} left */
 export async function stand(panel, left) {
-  const { history, values: { length } } = panel, { count } = history;
-  const numbers = (/** @type {any} */ list, /** @type {number} */ wanted) =>
-    Array.isArray(list) && list.length === wanted && list.every(Number.isFinite);
-  const steps = (/** @type {any} */ list) => (Array.isArray(list) ? list : [])
-    .filter((values) => numbers(values, length)).map((values) => Float64Array.from(values));
+  const { history, values: { length } } = panel, { count, now: { make } } = history;
+  const numbers = (/** @type {any} */ list) => Array.isArray(list) && list.every(Number.isFinite);
+  const here = (/** @type {any} */ step) => ({ ...step, make: step.make === left.make && !sameKernel(left.make, make) ? make : step.make });
+  const fits = (/** @type {any} */ { make: its, values }, /** @type {number} */ wanted) =>
+    numbers(values) && (its === make ? values.length === wanted : sameKernel(its, make));
+  const steps = (/** @type {any} */ list) => (Array.isArray(list) ? list : []).map(here).filter((step) => fits(step, count));
   const past = steps(left.past), future = steps(left.future);
   if (past.length + future.length) Object.assign(history, { past, future });
-  if (numbers(left.at, length - count)) panel.put([...panel.values.slice(0, count), ...left.at]);
-  history.now = panel.values.slice();
+  if (numbers(left.at) && left.at.length === length - count) panel.put([...panel.values.slice(0, count), ...left.at]);
+  history.now = { make, values: [...panel.values.slice(0, count)] };
   if (typeof left.units === "string") panel.use(left.units);
   if (typeof left.tab === "string") panel.showTab(left.tab);
-  if (!numbers(left.pinned, length) || panel.ghost) return;
-  const values = Float64Array.from(left.pinned), outputs = await panel.engine.run(values, true);
-  if (!panel.ended && !panel.ghost && !outputs.sentence) panel.pin({ values, outputs });
+  const pinned = left.pinned && here(left.pinned);
+  if (!pinned || panel.ghost || !fits(pinned, length)) return;
+  if (pinned.make !== make) { panel.recall(pinned); return; }
+  const values = Float64Array.from(pinned.values), outputs = await panel.engine.run(values, true);
+  if (!panel.ended && !panel.ghost && !outputs.sentence) panel.pin(besideOf(panel, values, outputs));
+}
+
+/** Whether makes have their names from one kernel. @param {any} one @param {any} other */
+const sameKernel = (one, other) => String(one).split(".")[0] === String(other).split(".")[0];
+
+/** What of a panel is gone when it ends: what stood open, and what had the focus. @param {any} panel */
+export function heldBy({ root, quantities }) {
+  const { activeElement: focused } = document;
+  return { ...quantities.held, focused: root.contains(focused) ? focused.getAttribute("aria-label") : null };
+}
+
+/** Go on where a panel of another make stood. @param {any} panel @param {any} before @param {ReturnType<typeof heldBy>} held */
+export function follow(panel, before, { focused, ...held }) {
+  panel.history.follow(before.history);
+  panel.use(before.units.name);
+  panel.showTab(before.tabs.shown?.name);
+  panel.positions.resume(before.positions);
+  panel.quantities.hold(held);
+  if (before.ghost) panel.pin(before.ghost);
+  if (focused) panel.root.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
 }
 
 /** Tells the kernel how a page was left, from a person's first touch on; `panel()` is the panel that is shown now. */

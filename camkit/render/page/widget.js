@@ -5,7 +5,7 @@ import { Docks } from "./docks.js";
 import { download } from "./files.js";
 import { movable } from "./cell.js";
 import { atTheEnd } from "./kernel.js";
-import { Session, alone, known, stand } from "./session.js";
+import { Session, alone, follow, heldBy, known, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineFor(model) {
@@ -41,20 +41,32 @@ function asking(model) {
 }
 
 const TRUST = "The page is saved: a browser runs it; inside JupyterLab it stands still until you press Trust HTML above it.";
-const ANEW = "Undo begins anew, as this design is of another kind than those before.";
 const SAID = 20_000; // how long these stay, ms
 
 /** @param {import("./cell.js").Host} host */
 async function view({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
   /** @type {any} */ let panel = null, saving = false;
+  let said = 0;
+  /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question */
+  const ask = (question) => {
+    const { structure: { make }, values, history: { count } } = panel;
+    model.send({ ...question, make, values: [...values.slice(0, count)], said });
+  };
   const host = {
-    changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) { model.set({ values, computed }); model.save_changes(); },
-    reset: () => model.send({ reset: true }),
-    choose: (/** @type {string} */ path, /** @type {string} */ option) => model.send({ choose: [path, option] }),
-    file: (/** @type {string} */ kind) => { saving = true; model.send({ file: kind }); },
-    open: (/** @type {string} */ text) => model.send({ open: text }),
-    name: (/** @type {any} */ asked) => model.send({ session: asked }),
+    changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) {
+      if (!current()) return;
+      said = Math.max(said + 1, Date.now());
+      model.set({ values, computed, said });
+      model.save_changes();
+    },
+    back: (/** @type {any} */ { make, values }) => ask({ back: [make, values] }),
+    pin: (/** @type {any} */ { make, values }, /** @type {number[]} */ at) => model.send({ pin: [make, values, at] }),
+    reset: () => ask({ reset: true }),
+    choose: (/** @type {string} */ path, /** @type {string} */ option) => ask({ choose: [path, option] }),
+    file: (/** @type {string} */ kind) => { saving = true; ask({ file: kind }); },
+    open: (/** @type {string} */ text) => ask({ open: text }),
+    name: (/** @type {any} */ asked) => ask({ session: asked }),
   };
   const docks = new Docks();
   const dock = async () => {
@@ -69,25 +81,30 @@ async function view({ model, el }) {
   const starting = async () => {
     const number = ++begun, first = !panel, engine = await engineFor(model), structure = structuredClone(model.get("structure"));
     if (number < begun) { engine.end?.(); return; } // structure and program come together
-    const before = panel;
+    const before = panel, held = before && heldBy(before);
     before?.end();
     panel = new Panel(root, structure, engine, host);
+    if (before) { // its design may be another one than that which the structure was made of
+      const values = model.get("values");
+      panel.put([...values, ...panel.values.slice(values.length)]);
+      panel.history.now.values = values;
+      follow(panel, before, held);
+    }
     Object.assign(root.parentElement ?? {}, { camkit: panel });
     await dock();
     panel.say(model.get("message"));
-    if (before) {
-      panel.use(before.units.name); panel.showTab(before.tabs.shown?.name); panel.positions.resume(before.positions);
-      if (before.history.past.length && !model.get("message")) briefly(ANEW);
-    }
+    if (before) panel.showTab(before.tabs.shown?.name); // of a sheet
     moved(); // the design may have moved since the structure was made
     if (first) void stand(panel, model.get("page"));
     session.ask();
     if (!known(model)) left();
   };
   const left = () => { if (panel) { panel.left = true; alone(panel, model.get("program").byteLength > 0); } };
+  /** Whether the panel is of the make that the kernel shows: else another one is on its way. */
+  const current = () => panel?.structure.make === model.get("structure").make;
   const moved = () => {
     const values = model.get("values"), shown = panel?.values ?? [];
-    if (panel && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
+    if (panel && current() && values.length === panel.structure.quantities.length && values.some((/** @type {number} */ v, /** @type {number} */ k) => v !== shown[k])) panel.load(values);
   };
   const briefly = (/** @type {string} */ sentence) => {
     panel.say(sentence);
@@ -104,6 +121,7 @@ async function view({ model, el }) {
       if (message.offer !== undefined) session.offer(message.offer);
       if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
+      if (message.pinned) void ready.then(() => panel.hear(message, arrays(buffers)));
       if (message.still) panel?.redraw(message.pictures, arrays(buffers), message.values);
     },
     "comm_live_update": left, // it happens once more after the beginning: at the end
