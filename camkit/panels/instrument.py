@@ -64,8 +64,8 @@ class Instrument(Displayed, anywidget.AnyWidget):
     values = traitlets.List(traitlets.Float()).tag(sync=True)
     computed = traitlets.List(traitlets.Float(allow_none=True)).tag(sync=True)
     """The measures of ``values`` as the page computes them."""
-    said = traitlets.Float().tag(sync=True)
-    """When the page said these, by its clock."""
+    said = traitlets.Dict().tag(sync=True)
+    """Of which make these are, and ``at`` which time of its clock the page said them."""
     message = traitlets.Unicode().tag(sync=True)
     tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
     """What stands beside the curves, by its title: sheets."""
@@ -219,7 +219,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
     def _settled(self, change: traitlets.Bunch) -> None:
         """What the page shows becomes the design, if it can be built."""
         numbers = list(numbers_of(self.design).values())
-        if self.said <= self._overtaken:
+        if self._old:
             self._push()
         elif len(change.new) == len(numbers) and change.new != numbers:
             self._try(lambda: self._of(change.new))
@@ -255,7 +255,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
     @traitlets.observe("computed")
     def _compare(self, change: traitlets.Bunch) -> None:
         """A visible error where page and kernel differ."""
-        if self.said <= self._overtaken or self.values != list(numbers_of(self.design).values()):
+        if self._old or self.values != list(numbers_of(self.design).values()):
             return  # they are of another design
         for measure, first, now, page in zip(self.measures, self._first, self._now, change.new, strict=False):
             size = np.nanmax(np.abs([first, now, 0.0])) if np.isfinite([first, now]).all() else abs(now)
@@ -291,10 +291,17 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def _catch_up(self, message: Mapping[str, Any]) -> None:
         """What the page shows when it asks comes with the question, which may overtake it; then it is old."""
-        if message.get("make") == self._makes.last[0]:
+        if "said" in message:
             self.said = message["said"]
-            self.values = message["values"]
-        self._overtaken = message.get("said", self._overtaken)
+            if not self._old:
+                self.values = message["values"]
+            self._overtaken = message["said"]["at"]
+
+    @property
+    def _old(self) -> bool:
+        """Whether what the page said last is of a design that was left since."""
+        here = self._makes.last[0]
+        return bool(self.said.get("at", np.inf) <= self._overtaken or self.said.get("make", here) != here)
 
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])

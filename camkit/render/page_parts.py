@@ -13,7 +13,7 @@ from .roles import ROLES, STROKES, colour, letter_colour
 PAGE = Path(__file__).with_name("page")
 MODULES = (
     *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
-    *("positions", "pointer", "files", "kernel", "parts"),
+    *("positions", "pointer", "files", "kernel", "parts", "theme"),
     *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "beside", "verdict", "quantities"),
     *("tabs", "why", "handles", "places", "names", "panel", "session", "cell"),
 )

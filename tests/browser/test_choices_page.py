@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 from camkit.quantities import choices_of, measures_of
 from camkit.views import default_views, pressure_angle
 from lab import eventually, kernel_value, open_notebook
-from test_instrument_page import LIMITS, PAGE, STUDY, of_page, settled
+from test_instrument_page import BUSY, LIMITS, PAGE, STUDY, of_page, settled
 from test_living_page import compare
 from test_names_page import keep, press
 from test_session_page import SAVE, notebook, run, step
@@ -16,9 +16,9 @@ LAW = "motion_law"
 FIRST = STUDY.start.motion_law
 OPTION, OTHER = next((name, law) for name, law in choices_of(STUDY.start)[LAW].named.items() if law != FIRST)
 MENU = ".camkit-left .camkit-choice select"
-GHOST = f"""(name) => {{ const {{ charts }} = {PAGE}, chart = charts.find(({{ picture }}) => picture.name === name),
-    {{ picture, outputs }} = chart.how.ghost, line = picture.marks.find(({{ kind, role }}) => kind === "line" && role !== "limit");
-    return Array.from(outputs[line.y.at]); }}"""
+GHOST = f"""(name) => {{ const chart = {PAGE}.charts.find(({{ picture }}) => picture.name === name),
+    {{ picture, outputs }} = chart.how.ghost, is = ({{ kind, role }}) => kind === "line" && role !== "limit";
+    return Array.from(outputs[picture.marks.find(is).y.at]); }}"""
 __all__ = ["notebook"]
 
 
@@ -133,5 +133,23 @@ def test_a_choice_that_is_taken_back_needs_its_kernel(page, notebook, server):
     assert page.evaluate(f"{PAGE}.structure.choices[0].chosen") == OTHER.name
     step(page, 1)
     undo.click()  # of this law it can
+    settled(page)
+    assert arm(page) == STUDY.start.lift_arm
+
+
+def test_reset_counts_also_while_the_kernel_is_busy(page, notebook):
+    """What the page said before is still on its way when the question is asked."""
+    run(page)
+    page.evaluate(BUSY.replace("sleep(8)", "sleep(3)"))
+    step(page, 4)
+    assert arm(page) > STUDY.start.lift_arm
+    page.get_by_role("button", name="Reset").click()
+    eventually(lambda: arm(page) == STUDY.start.lift_arm)
+    page.wait_for_timeout(500)
+    assert kernel_value(page, "[app.design == app.start, app.values[0], app.message]") == [
+        True,
+        STUDY.start.lift_arm,
+        "",
+    ]
     settled(page)
     assert arm(page) == STUDY.start.lift_arm

@@ -68,7 +68,7 @@ def test_verdicts_follow_the_law_and_a_program_that_cannot_be_is_said(page: Page
     box = segment(editor, 2).get_by_role("textbox", name="angle, deg")
     box.fill("200")
     box.press("Enter")
-    expect(editor.get_by_role("alert").filter(has_text="it can span at most 360 deg")).to_be_visible()
+    expect(editor.get_by_role("alert").filter(has_text="it can span at most 360 °")).to_be_visible()
     expect(editor.locator("canvas").first).to_be_hidden()
     box.fill("80°")
     box.press("Enter")

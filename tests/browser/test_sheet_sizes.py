@@ -118,6 +118,38 @@ def test_a_sheet_fits_into_a_laptops_notebook(browser, make, monkeypatch, tmp_pa
     page.close()
 
 
+def test_a_sheet_by_itself_has_units_to_choose_from(browser):
+    page = opened(browser, tolerances(), 934, 600)
+    cells = """() => [...document.querySelectorAll("td")].map((cell) => cell.textContent)
+        .filter((words) => / (°|deg|rad)$/.test(words))"""
+    degrees = page.evaluate(cells)
+    assert degrees
+    assert all(text.endswith(" °") for text in degrees)  # as an instrument writes them
+    axes = "() => sheet.shown().pictures.map(({ window: { y } }) => y.high)"
+    before = page.evaluate(axes)
+    page.get_by_label("units of this sheet").select_option("mm, rad, N")
+    page.wait_for_function("() => !sheet.frame")
+    radians = page.evaluate(cells)
+    assert all(text.endswith(" rad") for text in radians)
+    numbers = ([float(text.split()[0]) for text in texts] for texts in (degrees, radians))
+    np.testing.assert_allclose(
+        *(np.array(some) * unit for some, unit in zip(numbers, (deg, 1), strict=True)), rtol=1e-3
+    )
+    assert page.evaluate(axes) != before
+    assert page.heard == []
+    page.close()
+
+
+def test_a_sheet_without_units_offers_none(boxes):
+    assert boxes.get_by_label("units of this sheet").count() == 1  # its lift is in mm
+    boxes.evaluate("() => sheet.own.use('inch, deg, lbf') || sheet.measure()")
+    assert boxes.get_by_label("lift, inch").input_value() == "0.19685"
+    boxes.evaluate("() => sheet.own.use('mm, deg, N') || sheet.measure()")
+    page = opened(boxes.context.browser, ahp_panel(Judgements(["speed", "price"], [2])), 934, 600)
+    assert page.get_by_label("units of this sheet").count() == 0
+    page.close()
+
+
 @pytest.fixture
 def boxes(browser):
     """A slider, a box and a button, whose kernel does not answer."""
@@ -156,7 +188,7 @@ def test_a_sheet_that_has_left_the_page_is_not_drawn_again(boxes):
     drawn = """() => {
         let times = 0;
         sheet.draw = () => { times++; };
-        sheet.system.dispatchEvent(new Event("change"));
+        sheet.theme.system.dispatchEvent(new Event("change"));
         return times;
     }"""
     assert boxes.evaluate(drawn) == 1

@@ -426,16 +426,24 @@ def test_what_a_question_overtakes_is_old(app):
     values, make, law = [*app.values], app.structure["make"], value_of(app.design, "motion.rise.law")
     values[0] += 1 * mm
     option = next(o for o in app.structure["choices"] if o["path"] == "motion.rise.law")["options"][-1]
-    late = {"values": values, "computed": [m.one(app.design.analyse()) for m in app.measures], "said": 5.0}
-    ask(app, choose=["motion.rise.law", option], make=make, values=values, said=5.0)
+    late = {
+        "values": values,
+        "computed": [m.one(app.design.analyse()) for m in app.measures],
+        "said": {"at": 5, "make": make},
+    }
+    ask(app, choose=["motion.rise.law", option], values=values, said={"at": 5, "make": make})
     assert app.values[0] == values[0]
-    assert value_of(chosen := app.design, "motion.rise.law") != law
+    chosen = app.design
+    assert value_of(chosen, "motion.rise.law") != law
     app.set_state(late)
     assert app.message == ""
     assert app.design == chosen
     app.set_state({**late, "values": [2 * value for value in values]})
     assert app.values == [*numbers_of(chosen).values()]  # the page hears what there is
-    app.set_state({"values": [*numbers_of(chosen).values()], "computed": [9.0, 9.0], "said": 6.0})
+    now = {"values": [*numbers_of(chosen).values()], "computed": [9.0, 9.0]}
+    app.set_state({**now, "said": {"at": 6, "make": make}})  # of the other law still
+    assert app.message == ""
+    app.set_state({**now, "computed": [8.0, 8.0], "said": {"at": 7, "make": app.structure["make"]}})
     assert "The page computes" in app.message
 
 

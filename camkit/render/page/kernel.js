@@ -1,4 +1,4 @@
-// The end of a kernel that is shut down: the widgets of a page hear nothing of it, its connection does.
+// What a kernel sends, and its end: the widgets of a page hear nothing of one that is shut down, its connection does.
 
 const ENDED = [undefined, "dead", "terminating"]; // a connection that is disposed of says nothing
 
@@ -10,3 +10,9 @@ export function atTheEnd(model, act) {
   for (const signal of signals) signal?.connect?.(hear);
   return () => { for (const signal of signals) signal?.disconnect?.(hear); };
 }
+
+/** Arrays that came in buffers. @param {DataView[]} buffers */
+export const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
+
+/** How long a question waits for its answer before another one is asked, ms. */
+export const PATIENCE = 10_000;

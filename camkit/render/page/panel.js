@@ -15,6 +15,7 @@ import { listen } from "./pointer.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
 import { Tabs } from "./tabs.js";
+import { Theme } from "./theme.js";
 import { Units } from "./units.js";
 import { Verdict } from "./verdict.js";
 import { Why } from "./why.js";
@@ -46,10 +47,7 @@ export class Panel {
     this.painting = new Idle();
     /** Of each row, what the others were when its track was painted. @type {Map<number, string>} */ this.painted = new Map();
     this._build();
-    this.system = matchMedia("(prefers-color-scheme: dark)");
-    this.system.addEventListener("change", () => this.ask(true), { signal: this.leaving.signal });
-    this.theme = new MutationObserver(() => this.ask(true));
-    this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    this.theme = new Theme(() => this.ask(true));
     this.resized = new ResizeObserver(() => this._resize());
     for (const part of [root, ...this.charts.map((/** @type {Chart} */ chart) => chart.canvas)]) this.resized.observe(part);
     this._resize();
@@ -66,7 +64,7 @@ export class Panel {
   /** Leave the page. */
   end() {
     clearTimeout(this.resting); clearTimeout(this.reporting);
-    this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.disconnect(); this.why.hide(); this.painting.stop(); this.handles.end();
+    this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.end(); this.why.hide(); this.painting.stop(); this.handles.end();
     this.positions.playing = false; this.ended = true;
     this.root.classList.remove("camkit-refused");
     this.root.replaceChildren();
@@ -128,10 +126,7 @@ export class Panel {
   /** Whether the mechanism is turning. */
   get playing() { return this.positions.playing; }
 
-  get dark() {
-    const light = document.body.dataset.jpThemeLight;
-    return light ? light === "false" : this.system.matches;
-  }
+  get dark() { return this.theme.dark; }
 
   /** Say something in a line of its own, or nothing. @param {string} sentence */
   say(sentence) { this.note.textContent = sentence; this.note.hidden = !sentence; this.quantities.blameChoice(Boolean(sentence)); }
@@ -173,8 +168,9 @@ export class Panel {
     this.addTab("Curves", make("div", { class: "camkit-curves" }, ...framed), () => this._resize());
     this.addTab("Numbers", this.table.element, () => this.ask(true), true);
     root.classList.add("camkit-page");
-    root.replaceChildren(this._bar(), this.note, ...this.verdict.elements, this.quantities.element, this.middle,
-      this.tabs.element, this.positions.element, this.tabs.row, this.tip, this.why.element);
+    const seen = make("div", { class: "camkit-seen" }, ...this.verdict.elements, this.middle); // in one column it stays in sight
+    root.replaceChildren(this._bar(), this.note, seen, this.quantities.element, this.tabs.element, this.positions.element,
+      this.tabs.row, this.tip, this.why.element);
     for (const chart of this.charts) listen(this, chart);
     this.handles = new Handles(this, moved);
     this.quantities.element.addEventListener("toggle", () => this._paint(), { capture: true }); // a group was opened
@@ -245,18 +241,6 @@ export class Panel {
     this.ghost = ghost;
     this.pinning.textContent = this.ghost ? "Unpin" : "Pin to compare";
     this.ask(true);
-  }
-
-  /** Pin a design of another make, as its kernel draws it. @param {import("./history.js").Step} pinned with where it stands */
-  recall({ make, values }) {
-    const count = values.length - this.structure.positions.length;
-    this.wanted = make; // other pages of the kernel hear its answer, too
-    this.host?.pin({ make, values: values.slice(0, count) }, values.slice(count));
-  }
-
-  /** @param {any} drawn what the kernel draws @param {import("./engine.js").Outputs} outputs */
-  hear({ pinned: { make, values }, pictures, measures }, outputs) {
-    if (!this.ghost && make === this.wanted) this.pin({ make, values: Float64Array.from([...values, ...this.values.slice(this.history.count)]), outputs, pictures, measures });
   }
 
   /** Show a design beside the one in hand as long as somebody looks at it, or none. @param {ArrayLike<number> | null} design */

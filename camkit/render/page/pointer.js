@@ -10,10 +10,7 @@ const HINT = "Ctrl + wheel zooms, double-click fits"; // said until a pointer ha
 /** @param {import("./panel.js").Panel} panel @param {import("./picture.js").Chart} chart */
 export function listen(panel, chart) {
   const { canvas } = chart, { positions, tip } = panel, orbits = positions.orbits(chart), overTurn = () => panel.overTurn(chart);
-  const at = (/** @type {MouseEvent} */ event) => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
+  const at = (/** @type {MouseEvent} */ event) => placeOf(canvas, event);
   /** @type {Map<number, number[]>} */ const held = new Map(); // a pinch has two
   canvas.style.touchAction = chart.picture.axes.equal || orbits ? "none" : "pan-y"; // past curves the page scrolls
   canvas.addEventListener("pointerdown", (event) => {
@@ -39,27 +36,47 @@ export function listen(panel, chart) {
     else if (orbits) positions.orbit(-dx * 0.01, dy * 0.01);
     else { chart.pan(dx, dy); panel.ask(); }
   });
+  zooms(chart, (settled) => panel.ask(settled));
+  canvas.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => arrow(panel, chart, event));
+}
+
+/** Where on a canvas the pointer is. @param {HTMLCanvasElement} canvas @param {MouseEvent} event */
+export function placeOf(canvas, event) {
+  const box = canvas.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+}
+
+/** The wheel brings a picture nearer, a double click shows all of it. @param {import("./picture.js").Chart} chart
+ * @param {(settled: boolean) => void} draw */
+export function zooms(chart, draw) {
+  const { canvas } = chart;
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && document.activeElement !== canvas) return; // the page scrolls
     event.preventDefault();
-    chart.zoom(Math.exp(event.deltaY * 0.0015), ...at(event));
-    panel.ask();
+    const [px, py] = placeOf(canvas, event);
+    chart.zoom(Math.exp(event.deltaY * 0.0015), px, py);
+    draw(false);
   }, { passive: false });
-  canvas.addEventListener("dblclick", () => { chart.fit(); panel.ask(true); });
-  canvas.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => arrow(panel, chart, event));
+  canvas.addEventListener("dblclick", () => { chart.fit(); draw(true); });
+}
+
+/** Say something in lines beside a place, or nothing, and stay within what is around it. @param {HTMLElement} tip
+ * @param {string[]} lines @param {number} x @param {number} y */
+export function say(tip, lines, x, y) {
+  tip.textContent = lines.join("\n");
+  tip.hidden = !tip.textContent;
+  if (tip.hidden) return;
+  const { clientWidth, clientHeight } = /** @type {HTMLElement} */ (tip.offsetParent ?? tip.parentElement);
+  tip.style.left = `${Math.min(x + 14, clientWidth - tip.offsetWidth - 4)}px`;
+  tip.style.top = `${Math.min(y + 14, clientHeight - tip.offsetHeight)}px`;
 }
 
 /** The values of the curves under the pointer. @param {import("./panel.js").Panel} panel
  * @param {import("./picture.js").Chart} chart @param {number} px @param {number} py @param {PointerEvent} event */
 function hover(panel, chart, px, py, event) {
-  const { tip, root } = panel;
-  if (!panel.outputs || !chart.inside(px, py)) { tip.hidden = true; return; }
-  const said = under(chart, px, py);
-  tip.textContent = [...said, ...(panel.hinted ? [] : [HINT])].join("\n");
-  tip.hidden = !tip.textContent;
+  const { tip, root } = panel, said = panel.outputs && chart.inside(px, py) ? under(chart, px, py) : null;
   const box = root.getBoundingClientRect();
-  tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width - tip.offsetWidth - 4)}px`;
-  tip.style.top = `${Math.min(event.clientY - box.top + 14, box.height - tip.offsetHeight)}px`;
+  say(tip, said ? [...said, ...(panel.hinted ? [] : [HINT])] : [], event.clientX - box.left, event.clientY - box.top);
 }
 
 /** What is under the pointer, in lines: the values of the curves there, or a place. @param {import("./picture.js").Chart} chart
@@ -98,7 +115,15 @@ function atPoint(chart, px, py) {
   }
   const named = (/** @type {"x"|"y"} */ name) =>
     `${chart.axes[`${name}label`].replace(UNIT, "").trim() || name} ${measured(chart, name, best[name])}`;
+  if (chart.offered && best.head.length) best.head = offeredAt(chart, best) ?? best.head;
   return chart.picture.axes.equal ? [`${named("x")}, ${named("y")}`] : [...best.head, named("x"), named("y")];
+}
+
+/** The name of the design that is offered at a point, counted as the front counts.
+ * @param {any} chart @param {{x: number, y: number}} point */
+function offeredAt({ offered: [x, y] }, point) {
+  const k = Array.prototype.findIndex.call(x, (/** @type {number} */ value, /** @type {number} */ i) => value === point.x && y[i] === point.y);
+  return k < 0 ? null : [`design ${k}`];
 }
 
 /** Arrow keys on a picture turn what is seen, or move it; + and - bring it nearer, 0 shows all of it.

@@ -31,9 +31,23 @@ export async function stand(panel, left) {
   if (typeof left.tab === "string") panel.showTab(left.tab);
   const pinned = left.pinned && here(left.pinned);
   if (!pinned || panel.ghost || !fits(pinned, length)) return;
-  if (pinned.make !== make) { panel.recall(pinned); return; }
+  if (pinned.make !== make) { recall(panel, pinned); return; }
   const values = Float64Array.from(pinned.values), outputs = await panel.engine.run(values, true);
   if (!panel.ended && !panel.ghost && !outputs.sentence) panel.pin(besideOf(panel, values, outputs));
+}
+
+/** Ask the kernel for the pictures of a design of another make. @param {any} panel @param {import("./history.js").Step} pinned
+ * with where it stands */
+function recall(panel, { make, values }) {
+  const count = values.length - panel.structure.positions.length;
+  panel.wanted = make; // other pages of the kernel hear its answer, too
+  panel.host?.pin({ make, values: values.slice(0, count) }, values.slice(count));
+}
+
+/** Pin what the kernel has drawn. @param {any} panel @param {any} drawn @param {import("./engine.js").Outputs} outputs */
+export function pinDrawn(panel, { pinned: { make, values }, pictures, measures }, outputs) {
+  if (panel.ghost || make !== panel.wanted) return;
+  panel.pin({ make, values: Float64Array.from([...values, ...panel.values.slice(panel.history.count)]), outputs, pictures, measures });
 }
 
 /** Whether makes have their names from one kernel. @param {any} one @param {any} other */

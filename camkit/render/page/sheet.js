@@ -3,20 +3,18 @@ import { make } from "./controls.js";
 import { PARTS } from "./parts.js";
 import { Chart } from "./picture.js";
 import { fill } from "./numbers.js";
-import { under } from "./pointer.js";
+import { placeOf, say, under, zooms } from "./pointer.js";
 import { download } from "./files.js";
-import { atTheEnd } from "./kernel.js";
+import { PATIENCE, arrays, atTheEnd } from "./kernel.js";
+import { Theme } from "./theme.js";
+import { Units } from "./units.js";
 
 /**
  * @typedef {{get(name: string): any, send(message: any, callbacks?: any, buffers?: ArrayBuffer[]): void,
  *   on(event: string, act: Function): void, off(event: string, act: Function): void, stored?: boolean}} Model
  */
 
-/** Arrays that came in buffers. @param {DataView[]} buffers */
-const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
-/** How long a question waits for its answer before another one is asked, ms. */
-const PATIENCE = 10_000;
-
+const UNITED = /(?<![A-Za-z])(?:mm|inch|deg|rad|N|lbf|MPa|kg|W)(?![A-Za-z])/; // units that others stand for
 const ROOM = 850; // pixels of a window that has room for what else stands folded
 
 const GONE = "The kernel has ended: run the cell again to go on.";
@@ -25,20 +23,16 @@ export class Sheet {
   /** @param {HTMLElement} root @param {Model} model what the kernel says, or what a file holds
    * @param {import("./panel.js").Panel | null} [panel] the panel whose tab it is */
   constructor(root, model, panel = null) {
-    Object.assign(this, { root, model, panel, asked: 0, sentAt: 0, leaving: new AbortController() });
+    Object.assign(this, { root, model, panel, asked: 0, sentAt: 0 });
     const { look, units } = model.get("setting");
-    Object.assign(this, { look, units });
-    /** How numbers are shown: as the panel shows its own, if it is a tab of one. */
-    this.shows = { known: units, of: (/** @type {string} */ unit) => this.panel?.units.of(unit) ?? { unit, ratio: 1 } };
+    Object.assign(this, { look, own: new Units({ units, quantities: [], measures: [] }) });
+    this.shows = { known: units, of: (/** @type {string} */ unit) => this.units.of(unit) };
     /** @type {Map<number, {part: any, text: string, sent: number}>} */ this.parts = new Map();
     /** What waits to be sent: the newest of all that is done alike with a part. @type {Map<string, any>} */ this.waiting = new Map();
     root.classList.add("camkit-sheet");
     /** The box that a person types in. @type {any} */ this.typing = null;
     root.addEventListener("input", ({ target }) => { if (/** @type {any} */ (target).type === "text") this.typing = target; });
-    this.system = matchMedia("(prefers-color-scheme: dark)");
-    this.system.addEventListener("change", () => this.draw(), { signal: this.leaving.signal });
-    this.theme = new MutationObserver(() => this.draw());
-    this.theme.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
+    this.theme = new Theme(() => this.draw());
     this.resized = new ResizeObserver(() => this.draw());
     this.resized.observe(root);
     this.heard = {
@@ -62,8 +56,8 @@ export class Sheet {
   /** Leave the page. */
   end() {
     for (const [event, act] of Object.entries(this.heard)) this.model.off(event, act);
-    this.unhear(); this.leaving.abort();
-    this.resized.disconnect(); this.theme.disconnect(); this.root.replaceChildren(); this.ended = true;
+    this.unhear(); this.theme.end();
+    this.resized.disconnect(); this.root.replaceChildren(); this.ended = true;
   }
 
   /** A design of a picture under the pointer, or none: the panel shows it beside its own. @param {Float64Array | null} design */
@@ -73,7 +67,19 @@ export class Sheet {
   choose(design) { if (this.model.stored) this.panel?.load(design); }
 
   /** A text, its numbers in the units that are shown. @param {string} text */
-  words = (text) => this.panel?.units.words(text) ?? text;
+  words = (text) => this.units.words(text);
+
+  /** In which units numbers are shown: those of the panel, if it is a tab of one, else its own. */
+  get units() { return this.panel?.units ?? this.own; }
+
+  /** A menu for the units of a sheet by itself, as soon as anything in it has one. @param {any} body */
+  _offerUnits(body) {
+    const { own, model } = this, axes = [...this.parts.keys()].flatMap((id) => model.get(`picture_${id}`) ?? []).map(({ picture }) => picture.axes);
+    if (this.menu || this.panel || model.stored || !UNITED.test(JSON.stringify([body, axes]))) return;
+    this.menu = make("select", { class: "camkit-units", "aria-label": "units of this sheet", onchange: () => { own.use(this.menu.value); this.measure(); } },
+      ...own.names.map((name) => make("option", { value: name }, name)));
+    this.root.append(this.menu);
+  }
 
   /** Show all numbers in other units. */
   measure() {
@@ -84,10 +90,7 @@ export class Sheet {
     this.draw();
   }
 
-  dark = () => {
-    const light = document.body.dataset.jpThemeLight;
-    return light ? light === "false" : this.system.matches;
-  };
+  dark = () => this.theme.dark;
 
   /** What is shown: the state of each part, and of each picture its window and marks in user units. */
   shown() {
@@ -105,7 +108,8 @@ export class Sheet {
     this.asked = Math.max(this.asked, body.heard); // other views of the sheet count on
     this.seen = new Set();
     const top = this._part(body).element;
-    if (this.root.children.length !== 2) this.root.replaceChildren(this.heading, top);
+    if (top.parentElement !== this.root) this.root.replaceChildren(this.heading, top, ...(this.menu ? [this.menu] : []));
+    this._offerUnits(body);
     for (const id of this.parts.keys()) if (!this.seen.has(id)) this.parts.delete(id);
     for (const [key, { id }] of this.waiting) if (!this.seen.has(id)) this.waiting.delete(key);
     this._sendNext();
@@ -233,7 +237,7 @@ function pointed(chart, view, tip, pointing, say, sheet) {
   const { canvas } = chart, draw = () => sheet.draw();
   /** @type {number[] | null} */ let from = null;
   let moved = false;
-  const at = (/** @type {any} */ event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+  const at = (/** @type {any} */ event) => placeOf(canvas, event);
   const tell = (/** @type {string} */ does, /** @type {number[]} */ [px, py]) => {
     const [x, y] = [chart.x.back(px), chart.y.back(py)];
     say({ does, view, at: [x, y], pixel: [Math.abs(chart.x.back(px + 1) - x), Math.abs(chart.y.back(py + 1) - y)] });
@@ -263,12 +267,7 @@ function pointed(chart, view, tip, pointing, say, sheet) {
   });
   canvas.addEventListener("pointercancel", () => { from = null; });
   canvas.addEventListener("pointerleave", () => { tip.hidden = true; sheet.preview(null); });
-  canvas.addEventListener("dblclick", () => { chart.fit(); draw(); });
-  canvas.addEventListener("wheel", (event) => {
-    if (!event.ctrlKey && document.activeElement !== canvas) return; // the page scrolls
-    event.preventDefault();
-    chart.zoom(Math.exp(event.deltaY * 0.0015), ...at(event)); draw();
-  }, { passive: false });
+  zooms(chart, draw);
   return chart;
 }
 
@@ -287,8 +286,6 @@ function designAt(chart, [px, py], within = 18) {
 
 /** The place under the pointer, or the values of the curves there. @param {Chart} chart @param {HTMLElement} tip @param {number[]} place */
 function hover(chart, tip, [px, py]) {
-  if (!chart.inside(px, py) || chart.picture.axes.bare) { tip.hidden = true; return; }
-  tip.textContent = under(chart, px, py).slice(0, 9).join("\n");
-  tip.hidden = false;
-  tip.style.left = `${chart.canvas.offsetLeft + px + 14}px`; tip.style.top = `${chart.canvas.offsetTop + py + 14}px`;
+  const said = chart.inside(px, py) ? under(chart, px, py).slice(0, 9) : [];
+  say(tip, said, chart.canvas.offsetLeft + px, chart.canvas.offsetTop + py);
 }

@@ -4,20 +4,14 @@ import { Panel } from "./panel.js";
 import { Docks } from "./docks.js";
 import { download } from "./files.js";
 import { movable } from "./cell.js";
-import { atTheEnd } from "./kernel.js";
-import { Session, alone, follow, heldBy, known, stand } from "./session.js";
+import { PATIENCE, arrays, atTheEnd } from "./kernel.js";
+import { Session, alone, follow, heldBy, known, pinDrawn, stand } from "./session.js";
 
 /** What runs the program: the page, or the kernel if there is none. @param {any} model */
 async function engineFor(model) {
   const packed = model.get("program");
   return packed.byteLength ? engineOf(new Uint8Array(packed.buffer, packed.byteOffset, packed.byteLength)) : asking(model);
 }
-
-/** Arrays that came in buffers. @param {DataView[]} buffers */
-const arrays = (buffers) => buffers.map((b) => new Float64Array(b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength)));
-
-/** How long a question waits for its answer before another one is asked, ms. */
-const PATIENCE = 10_000;
 
 /** The kernel computes: one question at a time, and of those that wait the newest, and those that must be answered. @param {any} model */
 function asking(model) {
@@ -47,17 +41,20 @@ const SAID = 20_000; // how long these stay, ms
 async function view({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
   /** @type {any} */ let panel = null, saving = false;
-  let said = 0;
+  let at = 0;
   /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question */
   const ask = (question) => {
     const { structure: { make }, values, history: { count } } = panel;
-    model.send({ ...question, make, values: [...values.slice(0, count)], said });
+    clearTimeout(panel.reporting);
+    panel.reported = [...values.slice(0, count)];
+    at = Math.max(at + 1, Date.now());
+    model.send({ ...question, values: panel.reported, said: { at, make } });
   };
   const host = {
     changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) {
       if (!current()) return;
-      said = Math.max(said + 1, Date.now());
-      model.set({ values, computed, said });
+      at = Math.max(at + 1, Date.now());
+      model.set({ values, computed, said: { at, make: panel.structure.make } });
       model.save_changes();
     },
     back: (/** @type {any} */ { make, values }) => ask({ back: [make, values] }),
@@ -121,7 +118,7 @@ async function view({ model, el }) {
       if (message.offer !== undefined) session.offer(message.offer);
       if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
-      if (message.pinned) void ready.then(() => panel.hear(message, arrays(buffers)));
+      if (message.pinned) void ready.then(() => pinDrawn(panel, message, arrays(buffers)));
       if (message.still) panel?.redraw(message.pictures, arrays(buffers), message.values);
     },
     "comm_live_update": left, // it happens once more after the beginning: at the end
