@@ -24,7 +24,9 @@ from .measures import (
 
 _force = attrgetter("contact_force")
 
-min_profile_radius = Measure("minimum convex radius of curvature, profile", "mm", lambda a: a.profile_margin.value)
+min_profile_radius = Measure(
+    "minimum convex radius of curvature, profile", "mm", lambda a: a.profile_margin.value, in_trouble=True
+)
 undercut_place = Measure("cam angle of the minimum convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("minimum width of the face", "mm", lambda a: a.face_width)
 min_force = Measure("minimum contact force", "N", lambda a: a.lowest(_force).value)

@@ -92,8 +92,8 @@ max_pressure_angle = Measure("maximum pressure angle", "deg", peak(lambda a: abs
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
 min_convex_radius = Measure("minimum convex radius of curvature, pitch curve", "mm", _min_radius(1))
 min_concave_radius = Measure("minimum concave radius of curvature, pitch curve", "mm", _min_radius(-1))
-undercut_margin = Measure("undercut margin", "", _groove_margin)
-groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap)
+undercut_margin = Measure("undercut margin", "", _groove_margin, in_trouble=True)
+groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap, in_trouble=True)
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
 it is an estimate from above, and where nothing but neighbours along the curve is near it tells of them, up to 1.14
 radii."""
@@ -130,7 +130,9 @@ ARM_CURVE = (*CURVE, published_mean_efficiency, groove_gap)
 
 def part(measure: Measure, name: str) -> Measure:
     """``measure`` of one curve of a machine that has several: ``part(max_pressure_angle, "lift")``."""
-    return Measure(f"{measure.name}, {name}", measure.unit, lambda a: measure(getattr(a, name)))
+    return Measure(
+        f"{measure.name}, {name}", measure.unit, lambda a: measure(getattr(a, name)), in_trouble=measure.in_trouble
+    )
 
 
 def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = np.maximum) -> Measure:
@@ -139,4 +141,5 @@ def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = n
         f"{measure.name}, worse curve",
         measure.unit,
         lambda a: reduce(of, [measure(getattr(a, name)) for name in names]),
+        in_trouble=measure.in_trouble,
     )

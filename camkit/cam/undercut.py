@@ -11,20 +11,20 @@ from ..quantities import text_if
 from ..quantities.types import Array
 from ..units import deg, mm
 from .flank import Cut
+from .measures import number
 
 INNER, OUTER, ONLY = "inner flank", "outer flank", "profile"
 """What the flanks of a groove are called, and that of a plate."""
-CUTS = "Undercut: the follower cuts away {}."
 
 
 def undercut_in_words(analysis: object, cuts: Sequence[Cut] = ()) -> str:
-    """What is undercut, at which cam angle, and which walls of a groove merge; empty if nothing is lost.
+    """What is undercut, at which cam angles, and which walls of a groove merge; empty if nothing is lost.
 
-    The sentence of screen and files.  ``cuts`` are told where nothing else is: what `flank.flanks` found.
+    The words of screen and files.  ``cuts`` are told where nothing else is: what `flank.flanks` found.
 
-    Of a flank it says how much larger the least convex radius of curvature would have to be: how far it lies below 0,
-    which under a roller is by how much the roller's radius is larger than that of its path.  How far the follower then
-    stays from its place is another, smaller number, which `flank.flanks` finds.
+    Of a roller it says its radius and that of its path, which is less; of a face by how much the radius of curvature of
+    the profile lies below 0.  How far the follower then stays from its place is another, smaller number, which
+    `flank.flanks` finds.  The cam angles are those around the sharpest place.
 
     >>> from camkit import TranslatingRollerCam, deg, mm
     >>> from camkit.motion import Cycloidal, MotionProgram, Rise
@@ -32,32 +32,38 @@ def undercut_in_words(analysis: object, cuts: Sequence[Cut] = ()) -> str:
     ''
     >>> motion = MotionProgram((Rise(40 * deg, 30 * mm, Cycloidal()),))
     >>> undercut_in_words(TranslatingRollerCam(motion, roller_radius=20 * mm, groove=False).analyse())
-    'Undercut: the follower cuts away the profile at 32.3 deg, where its radius of curvature is 3.95 mm too small.'
+    'profile undercut at 28.4 to 35.7 deg: roller 20 mm, convex radius 16.1 mm'
     """
     curves = getattr(analysis, "curves", None) or {"": analysis}
-    told, cut = "", np.array(False)
+    told, any_lost = "", np.array(False)
     for name, curve in curves.items():
-        for lost, words in _flanks(curve, name if len(curves) > 1 else ""):
-            told, cut = told + text_if(lost, text_if(cut, ", and ") + words), cut | lost
+        for lost, words in _flanks(curve, f"{name} " if len(curves) > 1 else ""):
+            told, any_lost = told + text_if(lost, text_if(any_lost, "; ") + words), any_lost | lost
     gap = getattr(analysis, "groove_gap", np.inf)
-    merged = text_if(gap < 0, f"Walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm.")
-    said = text_if(cut, CUTS.format(told) + text_if(gap < 0, " ")) + merged
-    return said if said or not cuts else CUTS.format(", and ".join(map(str, cuts)))
+    merged = f"walls merge: two parts of the groove overlap by {-gap / mm:.3g} mm"
+    said = told + text_if(gap < 0, text_if(any_lost, "; ") + merged)
+    return said if said or not cuts else f"undercut: the follower cuts away {', and '.join(map(str, cuts))}"
 
 
-def _flanks(curve: object, name: str) -> Iterator[tuple[Array, str]]:
+def _flanks(curve: Any, name: str) -> Iterator[tuple[Array, str]]:
     """Whether each flank of a curve is undercut, and which in words."""
-    of = f" of the {name} curve" if name else ""
-    for flank, (radius, cam_angle) in _margins(curve).items():
-        lacks = f", where its radius of curvature is {-radius / mm:.3g} mm too small"
-        where = f"{flank}{of} at {cam_angle / deg:.4g} deg" + text_if(np.isfinite(radius), lacks)
-        yield radius < 0, where  # at 0 a cusp, or a corner into which a knife edge fits: nothing is lost
-
-
-def _margins(curve: Any) -> dict[str, tuple[Array, Array]]:
-    """Least convex radius (m) of each flank, and the cam angle at which it stands."""
     if not hasattr(curve, "profile_margin"):
-        return {}
-    if not getattr(curve, "groove", False):
-        return {f"the {ONLY}": curve.profile_margin}
-    return {f"the {INNER}": curve.profile_margin, f"the {OUTER}": curve.outer_profile_margin}
+        return
+    groove, roller = getattr(curve, "groove", False), number(curve.cam.roller_radius)
+    flanks = {"convex": (curve.undercut, curve.profile_margin)}
+    flanks |= {"concave": (curve.outer_undercut, curve.outer_profile_margin)} if groove else {}
+    for side, (cut, (radius, cam_angle)) in flanks.items():
+        face = f"radius of curvature {-radius / mm:.3g} mm too small"
+        rolls = f"roller {roller / mm:.3g} mm, {side} radius {(radius + roller) / mm:.3g} mm"
+        why = text_if(np.greater(roller, 0), rolls, face)
+        first, last = _stretch(cut, curve.cam_angle, cam_angle)
+        place = f"at {first / deg:.3g} to {last / deg:.3g} deg" + text_if(np.isfinite(radius), f": {why}")
+        yield radius < 0, f"{name}{'groove' if groove else ONLY} undercut {place}"  # at 0 a cusp: nothing is lost
+
+
+def _stretch(cut: Array, cam_angle: Array, at: Array) -> tuple[Array, Array]:
+    """Between which cam angles that are not cut the angle ``at`` stands."""
+    left = np.logical_not(cut)
+    before = np.where(left & (cam_angle < at), cam_angle, cam_angle[..., 0]).max(-1)
+    after = np.where(left & (cam_angle > at), cam_angle, cam_angle[..., -1]).min(-1)
+    return before, after

@@ -34,6 +34,8 @@ class Measure:
     sign: int = 1
     made: tuple[object, ...] = field(default=(), repr=False, compare=False, kw_only=True)
     """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
+    in_trouble: bool = field(default=False, repr=False, compare=False, kw_only=True)
+    """Whether the ``trouble`` of the analysis says it in words where it is below 0."""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)

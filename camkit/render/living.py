@@ -328,6 +328,7 @@ def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, o
         "unit": measure.unit,
         "factor": factor(measure.unit),
         "value": outputs.at(value),
+        **({"inTrouble": True} if measure.in_trouble else {}),
     }
     return row | ({"limit": limit[0], "sense": limit[1]} if limit else {})
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from every_machine import MACHINES
 
-from camkit import mm
+from camkit import deg, door_handle_study, mm
 from camkit.program import CannotRecord
-from camkit.quantities import Design, Measure, measures_of, quantities_of, quantity, with_quantities
+from camkit.quantities import Design, Measure, measures_of, quantities_of, quantity, value_of, with_quantities
 from camkit.render import to_html
 from camkit.render.living import living
 from camkit.render.page_parts import script
@@ -399,8 +399,13 @@ def test_on_a_narrow_screen_everything_stands_below_the_mechanism_that_stays(ope
     page.wait_for_selector(".camkit-narrow")
     page.get_by_label("handle angle, deg", exact=True).scroll_into_view_if_needed()
     page.evaluate("scrollBy(0, 200)")
-    middle = page.locator(".camkit-middle").bounding_box()
-    assert middle["y"] == pytest.approx(0, abs=1)
+    trouble, chip, middle = (
+        page.locator(part).bounding_box()
+        for part in (".camkit-trouble", ".camkit-chip.camkit-free >> nth=0", ".camkit-middle")
+    )
+    assert 0 <= trouble["y"] < trouble["y"] + trouble["height"] <= chip["y"] < chip["y"] + chip["height"] <= middle["y"]
+    assert middle["y"] < 150
+    assert middle["y"] + middle["height"] < 0.65 * 800  # there is room for sliders below
     assert page.locator(".camkit-left").bounding_box()["y"] < 0
     assert page.evaluate("document.documentElement.scrollWidth") == 420
     assert page.evaluate("getComputedStyle(document.querySelector('.camkit-curve canvas')).touchAction") == "pan-y"
@@ -497,6 +502,37 @@ def test_a_limit_is_kept_as_everywhere_in_the_package(opened):
     page = opened(Evil(), evil_view, measures=[near, far], at_most={near: (1 - 1e-10) * mm, far: (1 - 1e-7) * mm})
     assert page.locator(".camkit-chip.camkit-ok").inner_text().startswith("near")
     assert page.locator(".camkit-chips .camkit-bad").inner_text().startswith("far")
+
+
+def test_a_long_name_leaves_room_for_its_number(opened):
+    name = "minimum convex radius of curvature, pitch curve, worse curve of all that there are"
+    page = opened(Evil(), evil_view, measures=[long := Measure(name, "mm", lambda a: a.cam.x)], at_most={long: 5 * mm})
+    chip = page.locator(".camkit-chips .camkit-chip")
+    box, inner = chip.bounding_box(), chip.locator(".camkit-name").bounding_box()
+    assert inner["width"] < box["width"] / 1.2 < 0.5 * 934
+    assert chip.locator(".camkit-name").evaluate("name => name.scrollWidth > name.clientWidth")  # it ends in dots
+    small = chip.locator("small").bounding_box()
+    assert small["x"] + small["width"] < box["x"] + box["width"]
+    assert chip.inner_text() == f"{name} 1 mm ≤ 5 mm" == chip.get_attribute("aria-label")
+    chip.focus()
+    assert name in page.locator(".camkit-why").inner_text()
+
+
+def test_what_is_undercut_is_said_once(opened):
+    study = door_handle_study(MACHINES["door handle"])
+    page = opened(study.start, at_most=study.at_most, at_least=study.at_least)
+    margin = next(measure for measure in study.at_least if measure.name.startswith("undercut margin"))
+    assert float(margin.one(study.start.analyse())) < 0
+    words = study.start.analyse().trouble.replace(" deg", " °")
+    assert page.locator(".camkit-trouble").inner_text() == words
+    assert page.get_by_text("undercut margin").count() == 0
+    sound = study.start.replace(relief_cam_angle=60 * deg)
+    assert not sound.analyse().trouble
+    assert float(margin.one(sound.analyse())) > 0
+    page.evaluate("(values) => camkit.load(values)", [value_of(sound, path) for path in quantities_of(sound)])
+    page.wait_for_function(DRAWN)
+    assert not page.locator(".camkit-trouble").is_visible()
+    page.wait_for_function("() => document.querySelector('.camkit-chips').textContent.includes('undercut margin')")
 
 
 def test_chips_below_the_first_line_are_counted_and_shown_by_a_press(opened):

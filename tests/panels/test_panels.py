@@ -418,13 +418,15 @@ def test_the_sentence_says_what_is_undercut_where_and_by_how_much():
     radius = 8 * mm + s + a
     said = undercut_in_words(cam.analyse())
     found = re.fullmatch(
-        r"Undercut: the follower cuts away the profile at ([\d.]+) deg, "
-        r"where its radius of curvature is ([\d.]+) mm too small\.",
-        said,
+        r"profile undercut at ([\d.]+) to ([\d.]+) deg: radius of curvature ([\d.]+) mm too small", said
     )
     assert found
-    assert np.interp(float(found[1]) * deg, angle, radius) == pytest.approx(radius.min(), abs=1e-6)  # there are two
-    assert float(found[2]) == pytest.approx(-radius.min() / mm, rel=0.005)
+    first, last = (float(end) * deg for end in found.groups()[:2])
+    within, room = (angle > first) & (angle < last), cam.analyse().cam_angle[1] + 0.5 * deg  # a step, and three digits
+    assert radius[within].min() == pytest.approx(radius.min(), abs=1e-9)  # there are two
+    assert (radius[(angle > first + room) & (angle < last - room)] < 0).all()
+    assert np.interp([first - room, last + room], angle, radius).min() > 0
+    assert float(found[3]) == pytest.approx(-radius.min() / mm, rel=0.005)
 
 
 def test_a_knife_edge_is_not_undercut():
@@ -433,7 +435,7 @@ def test_a_knife_edge_is_not_undercut():
         (Rise(90 * deg, 10 * mm, HalfCycloidalStart()), Dwell(90 * deg), Return(180 * deg, 10 * mm, Cycloidal()))
     )
     cam = TranslatingRollerCam(motion, roller_radius=2 * mm)
-    assert "the profile" in undercut_in_words(cam.replace(groove=False).analyse())
+    assert "profile undercut" in undercut_in_words(cam.replace(groove=False).analyse())
     for groove in (True, False):
         assert undercut_in_words(cam.replace(roller_radius=0, groove=groove).analyse()) == ""
 
@@ -441,15 +443,18 @@ def test_a_knife_edge_is_not_undercut():
 def test_walls_that_merge_are_told():
     """350 deg with a rise of 5 mm: a groove 16 mm wide ends 5 mm outside its start, and no flank is too sharp."""
     cam = TranslatingRollerCam(MotionProgram((Rise(350 * deg, 5 * mm, Cycloidal()),)))
-    assert undercut_in_words(cam.analyse()) == "Walls merge: two parts of the groove overlap by 7.36 mm."
+    assert undercut_in_words(cam.analyse()) == "walls merge: two parts of the groove overlap by 7.36 mm"
     for sound in (cam.replace(groove=False), cam.replace(roller_radius=3 * mm)):
         assert undercut_in_words(sound.analyse()) == ""
 
 
-def test_a_groove_names_its_flanks():
+def test_a_groove_says_which_side_is_too_sharp():
     said = undercut_in_words(DoorHandleCam(roller_radius=12 * mm).analyse())
-    assert "the inner flank of the relief curve at" in said
-    assert "the outer flank of the relief curve at" in said
+    assert re.search(r"relief groove undercut at [\d.]+ to [\d.]+ deg: roller 12 mm, convex radius", said)
+    assert re.search(r"; relief groove undercut at [\d.]+ to [\d.]+ deg: roller 12 mm, concave radius", said)
+    assert undercut_in_words(DoorHandleCam().analyse()) == (
+        "relief groove undercut at 20.6 to 26.1 deg: roller 5 mm, concave radius 2.67 mm"
+    )
 
 
 def test_the_views_that_nobody_chose_follow_what_a_menu_brings(monkeypatch):

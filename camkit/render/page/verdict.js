@@ -26,12 +26,13 @@ export class Verdict {
       this._count();
     });
     new ResizeObserver(() => this._count()).observe(this.chips);
-    /** @type {{element: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
+    /** @type {{element: HTMLElement, name: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
   }
 
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {import("./units.js").Units} units */
   tell(rows, trouble, units) {
-    const limited = rows.filter(({ m }) => m.limit !== undefined).sort((a, b) => b.miss - a.miss);
+    const said = (/** @type {import("./measures.js").Judged} */ { m, now }) => Boolean(trouble) && m.inTrouble && now < 0; // once
+    const limited = rows.filter((row) => row.m.limit !== undefined && !said(row)).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
     this.verdict = verdictOf(limited, trouble);
@@ -53,11 +54,13 @@ export class Verdict {
   /** Chips stay as elements, so that one keeps the focus. @param {any[]} measures @param {string[][]} chips */
   _fill(measures, chips) {
     while (this.made.length < chips.length) this.made.push(this._chip());
-    chips.forEach(([kind, words, more], k) => {
+    chips.forEach(([kind, name, words, more], k) => {
       const made = this.made[k];
       made.m = measures[k];
       made.element.className = `camkit-chip ${kind}`;
-      made.words.data = words;
+      made.element.setAttribute("aria-label", `${name} ${words} ${more}`.replace(/ +/g, " "));
+      made.name.textContent = name;
+      made.words.data = ` ${words} `;
       made.more.textContent = more;
     });
     if (this.chips.childElementCount === chips.length) return;
@@ -84,8 +87,8 @@ export class Verdict {
   }
 
   _chip() {
-    const words = new Text(""), more = make("small"), element = make("span", { role: "button" }, words, more);
-    const made = { element, words, more, m: null };
+    const name = make("span", { class: "camkit-name" }), words = new Text(""), more = make("small");
+    const element = make("span", { role: "button" }, name, words, more), made = { element, name, words, more, m: null };
     this.explain(element, () => made.m);
     pressed(element, () => this.go(element, made.m));
     return made;
@@ -110,11 +113,11 @@ function pressed(element, act) {
   return element;
 }
 
-/** Kind, words and limit, or the number of what has none. @param {import("./measures.js").Judged} row
+/** Kind, name, number and limit; what has none has its number there. @param {import("./measures.js").Judged} row
  * @param {import("./units.js").Units} units */
 function chipOf({ m, now, kept }, units) {
   const shown = Number.isNaN(now) ? "cannot be computed" : told(m, now, units), name = letters(m.name);
-  if (m.limit === undefined) return ["camkit-free", `${name} `, shown];
+  if (m.limit === undefined) return ["camkit-free", name, "", shown];
   const limit = `${m.sense > 0 ? "\u2264" : "\u2265"} ${told(m, m.limit, units)}`;
-  return [kept ? "camkit-ok" : "camkit-bad", `${name} ${shown} `, limit];
+  return [kept ? "camkit-ok" : "camkit-bad", name, shown, limit];
 }
