@@ -71,6 +71,8 @@ def look_and_choose(page, panel):
     near = FRONT.f - FRONT.f[k]
     alike = np.abs(near / np.ptp(FRONT.f, axis=0)).max(1) < 0.02  # points that lie over each other
     assert any(np.allclose(ghost[: len(values(FRONT[i]))], values(FRONT[i]), rtol=1e-12) for i in np.flatnonzero(alike))
+    told = page.locator(".camkit-dock .camkit-tip:visible").inner_text().split("\n")[0]
+    assert told in [f"design {i}" for i in np.flatnonzero(alike)]  # as everywhere: the front counts from 0
     before = page.evaluate(f"() => {panel}.history.past.length")
     page.mouse.down()
     page.mouse.up()

@@ -409,8 +409,8 @@ def test_a_stopped_search_is_resumed_to_the_same_front(finder, stopped):
     other.wait(60)
     assert alert(other) == (
         "The search goes on with what it began with: population 40, not 100; generations 60, not 100; seed 4, not 1; "
-        "lift arm from 45.1235 to 54.9877 mm, not from 45 to 55 mm; "
-        "lift start angle from 17.1887 to 26.3561 deg, not fixed."
+        "lift arm from 45.1 to 55 mm, not from 45 to 55 mm; "
+        "lift start angle from 17.19 to 26.36 deg, not fixed."
     )
     assert other.status.text.startswith("generation 60 of 60: ")
     assert_allclose(other.study.evaluate(other.front.x).f, study.evaluate(other.front.x).f, rtol=1e-14)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from ...quantities import Quantity, label
 from ...study.study import refuse_bounds
 from ...units import in_unit
@@ -42,12 +44,17 @@ class Bounds:
         return self.free, self.low, self.high
 
     def _show(self, bounds: tuple[float, float]) -> None:
-        """Show ``bounds`` (SI), rounded to what fits; as long as nobody edits them they stay exact."""
+        """Show ``bounds`` (SI), rounded to what a slider tells apart; as long as nobody edits them they stay exact."""
         self._exact = bounds
         with self._quiet:
-            self.low.value, self.high.value = self._shown = [
-                float(f"{in_unit(b, self.declared.unit):.6g}") for b in bounds
-            ]
+            self.low.value, self.high.value = self._shown = [self._rounded(b) for b in bounds]
+
+    def _rounded(self, bound: float) -> float:
+        """In its unit: with four digits if that is all of it, else in hundredths of the declared range at most."""
+        declared, value = self.declared, in_unit(bound, self.declared.unit)
+        near = float(f"{value:.4g}")
+        decimals = 1 - int(np.floor(np.log10((declared.high - declared.low) / 20)))
+        return near if abs(near - value) <= 1e-12 * abs(value) else round(value, decimals)
 
     def _check(self) -> None:
         """Say at once what a search could not take; it stays, since the other bound may be typed next."""

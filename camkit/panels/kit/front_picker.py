@@ -83,7 +83,7 @@ class FrontChoice:
         goals = ", ".join(objective_texts(study, f))
         free = [f"{label(n, q)} {q.text(v)}" for (n, q), v in zip(study.declared.items(), x, strict=True)]
         return [
-            [bold(f"winner: design {self.winner}"), f", {_ordinal(self.winner + 1)} of {len(self.front)}: {goals}"],
+            [bold(f"winner: design {self.winner}"), f" of 0 to {len(self.front) - 1}: {goals}"],
             ", ".join(free),
         ]
 
@@ -187,9 +187,3 @@ class FrontPanel(Panel):
     def on_front(self, act: Callable[[], None]) -> None:
         """Call ``act()`` after each new front is shown, from whichever thread shows it."""
         self.on_change(act)
-
-
-def _ordinal(n: int) -> str:
-    """1st, 2nd, 3rd, 4th, 11th, 21st."""
-    tail = "th" if n % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th")
-    return f"{n}{tail}"
