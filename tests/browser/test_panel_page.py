@@ -36,7 +36,7 @@ CONTRAST = """(element) => {
 # Everything in the panel whose content is wider than itself.
 TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
     .filter(e => e.clientWidth && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== 'visible')
-    .filter(e => !e.matches('.camkit-said, .camkit-row label, .camkit-name')) // heard alone; cut names are whole elsewhere
+    .filter(e => !e.matches(".camkit-said, .camkit-row label, .camkit-name")) // heard alone; cut names are whole
     .map(e => `${e.className} ${e.scrollWidth} > ${e.clientWidth}`)"""
 
 

@@ -13,8 +13,8 @@ from ...render.living import Living
 from .changes import alike, with_numbers
 
 RECORDED, REMEMBERED = 2, 50
-"""So many makes hold what is recorded, ten megabytes each: an option that is taken back is there at once; so many can be
-come back to."""
+"""So many makes hold what is recorded, ten megabytes each: an option that is taken back is there at once; to so many
+others one can come back."""
 
 
 class Makes:
