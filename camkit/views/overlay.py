@@ -15,6 +15,8 @@ PLACES = "ABCDE"
 """A design keeps its letter and its place in the series as long as it is kept."""
 FAR = 1000.0
 """A difference of more than so many per cent is not drawn; the table tells it."""
+MANY = 8
+"""Of more measures than so many each name has one line."""
 
 
 @dataclass(frozen=True)
@@ -56,10 +58,11 @@ def measures_overlaid(kept: Kept) -> Picture:
         told = np.where(np.isfinite(share) & (abs(share) <= FAR), share, np.nan)
         index = PLACES.index(place)
         marks.append(Points(place, told, height, role="series", index=index, size=11 - index, label=place))
+    room = (24, 2) if len(measures) <= MANY else (36, 1)
     axes = Axes(
         title="Measures against the first design",
         xlabel="difference  [%]",
         ylim=(0.4 - len(measures), 0.6),
-        yticks={float(y): in_lines(m.name, 24, 2) for y, m in zip(height, measures, strict=True)},
+        yticks={float(y): in_lines(m.name, *room) for y, m in zip(height, measures, strict=True)},
     )
     return Picture.of(axes, marks)

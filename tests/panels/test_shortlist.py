@@ -178,19 +178,22 @@ def test_profiles_are_those_of_the_designs_in_the_colours_of_their_places():
             assert (curve.role, curve.index, curve.label) == ("series", PLACES.index(place), place)
 
 
-def test_measures_are_shown_against_the_first():
+@pytest.mark.parametrize("many", [4, 12])
+def test_measures_are_shown_against_the_first(many):
+    measures = CURVE_TABLE[:many]
     analyses = {place: design.analyse() for place, design in zip("BC", DESIGNS.values(), strict=False)}
-    shown = measures_overlaid(Kept(analyses, CURVE_TABLE[:4]))
-    ratios = [100 * (m(analyses["C"]) / m(analyses["B"]) - 1) for m in CURVE_TABLE[:4]]
+    shown = measures_overlaid(Kept(analyses, measures))
+    ratios = [100 * (m(analyses["C"]) / m(analyses["B"]) - 1) for m in measures]
     assert_allclose(shown["B"].x, 0, atol=1e-12)
     assert_allclose(shown["C"].x, ratios)
+    assert any("\n" in words for words in shown.axes.yticks.values()) == (many == 4)  # no row stands over another
     ticks = [words.replace("\n", " ") for words in shown.axes.yticks.values()]
-    for words, measure in zip(ticks, CURVE_TABLE[:4], strict=True):
+    for words, measure in zip(ticks, measures, strict=True):
         begin, _, end = words.partition("…")
         assert measure.name.startswith(begin.strip())
         assert measure.name.endswith(end.strip())
     assert list(shown.axes.yticks) == list(shown["B"].y)
-    assert "B" not in measures_overlaid(Kept({}, CURVE_TABLE[:4]))
+    assert "B" not in measures_overlaid(Kept({}, measures))
 
 
 # --- the panel --------------------------------------------------------------------------------------------------------
