@@ -54,7 +54,7 @@ WINGS = [
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
     *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "Still", "OnGrid", "Material"),
-    *("Evaluated", "Found", "Active", "Row"),
+    *("Evaluated", "Found", "Active", "Row", "Price"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {

@@ -24,6 +24,7 @@ from ..study.study import Evaluation, Study
 from .checkpoint import versions
 from .front import Front, dominated
 from .protocol import Step, on_grid
+from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
 
 MOST_FREE = 4
 """A box of more free quantities has too many corners for this search."""
@@ -39,6 +40,8 @@ LAST_ROUNDS = 2
 """Rounds on all angles."""
 COARSE, LEAST_ANGLES = 4, 61
 """The other rounds look at one of so many angles, but not at fewer than these."""
+RENEWED = 10 / 24
+"""After which share of the rounds the margins for tolerances are fitted again."""
 GROWN = 3
 """At how many times its size the archive is thinned."""
 DIGITS = 2.0**36
@@ -69,7 +72,8 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
     """The Pareto front of ``study``, up to ``size`` designs, in tenths of a second; the same at every call.
 
     ``start`` is the front of a study like this one, which saves most of the search.  Every design that is returned
-    was judged on all angles of the study; an empty front says in ``message`` which limit stood in the way.
+    was judged on all angles of the study, and under tolerances by exact parts (``yields``); an empty front says in
+    ``message`` which limit stood in the way.
 
     >>> from camkit.machines import door_handle_study
     >>> front = quick_front(door_handle_study())
@@ -80,7 +84,7 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
     other free quantities.
     """
     *_, last = fast_front_steps(study, size, start)
-    return last.front
+    return surviving(last.front, _roughly(study))
 
 
 def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Step]:
@@ -88,25 +92,35 @@ def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) 
     _refuse(study, start)
     began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
-    coarse = study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
+    coarse, room = _roughly(study), Room(_roughly(study))
     pace = WARM if start is not None and len(start) and coarse.evaluate(start.x).feasible.any() else COLD
     # The first round goes on from all of these: beside a beaten design may lie a part of the front.
-    archive = _judged(coarse, np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))
+    archive = _judged(room.within(coarse), np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))
     designs = len(archive.u)
     for number in range(pace.rounds + LAST_ROUNDS):
         judge = coarse if number < pace.rounds else study
+        if room.needed and number in (0, int(RENEWED * pace.rounds)):
+            room.renew(_x(study, _thinned(_best(archive, size), FITTED).u))
+            archive = _judged(room.within(coarse), archive.u)
         if number == pace.rounds:
-            archive = _best(_judged(study, archive.u), size)
-        tried = _judged(judge, _tried(archive, pace.step * SHRINKING**number, draw))
+            if room.needed:
+                room.raise_to(_x(study, _thinned(archive, RAISED).u))
+            archive = _best(_judged(room.within(study), archive.u), size)
+        tried = _judged(room.within(judge), _tried(archive, pace.step * SHRINKING**number, draw))
         archive, designs = _best(_joined(archive, tried), size), designs + len(tried.u)
         record = {"designs": designs, "seconds": time.monotonic() - began, "versions": told}
         found = partial(_exactly, study, archive, size)
         yield Step(number + 1, pace.rounds + LAST_ROUNDS, study, found, designs, record=record)
 
 
+def _roughly(study: Study) -> Study:
+    """The study as most of the rounds see it."""
+    return study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
+
+
 def _exactly(study: Study, archive: Archive, size: int) -> Evaluation:
     """An even spread of the archive's designs, judged on all angles."""
-    return study.evaluate(_x(study, _thinned(archive, size).u))
+    return looked_at_closely(study, _roughly(study), _x(study, _thinned(archive, size).u))
 
 
 def _refuse(study: Study, start: Front | None) -> None:

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Generic, SupportsIndex
+from functools import cached_property
+from typing import Generic, NamedTuple, SupportsIndex
 
 import numpy as np
 
 from ..quantities import D, counted
 from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
+from ..study.recheck import Recheck
+from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
+
+
+class Price(NamedTuple):
+    """What one front lacks of another."""
+
+    share: float
+    """Of the volume of objectives that the other dominates, up to the worst of either in each objective."""
+    ends: np.ndarray
+    """By how much the least of each objective is larger, ``(n_objectives,)``, SI."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +76,24 @@ class Front(Generic[D]):
         from moocore import hypervolume
 
         return float(hypervolume(self.f, ref=point)) if len(self) else 0.0
+
+    @cached_property
+    def yields(self) -> Recheck | None:
+        """The yield of each design by exact parts, with what is sure of it; ``None`` without tolerances."""
+        return self.study.recheck(self.x, 1024) if isinstance(self.study, RobustStudy) else None
+
+    def price(self, nominal: Front[D]) -> Price:
+        """What it costs that this front's designs survive being made: what it lacks of the ``nominal`` front.
+
+        Raises ``ValueError`` for a front of other objectives, and one without a design.
+        """
+        if not isinstance(nominal, Front) or nominal.study.minimise != self.study.minimise:
+            raise ValueError("the other front has other objectives; the price is that of the same objectives")
+        if not len(self) or not len(nominal):
+            raise ValueError("there is no design on one of the fronts; a price needs some on both")
+        point = np.maximum(nominal.f.max(0), self.f.max(0))
+        share = 1 - self.hypervolume(point) / nominal.hypervolume(point) if len(nominal) > 1 else float("nan")
+        return Price(share, self.f.min(0) - nominal.f.min(0))
 
     def judged_by(self, study: Study[D]) -> Front[D]:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,10 @@ from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts,
 from .evolution import OnGrid, StudyProblem
 from .front import Front
 from .protocol import Step
+from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
 
+RENEWED = 1 / 6, 1 / 3, 5 / 6
+"""After which shares of the generations the margins for tolerances are fitted to the population; then only raised."""
 MOST_SEED = 2**63 - 1
 """The largest seed that a file can hold."""
 
@@ -42,7 +46,8 @@ def nsga2_steps(
     seed = whole(seed, "the seed", 0, MOST_SEED)
     refuse_arguments(nsga2_steps, locals())
     algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, repair=OnGrid())
-    algorithm.setup(StudyProblem(study), termination=("n_gen", generations), seed=seed, verbose=False)
+    room = Room(study, fits=not checkpoint)
+    algorithm.setup(StudyProblem(room.within(study)), termination=("n_gen", generations), seed=seed, verbose=False)
     record: dict[str, Any] = {"population": int(population), "seed": int(seed), "versions": versions()}
     about = {"study": fingerprint(study), "algorithm": ALGORITHM, **record} if checkpoint else {}
     number, began, message = 0, time.monotonic(), ""
@@ -50,8 +55,10 @@ def nsga2_steps(
     def step() -> Step:
         x, f, g = algorithm.pop.get("X", "F", "G")
         so_far = {**record, "generations": number, "seconds": time.monotonic() - began}
-        found = Evaluation(x, np.where(f < WORST, f, np.inf), g)
-        return Step(number, generations, study, found, number * population, None, message, so_far)
+        seen: Any = Evaluation(x, np.where(f < WORST, f, np.inf), g)
+        if room.needed and number == generations:
+            seen = partial(looked_at_closely, study, study, x)
+        return Step(number, generations, study, seen, number * population, None, message, so_far)
 
     if checkpoint:
         remove_parts(checkpoint)
@@ -61,6 +68,9 @@ def nsga2_steps(
         number, began = found.number, began - found.seconds
         yield step()
     while algorithm.has_next():
+        renewed = [int(share * generations) for share in RENEWED]
+        if room.needed and number and number in renewed:
+            _make_room(algorithm, room, study, anew=number != renewed[-1])
         algorithm.next()
         number += 1
         if checkpoint and not message:
@@ -70,6 +80,17 @@ def nsga2_steps(
             except OSError as error:
                 message = why(error)
         yield step()
+
+
+def _make_room(algorithm: NSGA2, room: Room, study: Study, anew: bool) -> None:
+    """Fit the margins for tolerances to the population, or raise them to what it needs, and judge it again."""
+    designs = algorithm.pop.get("X")
+    (room.renew if anew else room.raise_to)(designs[: FITTED if anew else RAISED])
+    algorithm.problem.study = room.within(study)
+    people = algorithm.evaluator.eval(algorithm.problem, Population.new(X=designs))
+    given = {"algorithm": algorithm, "random_state": algorithm.random_state}
+    algorithm.pop = algorithm.survival.do(algorithm.problem, people, n_survive=len(people), **given)
+    algorithm._set_optimum()
 
 
 def _state(algorithm: NSGA2) -> dict[str, Any]:
@@ -101,6 +122,9 @@ def nsga2(
     A generation is one batched evaluation.  The result is repeatable for a seed; a front without a design says
     in ``message`` which limit stood in the way.
 
+    Under tolerances limits are tightened by margins that are fitted to the population in between, and each design of
+    the result is judged by exact parts.  With a checkpoint every design is looked at within its tolerances.
+
     ``checkpoint`` names a file that is written after each generation.  The same call goes on from it when the process
     was killed, without losing a generation, and ends with the same front to the last bit.  A full disk or a missing
     folder ends no search: it warns (``RuntimeWarning``) and goes on without the file.
@@ -117,4 +141,4 @@ def nsga2(
                 RuntimeWarning,
                 stacklevel=2,
             )
-    return step.front
+    return surviving(step.front, study)

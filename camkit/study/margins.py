@@ -10,10 +10,12 @@ import numpy as np
 
 from ..quantities import D
 from ..quantities.types import Array
-from .study import Evaluation, Study
+from .study import KEPT, Evaluation, Study
 
 RIDGE = 1e-2
 """How much a fit prefers margins that are the same everywhere."""
+NEAR = 0.02
+"""How near to its limit a design counts half for a fit."""
 
 
 @dataclass(frozen=True)
@@ -48,22 +50,27 @@ class FittedMargins(NamedTuple):
     raised: Array
 
     @classmethod
-    def to(cls, bounds: Array, x: Array, margins: Array) -> Self:
-        """A fit to designs ``(p, n_free)`` and their ``margins`` ``(p, n_limits)``."""
-        mean, basis = margins.mean(0), _basis(bounds, x)
-        ridge = RIDGE * np.eye(basis.shape[1])
-        slopes = np.linalg.solve(basis.T @ basis + ridge, basis.T @ (margins - mean))
+    def to(cls, bounds: Array, x: Array, g: Array, margins: Array) -> Self:
+        """A fit to designs ``(p, n_free)``, their limits ``g`` and ``margins`` ``(p, n_limits)``.
+
+        It is closest where a limit is reached: there it matters.
+        """
+        mean, basis = np.median(margins, axis=0), _basis(bounds, x)
+        weight = (1 / (1 + ((g + margins) / NEAR) ** 2)).T[..., None]
+        left = basis.T @ (weight * basis) + RIDGE * np.eye(basis.shape[1])
+        slopes = np.linalg.solve(left, basis.T @ (weight * (margins - mean).T[..., None]))[..., 0].T
         slopes[0] += mean
         return cls(bounds, slopes, margins.min(0), margins.max(0), np.zeros(margins.shape[1]))
 
-    def __call__(self, x: Array) -> Array:
+    def at(self, x: Array) -> Array:
         """The margins at designs ``(p, n_free)``, ``(p, n_limits)``."""
         return np.clip(_basis(self.bounds, x) @ self.coefficients, self.low, self.high) + self.raised
 
-    def above(self, x: Array, margins: Array) -> Self:
-        """The same fit, raised for each limit by as much as it falls short of ``margins`` at ``x`` at worst."""
-        short = np.maximum(margins - self(x), 0).max(0, initial=0.0)
-        return self._replace(raised=self.raised + short)
+    def above(self, x: Array, g: Array, margins: Array) -> Self:
+        """The same fit, raised for each limit by as much as designs that keep it are beyond it with ``margins``."""
+        fitted = self.at(x)
+        beyond = np.where(g + fitted <= KEPT, np.minimum(margins - fitted, g + margins), 0)
+        return self._replace(raised=self.raised + beyond.max(0, initial=0.0))
 
 
 def _basis(bounds: Array, x: Array) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -57,6 +57,11 @@ class Recheck:
         """For which designs it is sure whether they have the yield or not, ``(p,)``."""
         return np.asarray(self.kept | (self.interval[:, 1] < self.wanted))
 
+    def of(self, rows: Array) -> Recheck:
+        """What is said of some of the designs."""
+        share, interval, missed, parts = (v[rows] for v in (self.share, self.interval, self.missed, self.parts))
+        return replace(self, share=share, interval=interval, missed=missed, parts=parts)
+
     def __str__(self) -> str:
         rows = zip(self.share, self.interval, self.decided, strict=True)
         return "; ".join(
@@ -80,10 +85,10 @@ def clopper_pearson(missed: Array, parts: Array) -> Array:
     return np.stack([low, high], axis=-1)
 
 
-def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
-    """`RobustStudy.recheck`."""
+def rechecked(study: RobustStudy, x: Array, parts: int | None, models: list[ThreePoint] | None = None) -> Recheck:
+    """`RobustStudy.recheck`; ``models`` of the limits, if there are any, say which parts are judged."""
     p, wanted = len(x), study.yield_at_least
-    models, looked = study.models(x), p * (2 * len(study.tolerances) + 1)
+    models, looked = (study.models(x), p * (2 * len(study.tolerances) + 1)) if models is None else (models, 0)
     if study.worst_case:
         found = largest(study, study.made(x, corners(study, models)))
         missed, used = (found > KEPT).sum(1), found.shape[1]

@@ -189,8 +189,8 @@ class RobustStudy(Study[D]):
         limit_models, objective_models = ([ThreePoint.of(g.reshape(len(x), len(z), -1)) for g in one] for one in both)
         return limit_models, objective_models
 
-    def _held(self, x: Array, models: list[ThreePoint]) -> Array:
-        """What a share ``yield_at_least`` of the parts keeps of each limit, the largest that of all together.
+    def held(self, x: Array, models: list[ThreePoint], together: bool = True) -> Array:
+        """What a share ``yield_at_least`` of the parts keeps of each limit, the largest that of all ``together``.
 
         In the worst case what the corners have where a limit is largest by its model: evaluated, not modelled.
         """
@@ -203,8 +203,9 @@ class RobustStudy(Study[D]):
         each = np.stack([model.at(self._shares) for model in models], axis=-1)
         place = int(np.ceil(self.yield_at_least * each.shape[1])) - 1
         g = np.partition(each, place, axis=1)[:, place]
-        together = np.partition(each.max(-1), place, axis=1)[:, place]
-        np.put_along_axis(g, g.argmax(-1)[:, None], together[:, None], -1)
+        if together:
+            most = np.partition(each.max(-1), place, axis=1)[:, place]
+            np.put_along_axis(g, g.argmax(-1)[:, None], most[:, None], -1)
         return g
 
     def margins(self, x: ArrayLike) -> Array:
@@ -213,7 +214,7 @@ class RobustStudy(Study[D]):
         ``nominal.evaluate(x).g + margins(x)`` is kept (<= 0) where enough of the parts keep every limit.
         """
         rows = self.rows(x)
-        return self._held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g)
+        return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g)
 
     def exact_margins(self, x: Array) -> Array:
         """The same at one design ``(n_free,)`` by parts that are evaluated, ``(n_limits,)``.
@@ -249,7 +250,7 @@ class RobustStudy(Study[D]):
         g[behind] = np.maximum(g[behind], np.where(middle.missed[behind] > 0, middle.g[behind] + BEHIND, -np.inf))
         if len(good):
             limits, objectives = self._modelled(rows[good])
-            g[good] += self._held(rows[good], limits) - seen(found.g[good])
+            g[good] += self.held(rows[good], limits) - seen(found.g[good])
             for column, model in enumerate(objectives):
                 f[good, column] = self._objective(model)
         return Evaluation(rows, f, g)
