@@ -72,9 +72,7 @@ def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
     if not isinstance(study, RobustStudy) or not isinstance(rough, RobustStudy) or study.objective != "nominal":
         return study.evaluate(x)
     found, models = _moved(study, rough, x)
-    with np.errstate(invalid="ignore"):
-        g = found.g + study.held(x, models) - seen(found.g)
-    return Evaluation(x, found.f, np.where(np.isnan(g), np.inf, g))
+    return Evaluation(x, found.f, study.held(x, models))
 
 
 def _moved(study: RobustStudy, rough: RobustStudy, x: np.ndarray) -> tuple[Evaluation, list[ThreePoint]]:

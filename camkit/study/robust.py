@@ -211,7 +211,8 @@ class RobustStudy(Study[D]):
     def margins(self, x: ArrayLike) -> Array:
         """By how much each limit is to be tightened, as a share of it, for designs ``(p, n_free)``: ``(p, n_limits)``.
 
-        ``nominal.evaluate(x).g + margins(x)`` is kept (<= 0) where enough of the parts keep every limit.
+        ``nominal.evaluate(x).g + margins(x)`` is kept (<= 0) where enough of the parts keep every limit; a limit that
+        is kept by more than its own size counts there as kept by that.
         """
         rows = self.rows(x)
         return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g)
@@ -250,7 +251,7 @@ class RobustStudy(Study[D]):
         g[behind] = np.maximum(g[behind], np.where(middle.missed[behind] > 0, middle.g[behind] + BEHIND, -np.inf))
         if len(good):
             limits, objectives = self._modelled(rows[good])
-            g[good] += self.held(rows[good], limits) - seen(found.g[good])
+            g[good] = self.held(rows[good], limits)
             for column, model in enumerate(objectives):
                 f[good, column] = self._objective(model)
         return Evaluation(rows, f, g)

@@ -68,7 +68,7 @@ class ThreePoint(NamedTuple):
 
     @property
     def worst(self) -> Array:
-        """The largest value anywhere within the tolerances, ``(p,)``."""
+        """The largest value at the ends of the tolerances, ``(p,)``."""
         return np.asarray((self.centre + np.maximum(self.bend + abs(self.slope), 0).sum(1)).max(-1))
 
     def room(self, z: Array) -> Array:

@@ -9,6 +9,7 @@ from camkit import DoorHandleCam, Poly345, ValveCam, deg, minimise, mm, shaft_st
 from camkit.linkage import swing
 from camkit.machines import corrected_valve_study, door_handle, door_handle_study, ninety_degree_study
 from camkit.machines.shaft import twist_utilisation
+from camkit.quantities import Measure
 from camkit.search import search
 from camkit.study import Source, Tolerance, en_10210
 from camkit.study.recheck import clopper_pearson
@@ -173,6 +174,24 @@ def test_one_sided_tolerances_on_quantities_that_are_not_free():
     assert robust.tolerance_factor(np.array([(stiff * 1.0995 + 0.1**4) ** 0.25, 0.1]))[0] == pytest.approx(
         1.0, abs=0.02
     )
+
+
+def test_a_limit_that_is_kept_by_far_and_missed_within_the_tolerances():
+    """A strength of at least 0 N that is 15 kN in the middle: a fifth of the parts has none."""
+    strength = Measure("strength", "N", lambda a: 5e4 * (np.ravel(a.shaft.outer_diameter) / mm - 129.5))
+    robust = shaft_study().replace(at_most={}, at_least={strength: 0.0}).under({"outer_diameter": 0.5 * mm})
+    x = np.array([[129.8, 103], [130.1, 103]]) * mm
+    assert_allclose(robust.recheck(x).share, [0.8, 1.0], atol=2e-3)
+    assert_array_equal(robust.evaluate(x).feasible, [False, True])
+    assert_array_equal(robust.tightened(robust.margins).evaluate(x).feasible, [False, True])
+
+
+def test_a_deviation_to_one_side_may_make_up_for_what_a_design_lacks():
+    robust = shaft_study().under({"outer_diameter": (0.5 * mm, 1.0 * mm)})
+    x = np.array([[128.9, 103], [128.5, 103]]) * mm
+    assert not robust.nominal.evaluate(x).feasible.any()
+    assert_array_equal(robust.recheck(x).kept, [True, False])
+    assert_array_equal(robust.evaluate(x).feasible, [True, False])
 
 
 def test_tolerances_may_depend_on_the_value():
