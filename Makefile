@@ -23,10 +23,11 @@ SPREAD := $(PYTEST) --dist worksteal
 # The files in tests/browser as conftest.py there puts them, the slowest first, so that both processes end together.
 IN_ORDER := --no-loadscope-reorder
 
-# Coverage is asked of the maths alone, and not of its long searches and tables of cases: watching makes these tests slower by half.
+# Coverage is asked of the maths alone, and not of its long searches and tables of cases: watched, a test takes nearly twice as long.
 UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py \
-    tests/files/test_files.py tests/files/test_profile_files.py tests/machines/test_populations.py tests/test_public_names.py \
-    tests/program/test_machines.py tests/program/test_sentences.py tests/program/test_studies_and_views.py
+    tests/files/test_files.py tests/files/test_profile_files.py tests/machines/test_populations.py tests/machines/test_cabin_door.py \
+    tests/program/test_machines.py tests/program/test_sentences.py tests/program/test_studies_and_views.py \
+    tests/test_public_names.py tests/test_tree.py
 
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
