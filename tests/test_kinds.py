@@ -116,6 +116,8 @@ GIVEN = {
     MotionProgram: (PROGRAM.segments,),
     Skewed: (LAW,),
     FreePolynomial: (),
+    camkit.motion.FormError: (),
+    camkit.motion.FormedProgram: ((Rise(1.0, 1.0, LAW),),),
     camkit.motion.ShapedLaw: (LAW, (0.1, 0.0, 0.0, 0.0)),
     SplineLaw: ((0.5,), (0.5,)),
     TableLaw: ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)),

@@ -23,6 +23,7 @@ DEFAULTS = {
     "CamAnalysis": {"bodies", "offers", "preload", "program", "stretch"},
     "FlatAnalysis": {"pitch"},
     "Kinked": {"kinks", "kinks_move"},
+    "MotionProgram": {"waves"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
     "SlidingAnalysis": {"start_height"},
     "Study": {"nominal"},

@@ -10,6 +10,7 @@ from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
 from .families.shaped import DEGREE9, SPLINE, ShapedLaw
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
+from .form import FormedProgram, FormError
 from .law import Kinematics, Law, Peaks
 from .program import MotionProgram, motion_in
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
@@ -26,6 +27,8 @@ __all__ = [
     "Cycloidal",
     "Degree9",
     "Dwell",
+    "FormError",
+    "FormedProgram",
     "FreePolynomial",
     "HalfCycloidalEnd",
     "HalfCycloidalStart",

@@ -60,6 +60,10 @@ def motion_in(unit: str, lift: float, most: float, make: Callable[[], MotionProg
     says = {
         "lift": Quantity("h", lift, most / 60, most, unit, LIFT.meaning, at_least=0),
         "start": Quantity("s_0", 0, -most, most, unit, START.meaning, above=None),
+        "offset": Quantity(
+            "e_0", 0, -most / 100, most / 100, unit, "by how much the profile lies too far out", above=None
+        ),
+        "amplitude": Quantity("A", 0, 0, most / 100, unit, "of the waves on the profile", at_least=0),
     }
     return field(default_factory=make, metadata={"says": says})
 
@@ -154,6 +158,11 @@ class MotionProgram(Declared):
     def levels(self) -> list[Any]:
         """The level at which each segment begins, and at last the final one."""
         return list(accumulate((segment.change for segment in self.segments), initial=self.start))
+
+    @property
+    def waves(self) -> int:
+        """How many waves ride on the motion in a turn: none."""
+        return 0
 
     @property
     def span(self) -> Value:
@@ -302,7 +311,7 @@ def _refuse_program(program: MotionProgram) -> None:
             raise ValueError(f"segment {i} of the program is {given}; it must be a rise, a return or a dwell")
     refuse_lengths(program)
     for name in program.names:
-        if program.names.count(name) > 1 or name in ("start", "segments"):
+        if program.names.count(name) > 1 or name in ("start", "segments", "form"):
             raise ValueError(f"a segment of the program is called {name}; it must have a name that nothing else has")
     if refuse := unless(program._beyond <= ROUNDED):
         little = f"{degrees(program._beyond)} more than a full turn"

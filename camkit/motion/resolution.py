@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 STEPS, LEAST, REST = 128, 16, 2
 """Even steps in a segment that moves, in the least of its smooth pieces, and in a dwell in which nothing happens."""
+PER_WAVE = 12
+"""Even steps for each wave that rides on the motion in a turn, of however much of it a segment is."""
 ROUGH = 48
 """Even steps in a segment that moves where a search looks roughly."""
 HAIR, ROUNDING = 1e-9, 4e-12
@@ -83,35 +85,38 @@ def resolve(
     span: Any = program.span
     if (len(at_angles) or len(at_levels)) and not known(span):
         span.refuse(TABLED)
+    steps, rest = max(steps, PER_WAVE * program.waves), max(REST, PER_WAVE * program.waves)
     shares, pieces, moves = [], [], []
     for i, segment in enumerate(program.segments):
         start, end = program.starts[i], program.starts[i + 1]
         passes = len(at_levels) and not segment.still
         passed = _passed(segment, np.asarray(at_levels) - program.levels[i]) if passes else []
         corners = [(angle - start) / (end - start) for angle in at_angles]
-        for low, high, even in _pieces(segment, steps, [x for x in (*corners, *passed) if np.any((x > 0) & (x < 1))]):
+        for low, high, even in _pieces(
+            segment, steps, rest, [x for x in (*corners, *passed) if np.any((x > 0) & (x < 1))]
+        ):
             shares.append((i, low, high, even))
             pieces.append((start + low * (end - start), start + high * (end - start), even))
             moves.append(not segment.still)
     sizes = np.array([even + 1 for *_, even in pieces])
     angles = [np.atleast_1d(_inside(low, high, even)) for low, high, even in pieces]
     ends = np.cumsum(sizes)
-    inside = tuple((i, _inside(low, high, even)) for i, low, high, even in shares)
-    return Resolution(end_to_end(*angles), ends - sizes, ends - 1, np.repeat(moves, sizes), inside)
+    by_piece = tuple((i, _inside(low, high, even)) for i, low, high, even in shares)
+    return Resolution(end_to_end(*angles), ends - sizes, ends - 1, np.repeat(moves, sizes), by_piece)
 
 
-def _pieces(segment: Segment, steps: int, corners: list[Value]) -> list[tuple[Value, Value, int]]:
+def _pieces(segment: Segment, steps: int, rest: int, corners: list[Value]) -> list[tuple[Value, Value, int]]:
     """The smooth pieces of a segment: from and to, as shares, and their steps.
 
     They end at ``corners`` too.  Where ends move with the design all pieces have as many steps, of one design as of a
     population: of one whose members have the same corners.
     """
     if segment.still and not corners:
-        return [(0.0, 1.0, REST)]
+        return [(0.0, 1.0, rest)]
     kinks = () if segment.still else segment.kinks
     pieces = list(pairwise((0.0, *(_in_order([*kinks, *corners]) if corners else kinks), 1.0)))
     if segment.still:
-        return [(low, high, LEAST) for low, high in pieces]
+        return [(low, high, max(LEAST, rest)) for low, high in pieces]
     if corners or segment.kinks_move:
         shares = [1 / (1 + len(kinks) + len(corners))] * len(pieces)
     else:
