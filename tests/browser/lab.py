@@ -377,6 +377,11 @@ def numbers_of(shown: Any) -> list[str]:
     return [text.replace("°", " °").partition(" ")[0] for text in shown["measures"]]
 
 
+def on_page(text: str) -> str:
+    """A number of the package as a page writes it."""
+    return text.replace(" deg", " °")
+
+
 def numbers_in(design: Any, measures: Iterable[Any]) -> list[str]:
     """The numbers that it has to show."""
     analysis = design.analyse()

@@ -58,6 +58,8 @@ def test_undo_goes_back_over_a_choice_and_the_pin_stays(page, notebook):
     choose(page, OPTION, OTHER)
     assert arm(page) == last
     assert page.evaluate(f"{PAGE}.positions.angle") == pytest.approx(40)
+    column, menu = (page.locator(part).first.bounding_box() for part in (".camkit-left", MENU))
+    assert column["y"] <= menu["y"] < menu["y"] + menu["height"] <= column["y"] + column["height"]  # still in sight
     design = STUDY.start.replace(lift_arm=last, motion_law=OTHER)
     compare(of_page(page), design, default_views(design.analyse()), measures_of(design), LIMITS)
     pinned_as(page, before)  # of the law that it had

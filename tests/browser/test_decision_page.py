@@ -12,7 +12,7 @@ from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
 from camkit.decision import CHOOSERS, judgement_ranges, side_by_side, weighted_sum
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.views.decision import triangle
-from lab import OWN_SHEETS, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, eventually, kernel_value, on_page, open_notebook, run_all
 
 ANGLE, FORCE, TORQUE, _, RADIUS, _ = WORSE_CURVE.values()
 PAPER, SPACE = DoorHandleCam(lift_load=ArmLoad(torque=10)), DOOR_HANDLE_SPACE
@@ -61,7 +61,7 @@ def decided(page: Page, judgements: list[Any]) -> None:
         row = decision.locator("tr").filter(has=page.locator("td:first-child", has_text=re.compile(f"^{rule}$")))
         told = [str(i), *(m.text(m.sign * v) for m, v in zip(STUDY.minimise, f[i], strict=True))]
         for k, text in enumerate(told, start=1):
-            expect(row.locator("td").nth(k)).to_have_text(text)
+            expect(row.locator("td").nth(k)).to_have_text(on_page(text))
     first = judgement_ranges(f, judgements)[0]
     expect(decision).to_contain_text(f"from {first.low:.3g} to {first.high:.3g} (now {first.judged:.3g})")
 
@@ -164,7 +164,7 @@ def test_the_tray_exports_what_it_shows(page: Page) -> None:
     for line in table.lines:
         missed = [f"{text} not met" if bad else text for text, bad in zip(line.texts, line.missed, strict=True)]
         cells += [line.name, *missed, line.limit]
-    expect(tray.locator("td")).to_have_text(cells)
+    expect(tray.locator("td")).to_have_text([*map(on_page, cells)])
 
     for button, name, content in (
         ("Save as Markdown", "designs.md", table.markdown()),

@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, mm
 from camkit.panels.tolerances import SETTLED
 from camkit.study.tolerances import Tolerances
-from lab import OWN_SHEETS, eventually, kernel_value, open_notebook, run_all
+from lab import OWN_SHEETS, eventually, kernel_value, on_page, open_notebook, run_all
 
 SIZES = {"lift_arm": 45 * mm, "lift_start_angle": 27 * deg, "relief_cam_angle": 45 * deg}
 CAM = DoorHandleCam(**SIZES, lift_load=ArmLoad(torque=10))
@@ -55,8 +55,8 @@ def shows(panel: Locator, half_widths: dict[str, float], start: object = None) -
     made = parts(half_widths, start)
     for i, measure in enumerate(made.measures, start=1):
         low, high = made.percentiles(measure, (2.5, 97.5))
-        expect(panel.locator("tr").nth(i).locator("td").nth(2)).to_have_text(measure.text(low))
-        expect(panel.locator("tr").nth(i).locator("td").nth(3)).to_have_text(measure.text(high))
+        expect(panel.locator("tr").nth(i).locator("td").nth(2)).to_have_text(on_page(measure.text(low)))
+        expect(panel.locator("tr").nth(i).locator("td").nth(3)).to_have_text(on_page(measure.text(high)))
     (max_pressure_angle,) = made.study.at_most
     expect(panel.locator("tr").nth(3).locator("td").nth(4)).to_have_text(
         f"{100 * made.missed[max_pressure_angle]:.1f} %"

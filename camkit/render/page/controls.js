@@ -37,7 +37,7 @@ export class Row {
     this.slider = make("input", { type: "range" });
     this.box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
     this.after = make("span", { class: "camkit-unit" });
-    this.track = make("div", { class: "camkit-track", hidden: true });
+    this.track = make("div", { class: "camkit-track" });
     /** @type {import("./spans.js").Span[]} */ this.spans = [];
     this.refusal = make("div", { class: "camkit-refusal", role: "alert" });
     const title = meaning && meaning !== name ? `${name}: ${meaning}` : name;
@@ -76,7 +76,6 @@ export class Row {
   paint(spans, limited) {
     Object.assign(this, { spans, limited });
     const share = (/** @type {number} */ value) => (100 * (value - this.low)) / (this.high - this.low);
-    this.track.hidden = !spans.length;
     this.track.classList.remove("camkit-old");
     this.track.replaceChildren(...spans.map(({ low, high, kind }) => {
       const part = make("span", { class: ["camkit-cannot", "camkit-missed", "camkit-kept"][kind] });

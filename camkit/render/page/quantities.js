@@ -2,6 +2,7 @@
 import { Row, folded, make } from "./controls.js";
 
 const MANY = 8; // from here on there is a box to find one
+const ROOM = 24; // pixels below what is brought into sight
 
 export class Quantities {
   /** @param {any} structure @param {import("./units.js").Units} units
@@ -46,6 +47,13 @@ export class Quantities {
   hold({ known, open, down }) {
     for (const group of this.groups) if (known.includes(titleOf(group))) group.open = open.includes(titleOf(group));
     this.element.scrollTop = down;
+  }
+
+  /** Bring a control of these into sight, within their column alone. @param {HTMLElement | null} control */
+  bring(control) {
+    if (!control || !this.element.contains(control)) return;
+    const below = control.getBoundingClientRect().bottom + ROOM - this.element.getBoundingClientRect().bottom;
+    if (below > 0) this.element.scrollTop += below;
   }
 
   /** Mark what a design cannot be built with: a group that is folded opens. @param {number[]} guilty places of rows */

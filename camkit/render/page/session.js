@@ -67,7 +67,9 @@ export function follow(panel, before, { focused, ...held }) {
   panel.positions.resume(before.positions);
   panel.quantities.hold(held);
   if (before.ghost) panel.pin(before.ghost);
-  if (focused) panel.root.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
+  const control = focused && panel.root.querySelector(`[aria-label="${CSS.escape(focused)}"]`);
+  control?.focus({ preventScroll: true });
+  panel.root.addEventListener("camkit-shown", () => panel.quantities.bring(control), { once: true }); // the verdict takes its room
 }
 
 /** Tells the kernel how a page was left, from a person's first touch on; `panel()` is the panel that is shown now. */
