@@ -65,7 +65,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
     computed = traitlets.List(traitlets.Float(allow_none=True)).tag(sync=True)
     """The measures of ``values`` as the page computes them."""
     said = traitlets.Dict().tag(sync=True)
-    """Of which make these are, and ``at`` which time of its clock the page said them."""
+    """Of which make these are, which view of the page said them, and ``at`` which time of its clock."""
     message = traitlets.Unicode().tag(sync=True)
     tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
     """What stands beside the curves, by its title: sheets."""
@@ -101,7 +101,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         self._followers: list[Callable[..., object]] = []
         self._makes = Makes()
         self._now: list[float] = []
-        self._overtaken = -np.inf
+        self._overtaken: dict[object, float] = {}
         super().__init__(design=design)
         self._first = self._now
         self._keeper = Keeper(self)
@@ -295,13 +295,13 @@ class Instrument(Displayed, anywidget.AnyWidget):
             self.said = message["said"]
             if not self._old:
                 self.values = message["values"]
-            self._overtaken = message["said"]["at"]
+            self._overtaken[self.said.get("view")] = self.said["at"]
 
     @property
     def _old(self) -> bool:
         """Whether what the page said last is of a design that was left since."""
-        here = self._makes.last[0]
-        return bool(self.said.get("at", np.inf) <= self._overtaken or self.said.get("make", here) != here)
+        here, before = self._makes.last[0], self._overtaken.get(self.said.get("view"), -np.inf)
+        return bool(self.said.get("at", np.inf) <= before or self.said.get("make", here) != here)
 
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])

@@ -421,6 +421,15 @@ def test_a_page_that_is_saved_begins_with_the_design_as_it_is_now(app, tmp_path)
     assert structure["quantities"][place]["value"] == 45 * mm
 
 
+def test_each_view_of_a_page_has_its_own_clock(app):
+    """Two computers show one notebook, and the clock of one goes ten seconds too fast."""
+    make, values = app.structure["make"], list(app.values)
+    ask(app, session={"hello": True}, values=values, said={"at": 10_000, "make": make, "view": 0.25})
+    moved = [values[0] * 1.001, *values[1:]]
+    app.set_state({"values": moved, "computed": [], "said": {"at": 20, "make": make, "view": 0.75}})
+    assert app.values == list(numbers_of(app.design).values()) == moved
+
+
 def test_what_a_question_overtakes_is_old(app):
     """The page's last values come with its question, and once more after it."""
     values, make, law = [*app.values], app.structure["make"], value_of(app.design, "motion.rise.law")

@@ -41,20 +41,21 @@ const SAID = 20_000; // how long these stay, ms
 async function view({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
   /** @type {any} */ let panel = null, saving = false;
-  let at = 0;
+  let at = 0; // by the clock of this view, which others do not have
+  const own = Math.random();
   /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question */
   const ask = (question) => {
     const { structure: { make }, values, history: { count } } = panel;
     clearTimeout(panel.reporting);
     panel.reported = [...values.slice(0, count)];
     at = Math.max(at + 1, Date.now());
-    model.send({ ...question, values: panel.reported, said: { at, make } });
+    model.send({ ...question, values: panel.reported, said: { at, make, view: own } });
   };
   const host = {
     changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) {
       if (!current()) return;
       at = Math.max(at + 1, Date.now());
-      model.set({ values, computed, said: { at, make: panel.structure.make } });
+      model.set({ values, computed, said: { at, make: panel.structure.make, view: own } });
       model.save_changes();
     },
     back: (/** @type {any} */ { make, values }) => ask({ back: [make, values] }),
