@@ -202,6 +202,45 @@ def test_a_menu_whose_choice_is_refused_is_marked_until_nothing_is_said(opened):
     assert page.evaluate(GUILTY) == []
 
 
+TWO = """() => {
+    const told = [], host = { changed: (values) => told.push(values[0]), name() {} };
+    const other = new camkit.constructor(document.body.appendChild(document.createElement("div")),
+        { ...camkit.structure, files: [] }, camkit.engine, host);
+    Object.assign(window, { told, other });
+    const first = other.values[0], once = { once: true };
+    const shown = () => new Promise((next) => other.root.addEventListener("camkit-shown", next, once));
+    return (async () => {
+        await shown();
+        for (const factor of [1.001, 1.002]) { other._moved(0, factor * first, false); await shown(); }
+        other.frame = 1; // the next picture is late
+        other.load([1.003 * first, ...other.values.slice(1, other.history.count)]);
+        await new Promise((next) => setTimeout(next, 400));
+        return told.map((value) => value / first);
+    })(); }"""
+
+
+def test_what_somebody_else_chooses_is_not_undone_by_a_drag_of_before(opened):
+    assert opened(MACHINES["door handle"]).evaluate(TWO) == pytest.approx([1.001])
+
+
+def test_what_is_pinned_is_the_design_that_is_drawn(opened):
+    design = MACHINES["door handle"]
+    page = opened(design)
+    box = page.get_by_label("lift arm, mm, number")
+    box.fill("400")
+    box.press("Enter")
+    page.wait_for_function("() => camkit.sentence && !camkit.frame")
+    page.get_by_role("button", name="Pin to compare").click()
+    assert page.evaluate("camkit.ghost.values[0]") == design.lift_arm
+
+
+def test_only_a_kernel_shows_named_designs_of_another_make(opened):
+    page = opened(MACHINES["door handle"])
+    page.evaluate("() => { const here = [...camkit.inputs]; camkit.names.hear([['here', here], ['there', null]]); }")
+    asks = "camkit.names.list.querySelectorAll('[data-asks]')"
+    assert page.evaluate(f"[...{asks}].map((button) => button.textContent)") == ["there"]
+
+
 def test_words_in_small_pictures_do_not_cross(opened):
     page = opened(MACHINES["high speed"])
     several = [spots for spots in page.evaluate("camkit.charts.map((chart) => chart.spots ?? [])") if len(spots) > 1]
@@ -533,6 +572,15 @@ def test_what_is_undercut_is_said_once(opened):
     page.wait_for_function(DRAWN)
     assert not page.locator(".camkit-trouble").is_visible()
     page.wait_for_function("() => document.querySelector('.camkit-chips').textContent.includes('undercut margin')")
+
+
+def test_who_hears_the_verdict_is_not_told_that_every_limit_is_kept(opened):
+    study = door_handle_study(MACHINES["door handle"])
+    limits = {m: v for m, v in study.at_least.items() if m.name.startswith(("undercut margin", "base radius"))}
+    page = opened(study.start, at_least=limits)
+    page.wait_for_function("() => document.querySelector('.camkit-said').textContent")
+    words = study.start.analyse().trouble.replace(" deg", " °")
+    assert page.locator(".camkit-said").text_content() == f"{words}; every other limit is kept"
 
 
 def test_chips_below_the_first_line_are_counted_and_shown_by_a_press(opened):

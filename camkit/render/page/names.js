@@ -51,7 +51,7 @@ export class Names {
     const act = (/** @type {string} */ words, /** @type {string} */ name, /** @type {() => void} */ does) =>
       make("button", { type: "button", "aria-label": `${words} ${name}`, onclick: does }, words);
     this.list.replaceChildren(...[...this.kept].map(([name, kept]) => {
-      const show = make("button", { type: "button", "aria-label": `Show ${name}`, title: name, onclick: () => this._put(name) }, name);
+      const show = make("button", { type: "button", "aria-label": `Show ${name}`, title: name, "data-asks": !kept, onclick: () => this._put(name) }, name);
       const look = (/** @type {number[] | null} */ values) => this.panel.preview(values);
       show.disabled = !kept && this.panel.left; // the kernel alone knows how another make is computed
       for (const kind of ["pointerenter", "focus"]) show.addEventListener(kind, () => look(kept));

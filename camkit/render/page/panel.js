@@ -95,6 +95,7 @@ export class Panel {
 
   /** Take the design that somebody else chose: one step for Undo, also if they chose it by a drag. @param {ArrayLike<number>} values of the quantities */
   load(values) {
+    clearTimeout(this.reporting); // what waits to be reported is of the design before
     this.put([...Array.from(values), ...this.values.slice(values.length)]);
     this.history.load(this.values);
     this.reported = Array.from(values);
@@ -234,7 +235,7 @@ export class Panel {
     if (key === "y" || event.shiftKey) this._redo(); else this._undo();
   }
 
-  _pin() { this.pin(this.ghost ? null : this.outputs && besideOf(this, this.values.slice(), this.outputs)); }
+  _pin() { this.pin(this.ghost ? null : this.outputs && besideOf(this, this.built.slice(), this.outputs)); }
 
   /** Compare with a design from now on, or with none. @param {import("./beside.js").Beside | null} ghost */
   pin(ghost) {

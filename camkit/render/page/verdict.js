@@ -32,10 +32,10 @@ export class Verdict {
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {import("./units.js").Units} units */
   tell(rows, trouble, units) {
     const said = (/** @type {import("./measures.js").Judged} */ { m, now }) => Boolean(trouble) && m.inTrouble && now < 0; // once
-    const limited = rows.filter((row) => row.m.limit !== undefined && !said(row)).sort((a, b) => b.miss - a.miss);
+    const every = rows.filter(({ m }) => m.limit !== undefined), limited = every.filter((row) => !said(row)).sort((a, b) => b.miss - a.miss);
     const free = rows.filter(({ m, now }) => m.limit === undefined && Number.isFinite(now));
     const others = free.slice(0, Math.max(0, MOST - limited.length));
-    this.verdict = verdictOf(limited, trouble);
+    this.verdict = verdictOf(limited, trouble, limited.length < every.length);
     const told = [...limited, ...others], chips = told.map((row) => chipOf(row, units)), written = JSON.stringify([trouble, chips]);
     if (this.written !== written) { // else the page would be laid out anew in every frame
       this.written = written;
@@ -95,10 +95,11 @@ export class Verdict {
   }
 }
 
-/** In words, for those who hear it. @param {import("./measures.js").Judged[]} limited @param {string} trouble */
-function verdictOf(limited, trouble) {
+/** In words, for those who hear it. @param {import("./measures.js").Judged[]} limited @param {string} trouble
+ * @param {boolean} others whether the trouble says of more limits that they are missed */
+function verdictOf(limited, trouble, others) {
   const missed = limited.filter(({ kept }) => !kept).map(({ m }) => m.name);
-  const limits = missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? "every limit is kept" : "";
+  const limits = missed.length ? `limit not kept: ${missed.join(", ")}` : limited.length ? `every ${others ? "other " : ""}limit is kept` : "";
   return [trouble, limits].filter(Boolean).join("; ");
 }
 
