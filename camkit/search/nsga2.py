@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -53,12 +53,9 @@ def nsga2_steps(
     number, began, message = 0, time.monotonic(), ""
 
     def step() -> Step:
-        x, f, g = algorithm.pop.get("X", "F", "G")
         so_far = {**record, "generations": number, "seconds": time.monotonic() - began}
-        seen: Any = Evaluation(x, np.where(f < WORST, f, np.inf), g)
-        if room.needed and number == generations:
-            seen = partial(looked_at_closely, study, study, x)
-        return Step(number, generations, study, seen, number * population, None, message, so_far)
+        found = _found(algorithm, study, closely=room.needed and number == generations)
+        return Step(number, generations, study, found, number * population, None, message, so_far)
 
     if checkpoint:
         remove_parts(checkpoint)
@@ -68,22 +65,36 @@ def nsga2_steps(
         number, began = found.number, began - found.seconds
         yield step()
     while algorithm.has_next():
-        renewed = [int(share * generations) for share in RENEWED]
-        if room.needed and number and number in renewed:
-            _make_room(algorithm, room, study, anew=number != renewed[-1])
+        _make_room(algorithm, room, study, number, generations)
         algorithm.next()
         number += 1
         if checkpoint and not message:
             seconds = time.monotonic() - began
-            try:
-                Checkpoint(number=number, seconds=seconds, **about, **_state(algorithm)).write(checkpoint)
-            except OSError as error:
-                message = why(error)
+            message = _written(checkpoint, number=number, seconds=seconds, **about, **_state(algorithm))
         yield step()
 
 
-def _make_room(algorithm: NSGA2, room: Room, study: Study, anew: bool) -> None:
+def _written(checkpoint: str | Path, **state: Any) -> str:
+    """Write a checkpoint; why it cannot be written, empty if it can."""
+    try:
+        Checkpoint(**state).write(checkpoint)
+    except OSError as error:
+        return why(error)
+    return ""
+
+
+def _found(algorithm: NSGA2, study: Study, closely: bool) -> Evaluation | Callable[[], Evaluation]:
+    """What is known of the population, or what there is to know of it ``closely``."""
+    x, f, g = algorithm.pop.get("X", "F", "G")
+    return partial(looked_at_closely, study, study, x) if closely else Evaluation(x, np.where(f < WORST, f, np.inf), g)
+
+
+def _make_room(algorithm: NSGA2, room: Room, study: Study, number: int, generations: int) -> None:
     """Fit the margins for tolerances to the population, or raise them to what it needs, and judge it again."""
+    renewed = [int(share * generations) for share in RENEWED]
+    if not (room.needed and number and number in renewed):
+        return
+    anew = number != renewed[-1]
     designs = algorithm.pop.get("X")
     (room.renew if anew else room.raise_to)(designs[: FITTED if anew else RAISED])
     algorithm.problem.study = room.within(study)
