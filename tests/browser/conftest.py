@@ -20,16 +20,8 @@ expect.set_options(timeout=15_000)  # two shared cores may be busy
 
 
 SLOWEST = (
-    "session",
-    "living",
-    "voila",
-    "run_again",
-    "published",
-    "high_speed",
-    "door_handle",
-    "opening",
-    "names",
-    "programs_of",
+    *("living", "session", "voila", "run_again", "published", "high_speed", "door_handle", "instrument", "opening"),
+    *("programs_of", "names", "valve", "live_front"),
 )
 """Files of tests, the slowest first: so two processes come to an end together."""
 

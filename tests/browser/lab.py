@@ -46,6 +46,9 @@ CHROMIUM_FLAGS = [
     "--no-sandbox",
 ]
 
+POLLING = 100
+"""Milliseconds between two looks at what takes long: at every frame, the page would draw frames for it alone."""
+
 # What `make lab` and `make app` give their servers.
 SETTINGS = Path(__file__).parents[2] / ".jupyter"
 
@@ -247,7 +250,7 @@ def load_notebook(page: Page, name: str, timeout: float = 60) -> None:
 
 def _wait_until_ready(page: Page, name: str, timeout: float) -> None:
     try:
-        page.wait_for_function(_READY, arg=name, timeout=1000 * timeout)
+        page.wait_for_function(_READY, arg=name, timeout=1000 * timeout, polling=POLLING)
     except PlaywrightTimeout:
         raise AssertionError(f"{name} was not open with an idle kernel after {timeout:g} s{_dialog(page)}") from None
 
@@ -270,7 +273,7 @@ def run_all(page: Page, timeout: float = 120, pictures: bool = False) -> None:
         kernel_value(page, _NO_PICTURES)
     page.evaluate(_RUN)
     try:
-        page.wait_for_function(_RAN, timeout=1000 * timeout)
+        page.wait_for_function(_RAN, timeout=1000 * timeout, polling=POLLING)
     except PlaywrightTimeout:
         state = page.evaluate(_STATE)
         running = [

@@ -4,6 +4,7 @@ import gzip
 import itertools
 import re
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import pytest
@@ -27,6 +28,12 @@ DRAG = """([share, k]) => { const slider = document.querySelectorAll(".camkit-le
     for (const kind of ["input", "change"]) slider.dispatchEvent(new Event(kind)); }"""
 
 
+@cache
+def html_of(design):
+    """The page of a design, which many tests open."""
+    return living(design).html()
+
+
 @pytest.fixture
 def opened(reader, tmp_path):
     """Opens the page of a design; gives it with its own errors and what it asks for from outside."""
@@ -40,7 +47,10 @@ def opened(reader, tmp_path):
 
     def open_page(design, *views, **options):
         path = tmp_path / "design.html"
-        to_html(design, *views, path=path, **options)
+        if views or options:
+            to_html(design, *views, path=path, **options)
+        else:
+            path.write_text(html_of(design), encoding="utf-8")
         reader.set_viewport_size({"width": 934, "height": 612})
         reader.goto(path.as_uri())
         reader.heard = heard
