@@ -357,8 +357,10 @@ class Instrument:
     def shown(self) -> Any:
         """What it shows, when nothing is left to be drawn."""
         panel = f"document.querySelectorAll('.camkit-page')[{self.place}].parentElement.camkit"
-        self.page.wait_for_function(f"() => {panel}?.outputs && !{panel}.frame")
-        return shown_by(self.page, panel)
+        told = f"({_SHOWN.replace('camkit.shown', f'{panel}.shown')})()"  # at once: the next frame may show another
+        return json.loads(
+            self.page.wait_for_function(f"() => {panel}?.outputs && !{panel}.frame && {told}").json_value()
+        )
 
     def shows(self, design: Any, measures: Iterable[Any]) -> None:
         """The page and the kernel come to ``design``; the page has its measures, computed here."""
