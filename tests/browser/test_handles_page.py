@@ -84,6 +84,18 @@ def test_a_handle_takes_the_curve_along_and_its_coefficient_with_it(opened):
     assert_allclose(acceleration(page)[0], before, rtol=0, atol=1e-12)
 
 
+def test_handles_are_not_placed_anew_while_one_is_held(opened):
+    """It is pressed again before the slopes of the last design are known."""
+    page = opened(DESIGN, fast.COEFFICIENTS)
+    page.wait_for_function(PLACED)
+    page.mouse.move(*middle(handle(page).bounding_box()))
+    page.evaluate("camkit.handles.idle.begin(camkit.handles._search(camkit.values.slice(), 'late'), 200)")
+    page.mouse.down()
+    page.wait_for_timeout(600)
+    assert page.evaluate("camkit.handles.known") != "late"
+    page.mouse.up()
+
+
 def test_a_handle_stays_within_the_range_of_its_slider(opened):
     page = opened(DESIGN, fast.COEFFICIENTS)
     page.wait_for_function(PLACED)

@@ -58,6 +58,7 @@ export class Handles {
       if (event.button || held) return;
       const { chart } = handle, { x, y } = chart.ends, { zoomed } = chart, centre = chart.y(this._height(handle, panel.outputs));
       element.setPointerCapture(event.pointerId);
+      this.idle.stop(); // all stay where they are as long as one is held
       held = { id: event.pointerId, up: centre - event.clientY, zoomed, begin: row.value, slope: this._slope(handle) };
       chart.zoomed = { x: { ...x }, y: { ...y } }; // the scale stays as long as it is held
       this.held = handle;
