@@ -148,6 +148,6 @@ def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int)
 def corners(study: RobustStudy, models: list[ThreePoint]) -> Array:
     """The corners of the tolerances that count, as shares, ``(m, k)`` or ``(p, m, k)``."""
     k = len(study.tolerances)
-    if k <= CORNERS or not models:
-        return np.array(list(product((-1.0, 1.0), repeat=min(k, CORNERS))))
-    return np.stack([model.corner for model in models], axis=1)
+    if k <= CORNERS:
+        return np.array(list(product((-1.0, 1.0), repeat=k)))
+    return np.stack([model.corner for model in models], axis=1) if models else np.zeros((1, k))

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import D, Paths, Quantity
+from ..quantities import D, Paths, Quantity, words
 from ..quantities.kinds import one_number, shown
 from ..quantities.types import Array
 from .margins import TightenedStudy, tightened
@@ -79,7 +79,11 @@ class RobustStudy(Study[D]):
         moved = [path for path, _ in self._moves if path not in self.free]
         object.__setattr__(self, "start", _ready(self.start, moved))
         self._correlation  # noqa: B018  refuses pairs that are none
-        if not (self._half(self._base(self.x0[None]))[1] > 0).any():
+        half = self._half(self._base(self.x0[None]))[1][0]
+        for name, unknown in zip(self.names, np.isnan(half), strict=True):
+            if unknown:
+                raise ValueError(f"the tolerance of the {words(name)} is no number at the start of the study")
+        if not (half > 0).any():
             raise ValueError("there is no tolerance above 0; one must be")
 
     @property

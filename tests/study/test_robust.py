@@ -9,9 +9,9 @@ from camkit import DoorHandleCam, Poly345, ValveCam, deg, minimise, mm, shaft_st
 from camkit.linkage import swing
 from camkit.machines import corrected_valve_study, door_handle, door_handle_study, ninety_degree_study
 from camkit.machines.shaft import twist_utilisation
-from camkit.quantities import Measure
+from camkit.quantities import Measure, quantities_of, value_of
 from camkit.search import search
-from camkit.study import Source, Tolerance, en_10210
+from camkit.study import Source, Tolerance, en_10210, iso_286
 from camkit.study.recheck import clopper_pearson
 
 TUBE = {"outer_diameter": 0.5 * mm, "inner_diameter": 0.3 * mm}
@@ -151,6 +151,14 @@ def test_all_corners_of_a_worst_case_are_judged():
     assert_array_equal(found.missed, [1, 0])
     assert_array_equal(found.parts, 4)
     assert_array_equal(robust.evaluate(np.array([[129.84, 103], [129.85, 103]]) * mm).feasible, [False, True])
+
+
+def test_many_tolerances_and_no_limit():
+    study = shaft_study().replace(at_most={}, at_least={})
+    paths = [path for path in quantities_of(study.start) if value_of(study.start, path) > 0][:11]
+    robust = study.under({path: 1e-6 * value_of(study.start, path) for path in paths}, worst_case=True)
+    assert len(paths) == 11
+    assert robust.recheck(study.x0).kept.all()
 
 
 def test_a_tube_by_its_standard():
@@ -307,6 +315,7 @@ def test_what_misses_a_limit_itself_ranks_behind():
         ({}, {}, "they must be a mapping with one or more"),
         ({"outer": 0.1}, {}, "'outer' is no quantity of UniversalJointShaft"),
         ({"outer_diameter": 0.0}, {}, "there is no tolerance above 0"),
+        ({"length": iso_286}, {}, "the tolerance of the length is no number at the start of the study"),
         (TUBE, {"yield_at_least": 0.4}, "the yield is 0.4; it must lie above 0.5, up to 1"),
         (TUBE, {"objective": "median"}, "the objective is 'median'; there are nominal, mean, 95 %, worst"),
         (TUBE, {"correlation": {("length", "power"): 0.5}}, "it must be two of outer_diameter, inner_diameter"),
