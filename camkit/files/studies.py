@@ -30,6 +30,8 @@ MOST_POINTS = 5_000_000
 
 def study_entry(study: Study) -> dict[str, object]:
     """A study as JSON knows it."""
+    if study.nominal is not study:
+        raise ValueError("the study is one under tolerances, which no file can hold; save its nominal study")
     _refuse_namesakes(study)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
     made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}

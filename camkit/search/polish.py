@@ -29,6 +29,8 @@ def polish(study: Study[D], x: object = None) -> Minimum[D]:
     Raises ``ValueError`` for another objective, or a start that lies outside its bounds or cannot be built.
     """
     refuse_arguments(polish, locals())
+    if study.nominal is not study:
+        raise ValueError("the study is one under tolerances; polish takes none: use minimise")
     objective = _sum_of_residuals(study)
     start = study.x0 if x is None else numbers(x, "the design to polish")
     if start.shape != study.x0.shape:

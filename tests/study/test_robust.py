@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.optimize import brentq
 
-from camkit import DoorHandleCam, Poly345, ValveCam, deg, minimise, mm, shaft_study
+from camkit import DoorHandleCam, Poly345, Session, ValveCam, deg, minimise, mm, polish, rssr_study, shaft_study, write
 from camkit.linkage import swing
 from camkit.machines import corrected_valve_study, door_handle, door_handle_study, ninety_degree_study
 from camkit.machines.shaft import twist_utilisation
@@ -325,3 +325,10 @@ def test_what_misses_a_limit_itself_ranks_behind():
 def test_what_is_wrong_is_refused_in_a_sentence(tolerances, options, said):
     with pytest.raises(ValueError, match=said):
         shaft_study().under(tolerances, **options)
+
+
+def test_what_knows_no_tolerances_refuses_them(tmp_path):
+    with pytest.raises(ValueError, match="polish takes none: use minimise"):
+        polish(rssr_study().under({"crank": 0.1 * mm}))
+    with pytest.raises(ValueError, match="under tolerances, which no file can hold"):
+        write(Session(shaft_study().under(TUBE), shaft_study().start), tmp_path / "tube.json")
