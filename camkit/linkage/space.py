@@ -53,7 +53,7 @@ class Box:
 
     def depth(self, points: Value) -> Array:
         """How far each of ``points`` ``(3, ...)`` lies within the box, from the nearest wall, m; < 0 outside."""
-        return np.asarray(self.depths(points).min(0))
+        return 0.0 - self._walls(points).max(0)
 
     def depths(self, points: Value) -> np.ndarray:
         """How far ``points`` ``(3, ...)`` lie within each of the six walls, ``(6, ...)``, m; < 0 beyond one."""
