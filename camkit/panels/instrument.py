@@ -139,10 +139,12 @@ class Instrument(Displayed, anywidget.AnyWidget):
             self._push()
 
     def control(self, path: str) -> w.FloatSlider:
-        """An ordinary slider for the quantity at ``path``, in its unit, linked both ways."""
+        """An ordinary slider for the quantity at ``path``, in its unit, linked both ways; it acts on release."""
         declared: Quantity = Paths(self.design, [path], Quantity).declared[path]
-        step = (declared.high - declared.low) / 500
-        slider = w.FloatSlider(min=declared.low, max=declared.high, step=step, description=label(path, declared))
+        low, high, name = declared.low, declared.high, label(path, declared)
+        step = 10 ** np.floor(np.log10((high - low) / 500))
+        # While it moves it would send back, too, what it is told, rounded to its steps.
+        slider = w.FloatSlider(min=low, max=high, step=step, description=name, continuous_update=False)
 
         def follow(design: object) -> None:
             value = in_unit(value_of(design, path), declared.unit)

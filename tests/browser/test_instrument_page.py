@@ -27,6 +27,16 @@ LIMITS = {**STUDY.at_most, **STUDY.at_least}
 PAGE = "document.querySelector('.camkit-page').parentElement.camkit"
 
 
+BESIDE = (
+    START.removesuffix("app\n")
+    + """
+import ipywidgets
+beside = app.control("lift_arm")
+ipywidgets.VBox([app, beside])
+"""
+)
+
+
 @pytest.fixture
 def shown(window, server):
     """Runs one cell, and gives the page when its panel has drawn."""
@@ -159,3 +169,19 @@ def test_the_page_computes_with_the_kernel_ended(shown, server):
     found = of_page(page)
     assert found["values"][0] == pytest.approx(0.0506)
     compare(found, STUDY.start, views, measures_of(STUDY.start), LIMITS)
+
+
+def test_an_ordinary_slider_beside_it_leaves_the_design_as_it_is_typed(shown):
+    page = shown(BESIDE, "beside.ipynb")
+    steps = page.evaluate(f"{PAGE}.history.past.length")
+    for text, value in (("50.013", 0.050013), ("47.6251", 0.0476251)):
+        box = page.get_by_label("lift arm, mm, number")
+        box.fill(text)
+        box.press("Enter")
+        eventually(lambda value=value: kernel_value(page, "beside.value") == pytest.approx(1000 * value, rel=1e-12))
+        page.wait_for_timeout(400)  # what it sends back would be here
+        assert kernel_value(page, "app.design.lift_arm") == pytest.approx(value, rel=1e-12)
+    assert page.evaluate(f"{PAGE}.history.past.length") == steps + 2
+    page.locator(".widget-slider .noUi-handle").press("ArrowRight")
+    eventually(lambda: kernel_value(page, "app.design.lift_arm") == pytest.approx(0.04764, abs=1e-9))
+    page.wait_for_function(f"() => Math.abs({PAGE}.values[0] - 0.04764) < 1e-9")
