@@ -136,7 +136,7 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
 
 def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts: int, designs: int) -> Found:
     """Descents with margins in place of tolerances, which are renewed from exact parts at each end."""
-    inside = partial(np.clip, a_min=0, a_max=1)
+    inside = partial(np.clip, a_min=0, a_max=-study.floors)
     margins = inside(np.nan_to_num(study.margins(_start(study))[0], posinf=0.0))
     used, ends, finished = 0, [_start(study)], ""
     for number in range(PASSES):
@@ -148,7 +148,7 @@ def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts
         missed = plain(judge).evaluate(found.x).missed[0]
         if (abs(margins - before) < SETTLED).all() and not missed.any():
             break
-        margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.minimum(missed, 1), 0))
+        margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.minimum(missed, -study.floors), 0))
     return Found(_better(plain(judge), *ends), used, (), finished)
 
 

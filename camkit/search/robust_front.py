@@ -61,10 +61,10 @@ class Room:
     def _looked_at(self, x: np.ndarray, together: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Those of some designs that can be built, their limits, and their margins."""
         assert self.study is not None
-        g = seen(self.study.nominal.evaluate(x).g)
+        g = seen(self.study.nominal.evaluate(x).g, self.study.floors)
         x, g = (values[np.isfinite(g).all(-1)] for values in (x, g))
         margins = self.study.held(x, self.study.models(x), together) - g
-        return x, g, np.minimum(margins, 1.0)
+        return x, g, np.minimum(margins, -self.study.floors)
 
 
 def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
@@ -79,7 +79,7 @@ def _moved(study: RobustStudy, rough: RobustStudy, x: np.ndarray) -> tuple[Evalu
     """The nominal evaluation of designs, and models of their limits that agree with it."""
     found = study.nominal.evaluate(x)
     with np.errstate(invalid="ignore"):
-        by = seen(found.g) - seen(rough.nominal.evaluate(x).g)
+        by = seen(found.g, study.floors) - seen(rough.nominal.evaluate(x).g, study.floors)
     by = np.where(np.isfinite(by), by, 0.0)
     models = [m._replace(centre=m.centre + by[:, i : i + 1]) for i, m in enumerate(rough.models(x))]
     return found, models

@@ -32,7 +32,7 @@ class TightenedStudy(Study[D]):
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and tightened limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
         found = super().judge(x, analysis)
-        return found if self.margins is None else replace(found, g=seen(found.g) + self.margins(x))
+        return found if self.margins is None else replace(found, g=seen(found.g, self.floors) + self.margins(x))
 
 
 def tightened(study: Study[D], margins: Callable[[Array], Array]) -> TightenedStudy[D]:

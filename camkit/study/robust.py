@@ -20,7 +20,7 @@ from .margins import TightenedStudy, tightened
 from .recheck import Recheck, corners, largest, rechecked
 from .spread import Source, Tolerance, correlated, spread_shares
 from .study import KEPT, Evaluation, Study, _ready
-from .three_point import FLOOR, ThreePoint, seen, star
+from .three_point import FLOOR, ThreePoint, floor_of, seen, star
 from .weighted import points_of
 
 PARTS = 512
@@ -186,7 +186,8 @@ class RobustStudy(Study[D]):
         parts = self.made(x, z, growth).reshape(-1, len(self._parts.declared))
         q, analysis = len(parts), self.analysis_of_parts(parts)
         limits = [
-            seen(points_of(m, analysis, sense / (abs(v) or 1.0), q) - sense * np.sign(v)) for m, v, sense in self.limits
+            seen(points_of(m, analysis, sense / (abs(v) or 1.0), q) - sense * np.sign(v), floor_of(v))
+            for m, v, sense in self.limits
         ]
         wanted = () if self.objective == "nominal" else self.minimise
         both = limits, [np.asarray(m.of(analysis, q))[:, None] for m in wanted]
@@ -203,7 +204,7 @@ class RobustStudy(Study[D]):
         if self.worst_case:
             parts = self.made(x, np.stack([model.corner for model in models], axis=1))
             found = self.judged(parts.reshape(-1, parts.shape[-1])).g.reshape(len(x), len(models), -1)
-            return seen(found).max(1)
+            return seen(found, self.floors).max(1)
         each = np.stack([model.at(self._shares) for model in models], axis=-1)
         place = int(np.ceil(self.yield_at_least * each.shape[1])) - 1
         g = np.partition(each, place, axis=1)[:, place]
@@ -219,7 +220,7 @@ class RobustStudy(Study[D]):
         is kept by more than its own size counts there as kept by that.
         """
         rows = self.rows(x)
-        return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g)
+        return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g, self.floors)
 
     def exact_margins(self, x: Array) -> Array:
         """The same at one design ``(n_free,)`` by parts that are evaluated, ``(n_limits,)``.
@@ -227,8 +228,8 @@ class RobustStudy(Study[D]):
         One level for all limits, raised until enough of the parts keep all of them together.
         """
         z = corners(self, self.models(x[None])) if self.worst_case else self.shares(EXACT_PARTS)
-        here = seen(self.nominal.evaluate(x).g[0])
-        away = seen(self.judged(self.made(x[None], z.reshape(-1, z.shape[-1]))[0]).g) - here
+        here = seen(self.nominal.evaluate(x).g[0], self.floors)
+        away = seen(self.judged(self.made(x[None], z.reshape(-1, z.shape[-1]))[0]).g, self.floors) - here
         ordered = np.sort(away, axis=0)
         least = len(away) if self.worst_case else int(np.ceil(self.yield_at_least * len(away)))
         for place in range(least - 1, len(away)):

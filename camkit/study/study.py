@@ -37,6 +37,7 @@ from ..quantities.kinds import (
     shown,
 )
 from ..quantities.types import Array, Value
+from .three_point import floor_of
 from .weighted import WeightedSum, checked_weight
 
 if TYPE_CHECKING:
@@ -314,6 +315,11 @@ class Study(Generic[D]):
     @staticmethod
     def _columns(values: list[Array], p: int) -> np.ndarray:
         return np.stack(values, axis=-1) if values else np.zeros((p, 0))
+
+    @cached_property
+    def floors(self) -> np.ndarray:
+        """How far below each limit it is modelled, ``(n_limits,)``."""
+        return np.array([floor_of(value) for _, value, _ in self.limits])
 
     def tightening(self, x: Array) -> Array:
         """By how much its limits are tighter than they say, as shares of them: not at all."""

@@ -11,7 +11,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from ..quantities.types import Array
+from ..quantities.types import Array, Value
 
 FLOOR = -1.0
 """A limit kept by more than its own size counts as kept by this: a radius is infinite where a curve is straight."""
@@ -24,9 +24,15 @@ def star(k: int) -> Array:
     return np.concatenate([np.zeros((1, k)), np.eye(k), -np.eye(k)])
 
 
-def seen(g: Array) -> Array:
-    """Limits ``g`` as they are modelled: not below `FLOOR`; ``nan``, which cannot be built, is missed without end."""
-    return np.maximum(np.where(np.isnan(g), np.inf, g), FLOOR)
+def seen(g: Array, floor: Value = FLOOR) -> Array:
+    """Limits ``g`` as they are modelled: not below ``floor``; ``nan``, which cannot be built, is missed without end."""
+    g = np.maximum(np.where(np.isnan(g), np.inf, g), floor)
+    return np.where(np.isneginf(g), FLOOR, g)
+
+
+def floor_of(value: float) -> float:
+    """How far below a limit is modelled: one of 0 has no size of its own."""
+    return FLOOR if value else -np.inf
 
 
 class ThreePoint(NamedTuple):

@@ -153,6 +153,26 @@ def test_all_corners_of_a_worst_case_are_judged():
     assert_array_equal(robust.evaluate(np.array([[129.84, 103], [129.85, 103]]) * mm).feasible, [False, True])
 
 
+def test_three_tolerances_miss_together_what_none_misses_alone():
+    """A force of at least 0 N that is 20 N, with three deviations of 15 N."""
+
+    def force_of(a):
+        shaft = a.shaft
+        return np.ravel(20 + 3e4 * (shaft.outer_diameter + shaft.inner_diameter - 0.23) + 1500 * (shaft.length - 2.41))
+
+    force = Measure("force", "N", force_of)
+    paths = {"outer_diameter": 0.5 * mm, "inner_diameter": 0.5 * mm, "length": 10 * mm}
+    robust = shaft_study().replace(at_most={}, at_least={force: 0.0}).under(paths)
+    x = np.array([0.13, 0.1])
+    missed = (3 - 4 / 3) ** 3 / 48  # the corner of a cube of which the sum is below -4/3
+    assert robust.recheck(x, 4096).share == pytest.approx(1 - missed, abs=5e-3)
+    assert not robust.evaluate(x).feasible.any()
+    assert robust.tolerance_factor(x)[0] == pytest.approx(4 / 3 / (3 - 0.48 ** (1 / 3)), rel=0.01)
+    best = minimise(robust)
+    assert best.feasible
+    assert robust.recheck(best.x, 2**14).share == pytest.approx(0.99, abs=2e-3)
+
+
 def test_many_tolerances_and_no_limit():
     study = shaft_study().replace(at_most={}, at_least={})
     paths = [path for path in quantities_of(study.start) if value_of(study.start, path) > 0][:11]
