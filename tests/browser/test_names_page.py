@@ -114,3 +114,13 @@ def test_names_live_in_a_file(browser, tmp_path, monkeypatch):
     expect(page.get_by_label("name for this design")).to_be_hidden()
     assert page.evaluate("globalThis.ran") is None
     page.close()
+
+
+def test_designs_are_kept_in_a_narrow_window(page, notebook):
+    run(page)
+    page.set_viewport_size({"width": 400, "height": 768})
+    page.evaluate("() => window.jupyterapp.shell.collapseLeft()")
+    page.wait_for_selector(".camkit-page.camkit-narrow")
+    page.locator(".camkit-names > summary").click()
+    right = "(element) => element.getBoundingClientRect().right"
+    assert page.locator(".camkit-naming button").evaluate(right) <= page.locator(".camkit-page").evaluate(right)
