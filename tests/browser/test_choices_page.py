@@ -101,6 +101,27 @@ def test_undo_goes_back_over_a_choice_and_the_pin_stays(page, notebook):
     assert arm(page) == last
 
 
+def test_undo_pressed_quickly_goes_back_as_often(page, notebook):
+    run(page)
+    first = arm(page)
+    step(page, 2)
+    moved = arm(page)
+    choose(page, OPTION, OTHER)
+    for _ in range(2):
+        page.keyboard.press("Control+z")  # the second one while the law is on its way
+    comes(page, FIRST)
+    eventually(lambda: arm(page) != moved)
+    between = arm(page)
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    settled(page)
+    assert arm(page) == first != between
+    for _ in range(5):
+        page.keyboard.press("Control+Shift+z")
+    comes(page, OTHER)
+    assert arm(page) == moved
+
+
 def test_a_named_design_of_another_law_is_one_step(page, notebook):
     run(page)
     step(page, 1)

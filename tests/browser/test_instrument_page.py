@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from camkit import ArmLoad, DoorHandleCam, door_handle_study
 from camkit.quantities import choices_of, measures_of
 from camkit.views import default_views
-from lab import Instrument, eventually, kernel_value, open_notebook, run_all, shown_by
+from lab import Instrument, cell, cell_output, eventually, kernel_value, open_notebook, run_all, shown_by
 from test_living_page import DRAG, compare
 
 START = """
@@ -27,6 +27,7 @@ LIMITS = {**STUDY.at_most, **STUDY.at_least}
 PAGE = "document.querySelector('.camkit-page').parentElement.camkit"
 
 
+SLOW = START.replace("\napp\n", "\nimport time\napp.on_change(lambda design: time.sleep(0.3))\napp\n")
 BESIDE = (
     START.removesuffix("app\n")
     + """
@@ -39,10 +40,10 @@ ipywidgets.VBox([app, beside])
 
 @pytest.fixture
 def shown(window, server):
-    """Runs one cell, and gives the page when its panel has drawn."""
+    """Runs one cell, or more, and gives the page when its panel has drawn."""
 
-    def show(source, name):
-        notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source)])
+    def show(source, name, *more):
+        notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(each) for each in (source, *more)])
         notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
         nbformat.write(notebook, server.root / name)
         open_notebook(window, name)
@@ -123,6 +124,23 @@ def test_a_kernel_that_is_busy_stops_nothing(started):
     settled(page)
     assert page.evaluate(f"{PAGE}.shownAt") >= before + 5
     assert of_page(page)["values"][0] == pytest.approx(0.051)
+
+
+def test_a_cell_reads_what_the_page_shows_though_the_kernel_is_slow(shown):
+    page = shown(SLOW, "slow.ipynb", "print(app.design.lift_arm)")
+    output = cell_output(page, 1)
+    first = output.inner_text()
+    page.get_by_label("lift arm, mm", exact=True).focus()
+    for _ in range(6):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    moved = page.evaluate(f"{PAGE}.values[0]")
+    cell(page, 1).locator(".cm-content").click()
+    page.keyboard.press("Control+Enter")
+    eventually(lambda: output.inner_text() not in ("", first))
+    assert float(output.inner_text()) == moved
+    eventually(lambda: kernel_value(page, "app.values[0]") == moved)
+    assert kernel_value(page, "app.message") == ""
 
 
 def test_a_number_is_typed_as_people_type(started):

@@ -1,6 +1,7 @@
 """How a panel shows itself: at once with its picture, or in a page that runs the cell first without it."""
 
 import asyncio
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -77,6 +78,37 @@ def test_pictures_wait_while_a_person_moves_something(monkeypatch):
 
     asyncio.run(moves())
     assert not made
+
+
+def test_a_cell_waits_until_what_pages_say_is_heard(monkeypatch):
+    hearing, order, begun, enough = displayed.Hearing(), [], threading.Event(), threading.Event()
+
+    def speak():
+        with hearing.word():
+            begun.set()
+            assert enough.wait(5)
+            order.append("heard")
+
+    for patience, expected in ((5.0, ["heard", "cell"]), (0.05, ["cell"])):
+        monkeypatch.setattr(displayed, "PATIENCE", patience)
+        order.clear(), begun.clear(), enough.clear()
+        thread = threading.Thread(target=speak)
+        thread.start()
+        assert begun.wait(5)
+        if patience > 1:
+            threading.Timer(0.1, enough.set).start()
+        hearing.wait()
+        order.append("cell")
+        assert order == expected  # a function that never ends is not waited for
+        enough.set()
+        thread.join()
+
+
+def test_a_page_that_runs_a_cell_does_not_wait_for_itself(monkeypatch):
+    hearing = displayed.Hearing()
+    monkeypatch.setattr(displayed.time, "sleep", lambda _: pytest.fail("it waits"))
+    with hearing.word():
+        hearing.wait()
 
 
 def test_a_cell_that_runs_again_asks_for_its_new_pictures_alone(cell):

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import base64
-from collections.abc import Callable
-from contextlib import suppress
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import ipywidgets as w
@@ -23,6 +25,8 @@ REST = 1.0
 """Seconds without a running cell and without a word from a page after which pictures are made."""
 BETWEEN = 0.1
 """Seconds between two of them, in which the kernel hears what a person does."""
+SOON, PATIENCE = 0.02, 2.0
+"""Seconds in which the next word of a page comes if it is on its way, and that a cell waits for all of them at most."""
 Bundle = tuple[dict[str, object], dict[str, object]]
 
 
@@ -47,7 +51,8 @@ class Displayed(w.DOMWidget):
     def _handle_msg(self, msg: dict[str, Any]) -> None:
         """A page speaks: a picture that comes now would take the slider out of somebody's hand."""
         LATER.postpone()
-        super()._handle_msg(msg)
+        with HEARING.word():
+            super()._handle_msg(msg)
 
     def _live(self) -> Bundle:
         """The live view, and the numbers where there is no kernel."""
@@ -119,4 +124,38 @@ class Later:
 
 
 LATER = Later()
+"""Of this kernel."""
+
+
+class Hearing:
+    """What pages say, which newer kernels hear on a thread of its own: a cell that is run waits until all is heard."""
+
+    def __init__(self) -> None:
+        self._thread: int | None = None
+        self._last = -float("inf")
+        self._waits = False
+
+    @contextmanager
+    def word(self) -> Iterator[None]:
+        """A page speaks."""
+        shell: Any = get_ipython()
+        if shell and not self._waits:
+            self._waits = True
+            shell.events.register("pre_run_cell", self.wait)
+        self._thread = threading.get_ident()
+        try:
+            yield
+        finally:
+            self._thread, self._last = None, time.monotonic()
+
+    def wait(self, *_: object) -> None:
+        """Until nobody speaks on another thread; somebody's own function that never ends is not waited for."""
+        end = time.monotonic() + PATIENCE
+        while (now := time.monotonic()) < end and self._thread != threading.get_ident():
+            if self._thread is None and now - self._last > SOON:
+                return
+            time.sleep(SOON / 4)
+
+
+HEARING = Hearing()
 """Of this kernel."""

@@ -2,6 +2,7 @@
 
 const REMEMBERED = 50;
 const SOON = 500; // ms between designs that somebody else chooses in one drag
+const PATIENCE = 3000; // ms for a kernel that was asked for a design, before it is asked again
 
 /** @typedef {{make: string, values: number[]}} Step a design: its make, as the kernel calls it, and the values of its quantities */
 
@@ -13,6 +14,7 @@ export class History {
     /** @type {Step[]} */ this.past = [];
     /** @type {Step[]} */ this.future = [];
     /** The step of another make that the kernel was asked for. @type {Step | null} */ this.asked = null;
+    /** How many steps are to be redone once it is there, below 0 how many undone. */ this.more = 0;
   }
 
   /** A design of the make that is shown. @param {ArrayLike<number>} values @returns {Step} */
@@ -41,25 +43,33 @@ export class History {
 
   /** Go on after another panel's steps: with the design that it asked for, or with one step more.
    * @param {History} before */
-  follow({ past, future, now, asked }) {
+  follow({ past, future, now, asked, more }) {
     const here = this.now;
     Object.assign(this, { past, future, now });
     const from = [past, future].find((steps) => asked && steps.at(-1) === asked);
-    if (from && alike(asked, here)) this._take(from);
+    if (from && alike(asked, here)) { this._take(from); this.more = more; }
     else if (!alike(now, here)) this._more(here);
   }
 
-  /** The design before, if there is one: taken, or asked for. */
-  undo() { return this._go(this.past); }
+  /** The design before, if there is one: taken, or asked for, or gone back to after the one that is asked for. */
+  undo() { return this._go(this.past, -1); }
 
   /** The design that was left by `undo`, if there is one. */
-  redo() { return this._go(this.future); }
+  redo() { return this._go(this.future, 1); }
 
-  /** @param {Step[]} steps */
-  _go(steps) {
+  /** @param {Step[]} steps @param {number} by */
+  _go(steps, by) {
+    if (this.asked && performance.now() - this.askedAt < PATIENCE) { this.more += by; return null; }
     const step = steps.at(-1) ?? null;
-    if (step?.make === this.now.make) this._take(steps); else this.asked = step;
+    if (step?.make === this.now.make) this._take(steps); else Object.assign(this, { asked: step, askedAt: performance.now(), more: 0 });
     return step;
+  }
+
+  /** One of the steps that are still to be done: 1, -1, or 0 if there is none. */
+  next() {
+    const by = Math.sign(this.more);
+    this.more -= by;
+    return by;
   }
 
   /** @param {Step[]} steps its last one is the design from now on */

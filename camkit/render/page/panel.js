@@ -221,8 +221,16 @@ export class Panel {
   /** Whether the last of these steps can be come back to: another make needs its kernel. @param {import("./history.js").Step[]} steps */
   _can(steps) { return steps.length > 0 && (steps.at(-1).make === this.history.now.make || Boolean(this.host && !this.left)); }
 
-  /** A design, where the mechanism stands now. @param {import("./history.js").Step} step */
+  /** Undo and Redo that were asked for while another make was on its way. */
+  goOn() {
+    for (let by = this.history.next(); by; by = this.history.asked ? 0 : this.history.next()) {
+      if (by < 0) this._undo(); else this._redo();
+    }
+  }
+
+  /** A design, where the mechanism stands now. @param {import("./history.js").Step | null} step */
   _back(step) {
+    if (!step) return;
     if (step.make === this.history.now.make) this.put([...step.values, ...this.values.slice(step.values.length)]);
     else this.host.back(step);
   }
@@ -265,7 +273,7 @@ export class Panel {
     this.shownAt = number;
     if (outputs.structure) this._adopt(outputs.structure);
     if (this.ghost) turn(this.ghost, values.subarray(this.history.count));
-    this._draw(outputs, settled);
+    this._draw(outputs, values, settled);
     this.computed = values.subarray(0, this.history.count);
     this._report(settled);
     if (!settled) return;
@@ -319,14 +327,14 @@ export class Panel {
     })(), QUIET);
   }
 
-  /** @param {import("./engine.js").Outputs} outputs @param {boolean} settled */
-  _draw(outputs, settled) {
+  /** @param {import("./engine.js").Outputs} outputs @param {Float64Array} values what they are of @param {boolean} settled */
+  _draw(outputs, values, settled) {
     const missed = this.structure.refusals.find((/** @type {any} */ r) => outputs.length && outputs[r.at][0] !== 1);
     const refused = missed ? fill(missed.words, outputs) : outputs.sentence ?? "";
     this._refuse(refused);
     this.undoing.setAttribute("aria-disabled", String(!this._can(this.history.past)));
     this.redoing.setAttribute("aria-disabled", String(!this._can(this.history.future)));
-    if (!refused) Object.assign(this, { outputs, built: this.values.slice() });
+    if (!refused) Object.assign(this, { outputs, built: values });
     if (!this.outputs) return;
     if (!refused) this.positions.fit(outputs);
     const { words, dark, playing, units } = this, em = this.letter / 13, low = 190 * em;

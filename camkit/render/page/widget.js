@@ -42,13 +42,14 @@ async function view({ model, el }) {
   const root = el.appendChild(document.createElement("div"));
   /** @type {any} */ let panel = null, saving = false;
   let at = 0; // by the clock of this view, which others do not have
-  const own = Math.random();
+  const own = Math.random(), leaving = new AbortController();
+  let heardAt = 0; // what the kernel hears in any case before a cell that is run now
   /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question */
   const ask = (question) => {
     const { structure: { make }, values, history: { count } } = panel;
     clearTimeout(panel.reporting);
     panel.reported = [...values.slice(0, count)];
-    at = Math.max(at + 1, Date.now());
+    heardAt = at = Math.max(at + 1, Date.now());
     model.send({ ...question, values: panel.reported, said: { at, make, view: own } });
   };
   const host = {
@@ -66,6 +67,14 @@ async function view({ model, el }) {
     open: (/** @type {string} */ text) => ask({ open: text }),
     name: (/** @type {any} */ asked) => ask({ session: asked }),
   };
+  /** Before somebody can run a cell: what is shown, though a kernel that is at work on an earlier value is told no newer
+   * one till it is done. @param {any} event */
+  const hurry = (event) => {
+    if (heardAt === at || (event.type === "keydown" ? event.key !== "Enter" : root.contains(event.target))) return;
+    heardAt = at;
+    model.send({ values: panel.reported, said: { at: at - 0.5, make: panel.structure.make, view: own } }); // before the same with its measures
+  };
+  for (const kind of ["keydown", "pointerdown"]) document.addEventListener(kind, hurry, { capture: true, signal: leaving.signal });
   const docks = new Docks();
   const dock = async () => {
     const of = panel, found = await Promise.all(model.get("tabs").map(async (/** @type {any} */ { title, sheets }) => ({
@@ -93,6 +102,7 @@ async function view({ model, el }) {
     panel.say(model.get("message"));
     if (before) panel.showTab(before.tabs.shown?.name); // of a sheet
     moved(); // the design may have moved since the structure was made
+    panel.goOn();
     if (first) void stand(panel, model.get("page"));
     session.ask();
     if (!known(model)) left();
@@ -128,7 +138,7 @@ async function view({ model, el }) {
   for (const [event, act] of Object.entries(heard)) model.on(event, act);
   const unhear = atTheEnd(model, left);
   await begin();
-  return () => { unhear(); session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
+  return () => { leaving.abort(); unhear(); session.end(); panel?.end(); docks.end(); for (const [event, act] of Object.entries(heard)) model.off(event, act); };
 }
 
 export default movable(view);
