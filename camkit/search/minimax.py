@@ -23,6 +23,8 @@ SEEN, NEAR = 100, 0.02
 """Of each curve SLSQP sees at least so many points, evenly, and all that come this near to their bound."""
 ROUNDS, STEPS = 20, 100
 """How often points are added at most, and how many steps SLSQP may take each time."""
+SMALL, FLAT = 1e-3, 1e-4
+"""A change as a share of the bounds, and how much of it the objective, in its own size, falls by where it is flat."""
 
 
 class Descent(NamedTuple):
@@ -131,10 +133,29 @@ class Epigraph:
             steps += found.nit
             broken = self.excess(self.at(u), t) > KEPT
             if not (broken & ~seen).any():
-                return Descent(u, steps, bool(found.success))
+                return Descent(u, steps, bool(found.success) or self.is_flat(u, seen))
             seen |= broken
             t = self.tops(self.at(u))
         return Descent(u, steps, False)
+
+    def is_flat(self, u: np.ndarray, seen: np.ndarray | slice = slice(None)) -> bool:
+        """Whether no small change lowers the objective within its limits, to first order by linear programming.
+
+        SLSQP says so itself where its line search does not end in the last digits, which differ between processors.
+        """
+        from scipy.optimize import linprog
+
+        c, slopes = self.at(u), self.slopes(u)[seen]
+        t = self.tops(c)
+        by_t = (self.owner[seen, None] == np.arange(len(t))).astype(float)
+        change = zip(np.maximum(-SMALL, -u), np.minimum(SMALL, 1 - u), strict=True)
+        found = linprog(
+            np.concatenate([np.zeros_like(u), np.ones_like(t)]),
+            A_ub=np.hstack([slopes, -by_t]),
+            b_ub=np.maximum(-self.excess(c, t)[seen], 0),
+            bounds=[*change, *[(None, None)] * len(t)],
+        )
+        return bool(found.status == 0 and -found.fun <= FLAT * SMALL)
 
     def _slsqp(self, u: np.ndarray, t: np.ndarray, seen: np.ndarray, precision: float) -> Any:
         from scipy.optimize import minimize

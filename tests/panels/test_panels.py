@@ -472,6 +472,7 @@ def test_the_views_that_nobody_chose_follow_what_a_menu_brings(monkeypatch):
         raise ValueError("no such picture")
 
     monkeypatch.setitem(VIEW_OF, "contact_pressure", broken)
+    app = explore(OscillatingRollerCam(), free=["contact", "roller_radius"])  # the other one has recorded it
     app.load(app.design.replace(contact=pair))
     assert app.views == first
     assert app.design.contact == app.start.contact

@@ -15,6 +15,8 @@ from camkit.machines.high_speed_measures import (
 )
 from camkit.papers.high_speed_cam import STRESS_CAP
 from camkit.quantities import Design, PeakMeasure, quantity
+from camkit.search import minimax
+from camkit.search.minimax import FLAT, Epigraph
 from camkit.search.minimise import METHODS, minimise
 from camkit.search.protocol import search
 from camkit.study.study import Study
@@ -50,6 +52,31 @@ FREE = ("a", "b", "c")
 
 def chebyshev(**limits):
     return Study(Polynomial(), FREE, (size,), angles=401, **limits)
+
+
+@pytest.mark.parametrize("moved", [0, 1e-3, -1e-2])
+def test_a_design_is_flat_where_no_small_change_in_any_direction_lowers_it(moved):
+    problem = Epigraph(chebyshev())
+    u = problem.u(np.array([0, -3 / 4, 0])) + np.array([0, moved, 0])
+    small = 1e-4 * np.random.default_rng(1).uniform(-1, 1, (5000, 3))
+    sizes = problem.columns(np.vstack([u, u + small])).max(-1)
+    falls = (sizes[0] - sizes[1:]).max() / 1e-4
+    assert problem.is_flat(u) == (falls <= FLAT) == (moved == 0)
+
+
+def test_a_line_search_that_ends_in_the_last_digits_has_converged(monkeypatch):
+    descend = Epigraph._slsqp
+
+    def unsure(*given):
+        found = descend(*given)
+        found.success = False
+        return found
+
+    monkeypatch.setattr(Epigraph, "_slsqp", unsure)
+    for study in (chebyshev(), high_speed_study(objective=peak_wear)):
+        assert minimise(study).message.startswith("Converged: ")
+    monkeypatch.setattr(minimax, "STEPS", 1)
+    assert minimise(high_speed_study()).message.startswith("Stopped: ")
 
 
 def test_the_cubic_of_least_size_is_chebyshevs():
