@@ -76,7 +76,7 @@ def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
 
 
 def test_a_weight_moves_the_optimum_and_a_click_loads_a_design(book: Workbook) -> None:
-    book.plane.locator("select").select_option(label="sign as printed")
+    book.plane.get_by_label("problem").select_option(label="sign as printed")
     for typed in ("0.5", "0.7"):
         box = book.plane.get_by_role("textbox", name=re.compile("^fullness.*number")).first
         box.fill(typed)
