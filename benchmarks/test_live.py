@@ -2,8 +2,8 @@
 
 One clock for both: it starts with the browser's time stamp of the key, and it ends at an animation frame that comes
 after the one in which the new picture is there.  Before it, at every frame, the page looks: whether the instrument has
-drawn other values, and whether the output of ``interact`` has another image, which is then decoded.  So the
-instrument, which draws in the first frame after the key, is timed at the callback of the second one.
+drawn other values, and whether the output of ``interact`` has another image, which is then decoded.  It looks from
+the second frame after the key on: the instrument draws at once, the first frame paints it.
 
 ``interact`` is helped: its axes stand where a layout has put them, so it pays for no layout of its own.
 """
@@ -75,12 +75,13 @@ WATCH = """() => {
         box.addEventListener('keydown', hear, { capture: true, once: true });
         const seen = async () => {
             await key;
+            await frame(); // the picture may be drawn before it, and is seen in the next one
             for (;;) {
                 await frame();
                 if (performance.now() - pressed > 30000) throw new Error('no other picture within 30 s');
                 const now = look(box);
                 if (now === last || !now) continue;
-                if (kind === 'instrument') return performance.now() - pressed; // drawn in an earlier frame
+                if (kind === 'instrument') return performance.now() - pressed; // drawn before
                 try { await box.querySelector('img').decode(); } catch { continue; }
                 await frame();
                 return performance.now() - pressed;

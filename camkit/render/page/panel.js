@@ -73,7 +73,14 @@ export class Panel {
   /** Show `values` in the next frame. @param {boolean} [settled] whether nothing is being dragged */
   ask(settled = false) {
     this.settling = this.settling || settled;
-    if (!this.frame) this.frame = requestAnimationFrame(() => { this.frame = 0; void this._show(); });
+    if (!this.frame) this.frame = requestAnimationFrame(() => this._begin());
+  }
+
+  /** Show what was asked for, now. */
+  _begin() {
+    cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    void this._show();
   }
 
   /** What is shown, in user units: of each picture its window and marks; measures; the sentence of a refusal. */
@@ -204,6 +211,7 @@ export class Panel {
     if (k < this.history.count) this._leaveTracks();
     if (settled) this.history.settle(this.values);
     this.ask(settled);
+    if (settled) this._begin(); // the next frame has but to paint it
   }
 
   /** What is painted on tracks is of another design, but on that which is being moved. */
