@@ -162,11 +162,12 @@ class ContourPanel(Panel):
         """The optimum in words: free quantities, parts of the objective, limits."""
         if not self._searched:
             return ["looking for the optimum"]
-        if self.optimum is None:
+        best, plane = self.optimum, self.plane  # another thread may take up the next design meanwhile
+        if best is None:
             return ["no design between the bounds keeps every limit"]
-        study = self.plane.study
-        analysis = study.design(self.optimum).analyse(study.angles)
-        free = zip(study.free, self.plane.declared, self.optimum, strict=True)
+        study = plane.study
+        analysis = study.design(best).analyse(study.angles)
+        free = zip(study.free, plane.declared, best, strict=True)
         where = ", ".join(f"{label(n, q)} {v / q.factor:.4g} {q.unit}".rstrip() for n, q, v in free)
         objective = study.minimise[0]
         parts = objective.parts if isinstance(objective, WeightedSum) else (objective,)

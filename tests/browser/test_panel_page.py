@@ -37,7 +37,7 @@ CONTRAST = """(element) => {
 TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
     .filter(e => e.clientWidth && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== 'visible')
     .filter(e => !e.matches(".camkit-said, .camkit-row label, .camkit-name")) // heard alone; cut names are whole
-    .map(e => `${e.className} ${e.scrollWidth} > ${e.clientWidth}`)"""
+    .map(e => `${e.outerHTML.slice(0, 120)} ${e.scrollWidth} > ${e.clientWidth}`)"""
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +100,9 @@ def test_the_panels_fit_the_window(page: Page, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
     for i in range(2):
         panel = cell_output(page, i).locator(".camkit-page, .camkit-panel, .camkit-sheet")
-        page.wait_for_timeout(300)  # the page has been laid out anew
+        page.wait_for_timeout(300)  # the page is laid out anew
+        eventually(lambda panel=panel: panel.evaluate(TOO_NARROW) == [], seconds=5)
+        page.wait_for_timeout(300)
         assert panel.evaluate(TOO_NARROW) == []
 
 

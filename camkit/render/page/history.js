@@ -41,6 +41,9 @@ export class History {
     this.loaded = now;
   }
 
+  /** What somebody else chooses from now on is a step of its own. */
+  rest() { this.loaded = -Infinity; }
+
   /** Go on after another panel's steps: with the design that it asked for, or with one step more.
    * @param {History} before */
   follow({ past, future, now, asked, more }) {

@@ -50,6 +50,7 @@ export class Panel {
     this.theme = new Theme(() => this.ask(true));
     this.resized = new ResizeObserver(() => this._resize());
     for (const part of [root, ...this.charts.map((/** @type {Chart} */ chart) => chart.canvas)]) this.resized.observe(part);
+    document.addEventListener("pointerdown", () => this.history.rest(), { capture: true, signal: this.leaving.signal });
     this._resize();
   }
 
