@@ -90,7 +90,8 @@ def test_undo_goes_back_over_a_choice_and_the_pin_stays(page, notebook):
     assert page.get_by_role("button", name="Redo").get_attribute("aria-disabled") == "true"
 
     page.evaluate(SAVE)
-    eventually(lambda: kernel_value(page, "app.page['make'] == app.structure['make'] != app.page['pinned']['make']"))
+    left = "app.page.get('make', '') == app.structure['make'] != (app.page['pinned'] or {}).get('make')"
+    eventually(lambda: kernel_value(page, left))
     page.evaluate(SAVE)
     open_notebook(page, notebook)  # the kernel is the same
     page.wait_for_selector(".camkit-page canvas")
