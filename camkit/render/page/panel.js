@@ -200,7 +200,7 @@ export class Panel {
     this.chosen = make("select", { "aria-label": "units", onchange: () => this.use(this.chosen.value) },
       ...this.units.names.map((name) => make("option", { value: name }, name)));
     this.names = new Names(this, structure.named ?? [], this.host && ((asked) => this.host.name(asked)));
-    return make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1" }, structure.name),
+    return make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1", title: structure.name }, structure.name),
       this.names.element, this.undoing, this.redoing, reset, this.pinning, make("span", { class: "camkit-space" }),
       this.chosen, ...filesOf(structure.files, this.host), ...screenOf(this.root));
   }
