@@ -57,6 +57,18 @@ def test_yields_of_shafts():
         assert joined.recheck(TUBES[1], 2**14).share == pytest.approx(share, abs=1.5e-3)
 
 
+def test_modelled_yields():
+    """The closed form to what 512 parts tell; 0 for what cannot be built or is no number; corners in the worst case."""
+    robust = shaft_study().under(TUBE)
+    assert_allclose(robust.modelled_yield(TUBES), YIELDS, atol=3e-3)
+    assert_array_equal(robust.modelled_yield([[0.11, 0.12], [np.nan, 0.103], [0.14, 0.103]]), [0, 0, 1])
+    corners = shaft_study().under(TUBE, worst_case=True)
+    assert_array_equal(corners.modelled_yield(np.array([[129.82, 103], [129.85, 103]]) * mm), [0.75, 1])
+    assert_array_equal(
+        shaft_study().replace(at_most={}).under(TUBE).modelled_yield([[0.11, 0.12], [0.13, 0.1]]), [0, 1]
+    )
+
+
 def test_it_is_as_sure_as_it_says():
     robust = shaft_study().under(TUBE)
     found = robust.recheck(TUBES)
