@@ -19,7 +19,7 @@ from .cam import (
     TranslatingFlatCam,
     TranslatingRollerCam,
 )
-from .decision import Judgements, ahp, knee, most_isolated, topsis, weighted_sum
+from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
 from .files import Session, profile_csv, profile_dxf, read, write
 from .linkage import RSSR
 from .machines import (
@@ -134,6 +134,7 @@ __all__ = [
     "cm",
     "deg",
     "door_handle_study",
+    "group",
     "high_speed_study",
     "inch",
     "kN",

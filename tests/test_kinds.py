@@ -34,7 +34,7 @@ from camkit import (
     TranslatingRollerCam,
     UniversalJointShaft,
 )
-from camkit.decision import random_index
+from camkit.decision import Judges, random_index
 from camkit.linkage import Box
 from camkit.machines import CamLever, SliderLoad, cam_lever_study
 from camkit.machines.high_speed_measures import peak_stress
@@ -138,6 +138,7 @@ GIVEN = {
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
     Choice: ("law", LAW, (LAW,), "the law"),
     Judgements: (("angle", "force"), [3]),
+    Judges: ({"Anna": Judgements(("angle", "force"), [3]), "Ben": Judgements(("angle", "force"), [1])}, (1.0, 2.0)),
     Session: (STUDY, TranslatingRollerCam()),
 }
 """What the constructors that have no defaults are given."""

@@ -273,6 +273,7 @@ GOOD = {
     "OptimisePanel.studies": lambda: STUDY,
     "optimise_panel.studies": lambda: STUDY,
     "contour_panel.weights": lambda: {"height": 1.0},
+    "group.judgements": lambda: {"Anna": [3, 5, 2], "Ben": [1, 4, 1]},
     "compare_fronts.ways": lambda: {"nsga2": (TWO, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "TolerancePanel.study": lambda: STUDY,
     "Session.search": dict,

@@ -19,6 +19,7 @@ from .choosers import (
     topsis,
     weighted_sum,
 )
+from .group import Judges, group
 from .robustness import JudgementRange, WinnerMap, judgement_ranges, weight_lattice, winner_map
 from .summary import SideBySide, side_by_side
 from .weights import METHODS, completed, judged_weights
@@ -32,11 +33,13 @@ __all__ = [
     "WEIGHING",
     "JudgementRange",
     "Judgements",
+    "Judges",
     "SideBySide",
     "WinnerMap",
     "ahp",
     "completed",
     "crowding_distance",
+    "group",
     "judged_weights",
     "judgement_ranges",
     "knee",

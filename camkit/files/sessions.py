@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..decision import Judgements
+from ..decision import Judgements, Judges
 from ..quantities import Analysable, Measure
 from ..quantities.kinds import refuse_kinds, shown, whole
 from ..search.front import Front, front_of
 from ..study.study import Study
-from .checks import listed, mapping, message, plain
+from .checks import all_numbers, listed, mapping, message, plain
 from .entries import MOST_ROWS, Reading, entry_of, is_number
 from .renamed import Renaming
 from .studies import rows, study_entry, study_of, x_of
@@ -54,7 +54,7 @@ class Session:
 
     study: Study
     design: Analysable
-    judgements: Mapping[str, Judgements] = field(default_factory=dict)
+    judgements: Mapping[str, Judgements | Judges] = field(default_factory=dict)
     search: Mapping[str, Any] = field(default_factory=dict)
     front: Front = None  # type: ignore[assignment]
 
@@ -73,13 +73,20 @@ def empty_front(study: Study, message: str = "", record: Mapping[str, object] | 
 
 def session_entry(session: Session) -> dict[str, object]:
     """A session as JSON knows it."""
-    judged = session.judgements.items()
     return {
         **front_entry(session.front, session.study),
         "design": entry_of(session.design),
-        "judgements": {n: {"names": [*j.names], "above": [*j.above], "method": j.method} for n, j in judged},
+        "judgements": {name: judged_entry(judged) for name, judged in session.judgements.items()},
         "search": {name: entry_of(value) for name, value in session.search.items()},
     }
+
+
+def judged_entry(judged: Judgements | Judges) -> dict[str, object]:
+    """Judgements of one or several judges as JSON knows them."""
+    if isinstance(judged, Judgements):
+        return {"names": [*judged.names], "above": [*judged.above], "method": judged.method}
+    said = {name: judged_entry(each) for name, each in judged.said.items()}
+    return {"judges": said, "shares": [*judged.shares], "joined": judged.method}
 
 
 def front_entry(front: Front, study: Study) -> dict[str, object]:
@@ -152,7 +159,19 @@ def _setting(name: str, value: object, renaming: Renaming) -> object:
     return renaming.name(name, plain(value))
 
 
-def _judged(name: str, entry: object, method: object = None) -> Judgements:
+def _judged(name: str, entry: object, method: object = None) -> Judgements | Judges:
+    """What was judged by one judge or by several."""
+    if not isinstance(entry, dict) or entry.keys() != {"judges", "shares", "joined"}:
+        return _said(name, entry, method)
+    said = {who: _said(who, each) for who, each in mapping(entry["judges"], name).items()}
+    shares = all_numbers(entry["shares"], "shares", len(said))
+    try:
+        return Judges(said, tuple(shares), entry["joined"])
+    except ValueError as refusal:
+        raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
+
+
+def _said(name: str, entry: object, method: object = None) -> Judgements:
     """Judgements; in a file of 0.1.0 a matrix or what is above its diagonal, and its ``method`` if that is known."""
     if isinstance(entry, list):
         entry = {"names": [], "above": entry, "method": "eigenvector" if method is None else method}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..decision import CHOOSERS, Judgements
+from ..decision import CHOOSERS, Judgements, Judges
 from ..files import Session, designs, sessions
 from ..quantities import Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
@@ -162,7 +162,7 @@ class ParetoPanel(JobPanel, FrontPanel):
     def _follow(self, search: SessionSearch, went_back: str = "") -> SessionSearch:
         """Show that a search begins, or goes on, and what went back for it."""
         self.search, self.study, self._went_back = search, search.session.study, went_back
-        if self.criteria and self.criteria.judgements != search.session.judgements["criteria"]:
+        if self.criteria and self.criteria.given != search.session.judgements["criteria"]:
             self.study = self.study.with_weights(self.criteria.weights)
         self.resume_button.disabled = True
         return search
@@ -255,9 +255,9 @@ class ParetoPanel(JobPanel, FrontPanel):
         boxes: dict[str, Input] = {name: getattr(self, name) for name in (*COUNTS, "mode")}
         return {**boxes, "rule": self.picker.rule}
 
-    def _judgements(self) -> dict[str, Judgements]:
+    def _judgements(self) -> dict[str, Judgements | Judges]:
         """The judgements on the page."""
-        return {name: panel.judgements for name, panel in self._judges.items()}
+        return {name: panel.given for name, panel in self._judges.items()}
 
     def _json(self) -> str:
         return designs.to_json(self.session())
@@ -283,14 +283,14 @@ class ParetoPanel(JobPanel, FrontPanel):
     def _untouched(self, name: str) -> bool:
         """Whether there is a panel of judgements of that name, as it began."""
         panel = self._judges.get(name)
-        return panel is not None and panel.judgements == panel.start
+        return panel is not None and panel.given == panel.start
 
     def _search_in_words(self) -> dict[str, str]:
         """What a search needs of the page, by name."""
         bounds = {words(name): bounds.words for name, bounds in self.bounds.items()}
         return {"problem": self.mode.value, **{name: str(getattr(self, name).value) for name in COUNTS}, **bounds}
 
-    def _judge(self, judgements: Mapping[str, Judgements]) -> None:
+    def _judge(self, judgements: Mapping[str, Judgements | Judges]) -> None:
         for name, panel in self._judges.items():
             if name in judgements:
                 panel.load(judgements[name])

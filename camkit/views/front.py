@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..decision import Judgements
+from ..decision import Judgements, Judges
 from ..quantities import Measure
 from ..quantities.kinds import numbers, refuse_arguments, refuse_empty, refuse_kinds, shown
 from ..quantities.types import Array
@@ -219,3 +219,14 @@ def weight_bars(judgements: Judgements) -> Picture:
         yticks={-i: name for i, name in enumerate(names)},
     )
     return Picture.of(axes, marks)
+
+
+def judges_beside(judges: Judges) -> Picture:
+    """The weights of a group as bars, and those of each judge on them."""
+    together = weight_bars(judges.judgements)
+    rows = -np.arange(len(judges.names)) - 0.38  # below the bars
+    points = [
+        Points(f"judge {i}", 100 * said.weights, rows, role="series", index=i, size=7, fill="paper", label=name)
+        for i, (name, said) in enumerate(judges.said.items())
+    ]
+    return Picture.of(together.axes, list(together.marks), points)

@@ -430,7 +430,7 @@ def test_judgements_come_back_with_names_gaps_and_method():
     }
     assert from_json(to_json(Session(plain, plain.start, judgements))).judgements == judgements
     for wrong in ("much", True, object(), [1, 2, 3]):
-        with pytest.raises(ValueError, match=r"^the judgements is .*, each value a Judgements$"):
+        with pytest.raises(ValueError, match=r"^the judgements is .*, each value a Judgements or a Judges$"):
             to_json(Session(plain, plain.start, {"criteria": wrong}))
 
 

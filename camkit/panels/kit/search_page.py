@@ -8,7 +8,7 @@ from collections.abc import Container, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ...decision import Judgements
+from ...decision import Judgements, Judges
 from ...files import Session, designs, sessions
 from ...quantities import Analysable, Measure
 from ...quantities.kinds import kind_words
@@ -43,7 +43,11 @@ class SearchPage:
         return f"{type(self.start).__name__}-{_short(json.dumps(page))}"
 
     def study(
-        self, mode: str, design: object, space: Mapping[str, tuple[float, float]], judgements: Mapping[str, Judgements]
+        self,
+        mode: str,
+        design: object,
+        space: Mapping[str, tuple[float, float]],
+        judgements: Mapping[str, Judgements | Judges],
     ) -> Study:
         """One of its problems around a design, with the weights that the judgements of the criteria give."""
         study = self.studies[mode].around(design).freeing(space)
