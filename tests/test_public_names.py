@@ -268,6 +268,7 @@ GOOD = {
     "cycle_time_panel.explorer": lambda: app("lever"),
     "cycle_time_panel.studies": lambda: LEVER(),
     "shortest_interval.study": lambda: LEVER(),
+    "goal_seek.study": lambda: STUDY,
     "cycle_time_steps.study": lambda: LEVER(),
     "contour_panel.studies": lambda: {"one": OVER_TWO},
     "OptimisePanel.studies": lambda: STUDY,

@@ -12,6 +12,7 @@ from .cycle_time import IntervalStep, shortest_interval
 from .epsilon_constraint import dominated_shares, trade_off
 from .fast_front import quick_front
 from .front import Front, dominated, front_of, reference_point
+from .goal_seek import goal_seek
 from .minimum import Active, Minimum
 from .protocol import Step, search
 
@@ -34,6 +35,7 @@ __all__ = [
     "dominated",
     "dominated_shares",
     "front_of",
+    "goal_seek",
     "quick_front",
     "reference_point",
     "search",

@@ -27,7 +27,7 @@ class Active(NamedTuple):
     angles: tuple[float, ...] = ()
 
     def __str__(self) -> str:
-        where = " at " + _listed([f"{angle / deg:.1f}" for angle in self.angles]) + " deg" if self.angles else ""
+        where = " at " + listed([f"{angle / deg:.1f}" for angle in self.angles]) + " deg" if self.angles else ""
         symbol = len(self.name) == 1  # a quantity that is known by its letter alone
         return f"{self.name} = {self.value}" if symbol else f"the {self.name} {self.value}{where}"
 
@@ -101,8 +101,8 @@ def _held(active: tuple[Active, ...]) -> str:
     """What holds a design that keeps all limits where it is."""
     peaks = [str(a) for a in active if a.kind == "peak"]
     held = [str(a) for a in active if a.kind != "peak"]
-    smallest = [f"Smallest found: {_listed(peaks)}."] if peaks else []
-    return " ".join([*smallest, f"At their limits: {_listed(held)}." if held else "No limit is reached."])
+    smallest = [f"Smallest found: {listed(peaks)}."] if peaks else []
+    return " ".join([*smallest, f"At their limits: {listed(held)}." if held else "No limit is reached."])
 
 
 def _missed(study: Study, evaluation: Evaluation) -> str:
@@ -115,7 +115,8 @@ def _missed(study: Study, evaluation: Evaluation) -> str:
     return f"{none}; {nearest}" if nearest else f"{none}: none can be built or used."
 
 
-def _listed(items: list[str]) -> str:
+def listed(items: list[str]) -> str:
+    """Items as a person lists them."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
 
 
