@@ -27,7 +27,7 @@ from ..quantities import (
     value_of,
 )
 from ..quantities.applied import a_new_file, raised
-from ..quantities.kinds import refuse_arguments, shown
+from ..quantities.kinds import refuse_arguments
 from ..render.figure import picture, small_png
 from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
@@ -37,10 +37,11 @@ from ..units import factor, in_unit
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import changed, numbers_of, with_numbers
-from .kit.design_files import FILES, files_of, remarked
+from .kit.design_files import file_of, files_of, remarked
 from .kit.displayed import Displayed
 from .kit.keeper import Keeper
 from .kit.makes import Makes
+from .kit.seek import pull
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         self.start: Any = design
         self.analysis: Any = None
         self.measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
-        self._limits = {"at_most": at_most, "at_least": at_least}
+        self.limits = {"at_most": at_most, "at_least": at_least}
         self._chosen, self._free = (
             tuple(views),
             tuple(Paths(design, free).declared) if free is not None and len(free) else None,
@@ -122,8 +123,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def add_tab(self, title: str, *sheets: Sheet) -> None:
         """Show sheets in a tab of that title, in place of those that are there."""
-        others = [tab for tab in self.tabs if tab["title"] != title]
-        self.tabs = [*others, {"title": title, "sheets": list(sheets)}]
+        self.tabs = [*(tab for tab in self.tabs if tab["title"] != title), {"title": title, "sheets": list(sheets)}]
 
     def load(self, design: Analysable) -> None:
         """Show ``design``; the last one stays where it cannot be computed, and the page says why.
@@ -181,7 +181,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         """Structure and program for a design; another law has other coefficients."""
         free = None if self._free is None else [path for path in self._free if path in declared_in(design)]
         position = self._stand(self._chosen or default_views(analysis))
-        made = living(design, self._chosen, self.measures, **self._limits, free=free, position=position)
+        made = living(design, self._chosen, self.measures, **self.limits, free=free, position=position)
         made.structure  # noqa: B018  recorded here
         return made
 
@@ -286,6 +286,8 @@ class Instrument(Displayed, anywidget.AnyWidget):
                 self.load_json(message["open"])
             elif "session" in message:
                 self._keeper.answer(message["session"])
+            elif "seek" in message:
+                pull(self, *message["seek"])
             elif "compute" in message:
                 self._compute(message)
         except Exception as error:  # a page must always be answered
@@ -326,11 +328,9 @@ class Instrument(Displayed, anywidget.AnyWidget):
 
     def _send_file(self, kind: str) -> None:
         """A file of the design that the page shows; ``ValueError`` where that cannot be built."""
-        if kind not in self.structure["files"]:
-            raise ValueError(f"{shown(kind)} is no kind of file here; there are {', '.join(self.structure['files'])}")
         if (seen := self._of(self.values)) != self.design:
             seen.analyse()
-        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [FILES[kind](self)])
+        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [file_of(self, kind)])
 
     def load_json(self, file: str | bytes) -> None:
         """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
@@ -367,7 +367,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         return self._figure(self.analysis, self.views)
 
     def _figure(self, analysis: object, views: Sequence[View]) -> Still:
-        limits = {measure: value for part in self._limits.values() for measure, value in (part or {}).items()}
+        limits = {measure: value for part in self.limits.values() for measure, value in (part or {}).items()}
         return picture(analysis, *views, limits=limits, **self._stand(views))
 
     def drawing(self) -> Callable[[], bytes]:

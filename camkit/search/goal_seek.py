@@ -67,7 +67,7 @@ def _stopped(problem: _Nearest, end: Minimum[D]) -> Minimum[D]:
     text = f"The {measure.name} cannot be {measure.text(measure.sign * problem.value)}"
     if not end.feasible:
         return replace(end, message=f"{text}. {end.message.removeprefix(f'{ENDED}. ')}")
-    held = [str(active) for active in end.active if active.kind != "peak"]
+    held = ["its own limit" if a.name == measure.name else str(a) for a in end.active if a.kind != "peak"]
     by = f"; it is held by {listed(held)}" if held else ""
     which = "lowest" if problem.down == (measure.sign > 0) else "highest"
     return replace(end, message=f"{text}: the {which} found is {measure.text(measure.sign * end.f)}{by}.")

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ...files import designs, profiles
+from ...quantities.kinds import shown
 
 if TYPE_CHECKING:
     from ...render.still import Still
@@ -46,6 +47,13 @@ OF_PROFILES = ("csv", "dxf")
 def files_of(analysis: object) -> list[str]:
     """What can be saved of a design with this analysis."""
     return [kind for kind in FILES if kind not in OF_PROFILES or hasattr(analysis, "profile")]
+
+
+def file_of(app: Saved, kind: str) -> bytes:
+    """A file of what is shown; ``ValueError`` for a kind that there is not."""
+    if kind not in (known := files_of(app.analysis)):
+        raise ValueError(f"{shown(kind)} is no kind of file here; there are {', '.join(known)}")
+    return FILES[kind](app)
 
 
 def remarked(found: designs.Read) -> str:

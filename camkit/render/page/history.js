@@ -41,6 +41,9 @@ export class History {
     this.loaded = now;
   }
 
+  /** What somebody else chooses next, whenever it comes, belongs to the last step, if that was theirs. */
+  goOn() { if (this.loaded > 0) this.loaded = Infinity; }
+
   /** What somebody else chooses from now on is a step of its own. */
   rest() { this.loaded = -Infinity; }
 

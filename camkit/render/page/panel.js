@@ -12,6 +12,7 @@ import { Table, judged, numberOf, told } from "./measures.js";
 import { Names } from "./names.js";
 import { Places } from "./places.js";
 import { listen } from "./pointer.js";
+import { Pull } from "./pull.js";
 import { Positions } from "./positions.js";
 import { Quantities } from "./quantities.js";
 import { Tabs } from "./tabs.js";
@@ -29,7 +30,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
  *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
- *   reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what
+ *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what
  *   stands behind the page, if anything does
  */
 
@@ -65,7 +66,7 @@ export class Panel {
   /** Leave the page. */
   end() {
     clearTimeout(this.resting); clearTimeout(this.reporting);
-    this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.end(); this.why.hide(); this.painting.stop(); this.handles.end();
+    this.leaving.abort(); this.engine.end?.(); this.resized.disconnect(); this.theme.end(); this.why.hide(); this.painting.stop(); this.handles.end(); this.pull.end();
     this.positions.playing = false; this.ended = true;
     this.root.classList.remove("camkit-refused");
     this.root.replaceChildren();
@@ -161,7 +162,9 @@ export class Panel {
     const explain = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => this.why.explain(element, measure);
     this.why = new Why(this);
     this.places = new Places(this);
-    this.verdict = new Verdict(explain, (element, measure) => { // a click goes there, or says why
+    this.pull = new Pull(this);
+    const chip = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => { explain(element, measure); this.pull.chip(element, measure); };
+    this.verdict = new Verdict(chip, (element, measure) => { // a click goes there, or says why
       if (this.places.go(measure)) this.why.hide(); else this.why.show(element, measure);
     }, () => this.places.goTo(this.plain(this.structure.trouble)));
     this.table = new Table(explain);

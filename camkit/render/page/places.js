@@ -8,8 +8,8 @@ const LONG = 1800; // ms for which a place is shown
 const TOLD = /\bat ([-\u2212]?\d+(?:\.\d+)?)(?: to ([-\u2212]?\d+(?:\.\d+)?))? (?:deg\b|°)/; // in a sentence
 const UNIT = /\[(.*?)\]/;
 
-/** @typedef {{chart: import("./picture.js").Chart, x: number, y: number, miss: number}} Place in units of the axes; `miss`: how
- * far the curve is from the number there, a share */
+/** @typedef {{chart: import("./picture.js").Chart, x: number, y: number, miss: number, inverse: boolean}} Place in units of
+ * the axes; `miss`: how far the curve is from the number there, a share; `inverse`: the curve is of 1 over the number */
 
 export class Places {
   /** @param {import("./panel.js").Panel} panel */
@@ -35,7 +35,7 @@ export class Places {
         for (const i of new Set([highest, lowest, farthest].filter((place) => place >= 0))) {
           const found = y[i] * factor, of = (same(1) ? found : 1 / found) / value;
           const miss = Math.abs((i === farthest ? Math.abs(of) : of) - 1); // of what is farthest from 0 its size is meant
-          if (miss < ALIKE && miss < (best?.miss ?? Infinity)) best = { chart, x: x[x.length === 1 ? 0 : i], y: y[i], miss };
+          if (miss < ALIKE && miss < (best?.miss ?? Infinity)) best = { chart, x: x[x.length === 1 ? 0 : i], y: y[i], miss, inverse: !same(1) };
         }
       }
     }

@@ -61,6 +61,7 @@ async function view({ model, el }) {
     },
     back: (/** @type {any} */ { make, values }) => ask({ back: [make, values] }),
     pin: (/** @type {any} */ { make, values }, /** @type {number[]} */ at) => model.send({ pin: [make, values, at] }),
+    seek: (/** @type {string} */ name, /** @type {number} */ value) => ask({ seek: [name, value] }),
     reset: () => ask({ reset: true }),
     choose: (/** @type {string} */ path, /** @type {string} */ option) => ask({ choose: [path, option] }),
     file: (/** @type {string} */ kind) => { saving = true; ask({ file: kind }); },
@@ -130,6 +131,7 @@ async function view({ model, el }) {
       if (message.named) void ready.then(() => panel.names.hear(message.named));
       if (message.stand) void ready.then(() => stand(panel, message.stand));
       if (message.pinned) void ready.then(() => pinDrawn(panel, message, arrays(buffers)));
+      if (message.sought !== undefined) panel?.pull.hear();
       if (message.still) panel?.redraw(message.pictures, arrays(buffers), message.values);
     },
     "comm_live_update": left, // it happens once more after the beginning: at the end
