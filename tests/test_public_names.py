@@ -198,6 +198,7 @@ GOOD = {
     "k": lambda: 2,
     "laws": lambda: (camkit.Cycloidal(),),
     "limit": lambda: 1e6,
+    "of": lambda: STUDY,
     "diameters": lambda: [0.02, 0.04],
     "inner": lambda: "inner_diameter",
     "lengths": lambda: [0.02, 0.04],

@@ -75,8 +75,12 @@ class CabinDoorLinkage(Links):
     measures = (*SWEEP, excess(), max_departure(), max_pressure_angle, room_in(HOUSING))
     makers = MAKERS
 
-    start_angle: float = quantity("phi_a", 15, -180, 180, "deg", "crank angle with the door shut", above=None)
-    end_angle: float = quantity("phi_b", 105, -180, 360, "deg", "crank angle with the door open", above=None)
+    start_angle: float = quantity(
+        "phi_a", 15, -180, 180, "deg", "crank angle with the door shut", above=None, asked=True
+    )
+    end_angle: float = quantity(
+        "phi_b", 105, -180, 360, "deg", "crank angle with the door open", above=None, asked=True
+    )
     branch: int = choice("", Branch.plus, tuple(Branch), "which of the two ways it is assembled")
     load: RockerLoad = field(default_factory=RockerLoad)
 

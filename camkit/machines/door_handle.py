@@ -68,10 +68,12 @@ class DoorHandleCam(Design):
     lift_centre_distance: float = quantity("a_1", 74.24, 60, 110, "mm", "cam axis to lift pivot")
     relief_centre_distance: float = quantity("a_2", 100, 85, 120, "mm", "cam axis to relief pivot")
     roller_radius: float = quantity("r_T", 5, 1, 12, "mm", "both rollers")
-    lift_swing: float = quantity("tau_1", 69, 40, 80, "deg", "swing of the lift crank")
-    relief_swing: float = quantity("tau_2", 10, 2, 20, "deg", "swing of the relief crank")
+    lift_swing: float = quantity("tau_1", 69, 40, 80, "deg", "swing of the lift crank", asked=True)
+    relief_swing: float = quantity("tau_2", 10, 2, 20, "deg", "swing of the relief crank", asked=True)
     relief_cam_angle: float = quantity("phi_2", 30, 15, 90, "deg", "handle angle for the relief crank")
-    handle_angle: float = quantity("phi", 180, 120, 200, "deg", "handle angle in all; the rest is for the lift crank")
+    handle_angle: float = quantity(
+        "phi", 180, 120, 200, "deg", "handle angle in all; the rest is for the lift crank", asked=True
+    )
     motion_law: Any = choice("law", Cycloidal(), LAW_MENU, "motion law of both cranks")
     lift_load: ArmLoad = field(default_factory=ArmLoad)
     """What the lift crank resists with; its speed, gravity and direction of straight up are those of both cranks."""

@@ -81,9 +81,9 @@ class HighSpeedCam(FreeLawCam):
 
     load: Any = choice("M", InertialSpringLoad(), LOADS, "what the arm resists with")
     centre_distance: float = quantity("L", 200, 100, 400, "mm", "cam axis to arm pivot")
-    swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm")
-    rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away")
-    return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back")
+    swing: float = quantity("PS", 30, 2, 60, "deg", "swing of the arm", asked=True)
+    rise_angle: float = quantity("phi_1", 90, 30, 170, "deg", "cam angle over which the arm swings away", asked=True)
+    return_angle: float = quantity("phi_2", 90, 30, 170, "deg", "cam angle over which the arm swings back", asked=True)
     speed: float = quantity(
         "n", 100, 10, 200, "%", "for the rated speed load and spring are given", name="speed, % of rated"
     )

@@ -1,6 +1,7 @@
 """Live panels for JupyterLab: sliders on one side, pictures and numbers of the same design on the other."""
 
 from ..quantities.extras import extra
+from ..study.tolerances import general_tolerances
 
 with extra("camkit.panels"):
     from .ahp import AhpPanel, ahp_panel
@@ -15,7 +16,7 @@ with extra("camkit.panels"):
     from .presets import presets
     from .program import ProgramEditor, edit_program
     from .shortlist import shortlist
-    from .tolerances import TolerancePanel, general_tolerances, tolerance_panel
+    from .tolerances import TolerancePanel, tolerance_panel
 
 __all__ = [
     "AhpPanel",

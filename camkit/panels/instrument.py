@@ -43,6 +43,7 @@ from .kit.keeper import Keeper
 from .kit.makes import Makes
 from .kit.seek import pull
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
+from .kit.yields import Made
 
 if TYPE_CHECKING:
     from ..render.still import Still
@@ -51,7 +52,7 @@ AGREED = 1e-9
 """Page and kernel differ by less than such a share of a measure's size."""
 
 
-class Instrument(Displayed, anywidget.AnyWidget):
+class Instrument(Made, Displayed, anywidget.AnyWidget):
     """A design under sliders; the page computes and draws it, the kernel is told what a person settles on.
 
     ``design`` is what is shown, the last one that could be built; setting it moves the page.  ``on_change(f)`` calls
@@ -85,6 +86,7 @@ class Instrument(Displayed, anywidget.AnyWidget):
         turn: float | None = None,
         azimuth: float | None = None,
         elevation: float | None = None,
+        tolerances: Mapping[Any, Any] | None = None,
     ) -> None:
         refuse_arguments(Instrument.__init__, locals())
         refuse_design(design, "the design of the panel")
@@ -93,17 +95,15 @@ class Instrument(Displayed, anywidget.AnyWidget):
         self.analysis: Any = None
         self.measures = limited(measures_of(design) if measures is None else measures, at_most, at_least)
         self.limits = {"at_most": at_most, "at_least": at_least}
-        self._chosen, self._free = (
-            tuple(views),
-            tuple(Paths(design, free).declared) if free is not None and len(free) else None,
-        )
+        self._chosen = tuple(views)
+        self._free = tuple(Paths(design, free).declared) if free is not None and len(free) else None
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
         self._followers: list[Callable[..., object]] = []
         self._makes = Makes()
         self._now: list[float] = []
         self._overtaken: dict[object, float] = {}
-        super().__init__(design=design)
+        super().__init__(design=design, tolerances=tolerances)
         self._first = self._now
         self._keeper = Keeper(self)
         self.observe(lambda _: self._keeper.keep(), "page")
@@ -394,7 +394,7 @@ def explore(design: Analysable, *views: View, free: Sequence[str] | None = None,
     law is chosen, the sliders of its coefficients appear.
     ``measures`` (default: all of the design) are listed with their value now, at the start and the change; ``at_most``
     and ``at_least`` map measures to limits; ``turn`` is the cam angle (rad) at which the mechanism stands first,
-    ``azimuth`` and ``elevation`` where it is seen from in space.  The result's ``.design`` is a plain design for the
-    next cell.
+    ``azimuth`` and ``elevation`` where it is seen from in space.  The yield is that of parts within ``tolerances`` (see
+    `Study.under`; default: `general_tolerances`).  The result's ``.design`` is a plain design for the next cell.
     """
     return Instrument(design, views, free, **options)

@@ -11,8 +11,9 @@ from ..quantities import Quantity, value_of, words
 from ..quantities.kinds import refuse_arguments
 from ..render.figure import picture, small_png
 from ..search.front import Front
+from ..study.spread import Tolerance
 from ..study.study import Study
-from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance
+from ..study.tolerances import SPREADS, AnalysisCurve, Tolerances, general_tolerance, general_tolerances
 from ..views.picture import Picture
 from ..views.tolerances import cloud, deviation, sobol_bars
 from .instrument import Instrument
@@ -45,7 +46,7 @@ class TolerancePanel(Panel):
     ``study`` says what is limited.  ``half_widths`` names the dimensions that spread, with their first tolerance (SI);
     without them these are the study's free quantities with general tolerances (ISO 2768-1, class m).  ``curves`` are
     those whose bands are drawn.  ``front`` is anything with a ``.front`` that changes (a `Search`), or a front.
-    ``tolerances`` is what is shown.
+    ``tolerances`` is what is shown; what is in the sliders are the explorer's tolerances, too.
     """
 
     def __init__(
@@ -143,6 +144,8 @@ class TolerancePanel(Panel):
                 self.refuse_picture(f"This cannot be made: {refusal}.")
                 return
             self.tolerances = made
+            spread = made.spread
+            self.explorer.tolerances = {name: Tolerance(made.half_widths[name], spread) for name in made.names}
             self.numbers.put(HEADS, self._rows())
             self.refuse_picture("")
 
@@ -179,12 +182,6 @@ class TolerancePanel(Panel):
         half = (f"{words(n)} ± {made.declared[n].text(v)}" for n, v in made.half_widths.items())
         rows = (f"{name}: {drawn}, parts {low} to {high}" for name, drawn, low, high, _ in self._rows())
         return "\n".join([f"{', '.join(half)}: {100 * made.share:.1f} % of parts keep all limits", *rows])
-
-
-def general_tolerances(study: Study) -> dict[str, float]:
-    """The general tolerance of every free quantity of a study, SI."""
-    refuse_arguments(general_tolerances, locals())
-    return {path: general_tolerance(q, x) for (path, q), x in zip(study.declared.items(), study.x0, strict=True)}
 
 
 def tolerance_panel(

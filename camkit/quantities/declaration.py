@@ -67,6 +67,7 @@ class Quantity:
     ``low, high`` does: a thousand times what a slider offers is a slip, and nothing overflows before.
     What may not be below 0 is 0 or at least `BELOW` times that largest: one can divide by it without overflow.
     ``name`` is what people call it, if its field, in a part with a name of its own, says less (see `label`).
+    What is ``asked`` of the mechanism, such as a swing, is no size that a workshop makes.
     """
 
     symbol: str
@@ -79,6 +80,7 @@ class Quantity:
     at_least: float | None = None
     at_most: float | None = None
     name: str = ""
+    asked: bool = False
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
@@ -108,12 +110,10 @@ class Quantity:
 
     @cached_property
     def _most(self) -> float:
-        """The largest size in SI."""
         return self.most * self.factor
 
     @cached_property
     def _least(self) -> float:
-        """What a number above 0 must be at least, SI."""
         return self._top * BELOW * self.factor if self.above == 0 else -np.inf
 
     @property
@@ -269,14 +269,15 @@ def quantity(
     at_least: float | None = None,
     at_most: float | None = None,
     name: str = "",
+    asked: bool = False,
 ) -> Any:
     """A dataclass field for one number, all arguments in ``unit``.
 
     ``low`` and ``high`` are what a slider offers.  What is possible at all is ``above`` (strictly,
     0 unless said otherwise; ``None``: any finite number) or ``at_least``, and a size of ``at_most`` (a thousand
-    times what a slider offers, unless said otherwise).  ``name`` is its name where its field says less.
+    times what a slider offers, unless said otherwise).  ``name`` and ``asked``: see `Quantity`.
     """
-    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least, at_most, name)
+    declared = Quantity(symbol, default, low, high, unit, meaning, above, at_least, at_most, name, asked)
     return field(default=default * declared.factor, metadata={"declared": declared})
 
 

@@ -15,7 +15,7 @@ MODULES = (
     *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
     *("positions", "pointer", "files", "kernel", "parts", "theme"),
     *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "beside", "verdict", "quantities"),
-    *("tabs", "why", "handles", "places", "pull", "names", "panel", "session", "cell"),
+    *("made", "tabs", "why", "handles", "places", "pull", "names", "panel", "session", "cell"),
 )
 """What every page is made of, each on those before it."""
 STYLE = "\n".join((PAGE / name).read_text(encoding="utf-8") for name in ("panel.css", "sheet.css"))

@@ -7,7 +7,7 @@ from .robust import RobustStudy
 from .spread import Source, Tolerance, en_10210, iso_286, iso_2768
 from .study import Evaluation, Study
 from .sweep import Sweep
-from .tolerances import AnalysisCurve, Indices, Tolerances
+from .tolerances import AnalysisCurve, Indices, Tolerances, general_tolerances
 from .weighted import WeightedSum, weighted
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Tolerances",
     "WeightedSum",
     "en_10210",
+    "general_tolerances",
     "iso_286",
     "iso_2768",
     "weighted",

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import Measure, Paths, Quantity, counted, floats, value_of, words
+from ..quantities import Analysable, Measure, Paths, Quantity, counted, floats, quantities_of, value_of, words
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor
 from .spread import SPREADS, iso_2768, spread_shares
@@ -23,6 +23,7 @@ ANGLES = ("cam_angle", "crank_angle")
 """Over what a curve may be drawn."""
 CONFIDENCE = 0.95
 
+LENGTHS, ANGLE_UNITS = ("mm", "cm", "m"), ("deg", "rad")
 ISO_ANGLE = 0.5 * deg
 """ISO 2768-1:1989, table 3, class m, for an angle whose shorter leg is between 10 and 50 mm."""
 OTHERWISE = 0.01
@@ -39,11 +40,37 @@ def general_tolerance(declared: Quantity, value: float) -> float:
     (0.3, 0.5)
     """
     refuse_arguments(general_tolerance, locals())
-    if declared.unit in ("deg", "rad"):
+    if declared.unit in ANGLE_UNITS:
         return ISO_ANGLE
-    if declared.unit in ("mm", "cm", "m"):
+    if declared.unit in LENGTHS:
         return float(iso_2768(value))
     return OTHERWISE * abs(value)
+
+
+def general_tolerances(of: Study | Analysable) -> dict[str, float]:
+    """The general tolerances (ISO 2768-1, class m) of what a study frees, or of the sizes of a design, SI.
+
+    Sizes are the lengths and angles of the design itself and of mechanisms that it holds: no load, speed, material,
+    law or motion, nothing that is ``asked`` of the mechanism, and nothing that could not be built at its least.
+
+    >>> from camkit import TranslatingRollerCam
+    >>> {path: 1e3 * half for path, half in general_tolerances(TranslatingRollerCam()).items()}
+    {'base_radius': 0.2, 'roller_radius': 0.2, 'offset': 0.1}
+    """
+    refuse_arguments(general_tolerances, locals())
+    if isinstance(of, Study):
+        return {path: general_tolerance(q, x) for (path, q), x in zip(of.declared.items(), of.x0, strict=True)}
+    sizes = {path: q for path, q in quantities_of(of).items() if _is_size(of, path, q)}
+    values = zip(sizes.items(), Paths(of, sizes).values(of), strict=True)
+    halves = ((path, q, x, general_tolerance(q, x)) for (path, q), x in values)
+    return {path: half for path, q, x, half in halves if q.allows(x - half)}
+
+
+def _is_size(design: object, path: str, declared: Quantity) -> bool:
+    """Whether a quantity is a length or an angle that a mechanism is made with."""
+    for name in path.split(".")[:-1]:
+        design = getattr(design, name, None)
+    return declared.unit in (*LENGTHS, *ANGLE_UNITS) and not declared.asked and hasattr(design, "analyse")
 
 
 @dataclass(frozen=True)

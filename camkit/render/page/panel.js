@@ -4,6 +4,7 @@ import { make } from "./controls.js";
 import { fill, format } from "./numbers.js";
 import { button, filesOf, screenOf } from "./bar.js";
 import { Handles } from "./handles.js";
+import { Made } from "./made.js";
 import { History } from "./history.js";
 import { Around } from "./around.js";
 import { besideOf, drawnOf, measureOf, turn } from "./beside.js";
@@ -167,6 +168,7 @@ export class Panel {
     this.verdict = new Verdict(chip, (element, measure) => { // a click goes there, or says why
       if (this.places.go(measure)) this.why.hide(); else this.why.show(element, measure);
     }, () => this.places.goTo(this.plain(this.structure.trouble)));
+    this.made = new Made(this);
     this.table = new Table(explain);
     this.note = make("div", { class: "camkit-note", role: "status", hidden: true });
     this.over = make("div", { class: "camkit-over", role: "alert", hidden: true });

@@ -27,6 +27,8 @@ export class Verdict {
     });
     new ResizeObserver(() => this._count()).observe(this.chips);
     /** @type {{element: HTMLElement, name: HTMLElement, words: Text, more: HTMLElement, m: any}[]} */ this.made = [];
+    /** Chips that stand before those of measures. @type {HTMLElement[]} */ this.first = [];
+    this.count = 0;
   }
 
   /** @param {import("./measures.js").Judged[]} rows @param {string} trouble @param {import("./units.js").Units} units */
@@ -63,8 +65,15 @@ export class Verdict {
       made.words.data = ` ${words} `;
       made.more.textContent = more;
     });
-    if (this.chips.childElementCount === chips.length) return;
-    this.chips.replaceChildren(...this.made.slice(0, chips.length).map(({ element }) => element));
+    if (this.count === chips.length) return;
+    this.count = chips.length;
+    this.putFirst(this.first);
+  }
+
+  /** Other chips before those of measures. @param {HTMLElement[]} first */
+  putFirst(first) {
+    this.first = first;
+    this.chips.replaceChildren(...first, ...this.made.slice(0, this.count).map(({ element }) => element));
   }
 
   /** The chips below those that are shown. @returns {any[]} */
@@ -104,7 +113,7 @@ function verdictOf(limited, trouble, others) {
 }
 
 /** A button that is no native one, as its words may stand in lines. @param {HTMLElement} element @param {() => void} act */
-function pressed(element, act) {
+export function pressed(element, act) {
   element.addEventListener("click", act);
   element.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;

@@ -53,6 +53,13 @@ export class Why {
     clearTimeout(this.timer);
     if (!measure || !this.panel.outputs) return;
     Object.assign(this, { at, measure, design: this._design });
+    if (measure.lines) { // words of its own
+      this.element.replaceChildren(make("h2", {}, measure.name),
+        ...measure.lines.map((/** @type {string} */ words) => make("p", {}, ...lettered(this.panel.words(words)))));
+      this.element.hidden = false;
+      this._place();
+      return;
+    }
     const { why } = measure, now = this.panel.numbers.find((/** @type {any} */ m) => m.name === measure.name);
     const line = (/** @type {string} */ name, /** @type {string} */ words) =>
       make("p", {}, make("b", {}, `${name} `), ...lettered(words.replace(/``?/g, "")));

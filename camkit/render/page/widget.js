@@ -106,9 +106,11 @@ async function view({ model, el }) {
     panel.goOn();
     if (first) void stand(panel, model.get("page"));
     session.ask();
+    tell();
+    if (panel.structure.measures.some((/** @type {any} */ m) => m.limit !== undefined)) model.send({ made: true });
     if (!known(model)) left();
   };
-  const left = () => { if (panel) { panel.left = true; alone(panel, model.get("program").byteLength > 0); } };
+  const left = () => { if (panel) { panel.left = true; tell(); alone(panel, model.get("program").byteLength > 0); } };
   /** Whether the panel is of the make that the kernel shows: else another one is on its way. */
   const current = () => panel?.structure.make === model.get("structure").make;
   const moved = () => {
@@ -119,10 +121,12 @@ async function view({ model, el }) {
     panel.say(sentence);
     setTimeout(() => { if (panel.note.textContent === sentence) panel.say(""); }, SAID);
   };
+  const tell = () => panel?.made.hear(model.get("made"));
   const heard = {
     "change:structure": begin, // and with it the program, which may be the same
     "change:program": begin,
     "change:tabs": dock,
+    "change:made": tell,
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
