@@ -29,7 +29,7 @@ from ..views.parallel import Designs
 from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.drawn import LivePicture
-from .kit.front_picker import objective_texts, place_on
+from .kit.front_picker import costs, objective_texts, place_on
 from .kit.inputs import Menu, Span
 from .kit.parts import Banner, Button, Group, Table, Words, row
 from .kit.quiet import Quiet
@@ -158,7 +158,7 @@ class ChoosePanel(Panel):
         self._draw()
         self.map.show(self.shown)
         self.numbers.put(*self._table())
-        self._verdict.say(*self.sureness)
+        self._verdict.say(*self.sureness, *costs(self.source.front, dict.fromkeys(self.shown.winners.values())))
         self._show_band()
 
     # ------------------------------------------------------------ bands

@@ -167,7 +167,7 @@ class LiveParetoPanel(FrontPanel):
                 return
             self.refuse_picture("")
             here = self._here()
-            self.numbers.say(*self.picker.choice.verdict(), self._in_sliders(here))
+            self.numbers.say(*self.picker.verdict(), self._in_sliders(here))
             self.picture.offer(*self.picker.offered)
             self.picture.show(LiveFront(front, self._before(), here, self.winner))
 

@@ -13,6 +13,7 @@ from ..quantities.types import Array
 from ..search.minimise import METHODS
 from ..search.minimum import Minimum
 from ..search.protocol import Evaluated, Step, search
+from ..search.rates import told_of_limits
 from ..study.study import Study, named_studies
 from ..views.progress import ShownLooks, best_so_far
 from .instrument import Instrument
@@ -95,7 +96,8 @@ class OptimisePanel(JobPanel):
             self._lines = (f"{self._measure.name}: {self._text(first)} → {self._text(last)}", why)
             self.explorer.load(self.study.design(x))
         result, reached = self._lines
-        self.verdict.say(bold(result), reached)
+        rates = self.minimum.rates if self.minimum and self.minimum.feasible else {}
+        self.verdict.say(bold(result), reached, *told_of_limits(self.study, rates))
 
     @property
     def _measure(self) -> Measure:

@@ -227,7 +227,7 @@ class ParetoPanel(JobPanel, FrontPanel):
             start = np.array([measure(analysis) for measure in self.study.minimise])
             self.picture.offer(*self.picker.offered)
             self.picture.show(ShownFront(front, self.picker.selected, self.winner, start))
-            self.verdict.say(*self.picker.choice.verdict())
+            self.verdict.say(*self.picker.verdict())
             self.record.say(record_text(front.record))
         self._tell_followers()
 

@@ -14,6 +14,7 @@ from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..study.recheck import Recheck
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
+from .rates import slope_on_front
 
 
 class Price(NamedTuple):
@@ -94,6 +95,22 @@ class Front(Generic[D]):
         point = np.maximum(nominal.f.max(0), self.f.max(0))
         share = 1 - self.hypervolume(point) / nominal.hypervolume(point) if len(nominal) > 1 else float("nan")
         return Price(share, self.f.min(0) - nominal.f.min(0))
+
+    def rates(self, i: SupportsIndex) -> np.ndarray:
+        """What each objective costs the others at a design: ``(k, k)``, SI.
+
+        ``[a, b]`` is by how much objective ``b`` is worse where ``a`` is better by one.  From the designs next to it
+        (see `slope_on_front`); ``nan`` at the ends of a front, and where there are other than two objectives, among
+        which no single rate is known.
+        """
+        place, k = self._place(i), len(self.study.minimise)
+        if place.ndim:
+            raise ValueError(f"the place on the front is {shown(i)}; it must be one whole number")
+        rates = np.full((k, k), np.nan)
+        if k == 2:
+            rates[0, 1] = -slope_on_front(self.f, int(place))
+            rates[1, 0] = 1 / rates[0, 1] if rates[0, 1] else np.inf
+        return rates
 
     def judged_by(self, study: Study[D]) -> Front[D]:
         """The same designs under a study with other objectives (for instance new AHP weights), dominated ones out."""

@@ -86,6 +86,12 @@ class Epigraph:
         return np.append(np.repeat(np.arange(len(heads)), heads), np.full(sum(limits), -1))
 
     @cached_property
+    def limit(self) -> np.ndarray:
+        """The number of the limit of each column, -1 of those of the objective."""
+        heads, limits = self._sizes
+        return np.append(np.repeat(-1, sum(heads)), np.repeat(np.arange(len(limits)), limits))
+
+    @cached_property
     def even(self) -> np.ndarray:
         """Some of the columns, evenly from each part and limit."""
         sizes = [*self._sizes[0], *self._sizes[1]]

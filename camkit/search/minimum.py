@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, NamedTuple
 
 import numpy as np
@@ -11,9 +12,8 @@ from ..quantities import D, Measure, PeakMeasure, label
 from ..study.study import Evaluation, Study
 from ..study.weighted import parts_of
 from ..units import deg
+from .rates import CLOSE, multipliers
 
-CLOSE = 1e-4
-"""A peak or a limit is active if it is reached to within this share of it."""
 SAME = 1e-3
 """Starts whose ends differ by less than this share found the same."""
 
@@ -51,6 +51,19 @@ class Minimum(Generic[D]):
     message: str = ""
     descended: np.ndarray | None = None
     """Free values where a descent from ``x`` ends; ``None`` after a search that is a descent itself."""
+
+    @cached_property
+    def rates(self) -> dict[Measure | str, float]:
+        """How the objective changes with each limit (by its measure) and bound (by its path) that holds the design.
+
+        SI over SI, to first order, where the limit moves outwards and the design follows (see `multipliers`).  ``nan``
+        where the search has not come to a minimum.
+
+        >>> from camkit import minimise, shaft_study
+        >>> {getattr(k, "name", k): f"{rate:.4g}" for k, rate in minimise(shaft_study()).rates.items()}
+        {'utilisation of the twist': '-0.003906', 'inner_diameter': '-0.05895'}
+        """
+        return multipliers(self.study, self.x)
 
     @property
     def design(self) -> D:

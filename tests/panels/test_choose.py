@@ -392,6 +392,18 @@ def test_the_band_is_called_after_its_axis(source):
         assert panel.band.description == name
 
 
+def test_what_a_wish_costs_the_other_is_told_for_each_winner():
+    """Evenly spaced, the parabola through three points has the slope of the chord between the outer two."""
+    front = a_front(2)
+    panel = choose_panel(Source(front, ahp_panel(Judgements(["width", "area"], [1]))))
+    told = [line for line in panel._verdict.value if "costs" in line]
+    (width, area_), inner = (front.f / (mm, -(mm**2))).T, [i for i in panel.shown.index if 0 < i < len(front) - 1]
+    chords = {i: (area_[i + 1] - area_[i - 1]) / (width[i + 1] - width[i - 1]) for i in inner}
+    assert told == [f"at design {i}: 1 mm less width costs {c:.4g} mm^2 less area." for i, c in chords.items()]
+    assert told
+    assert not [line for line in choose_panel(Source(a_front(3)))._verdict.value if "costs" in line]
+
+
 # --- judgements typed and left open -----------------------------------------------------------------------------------
 
 

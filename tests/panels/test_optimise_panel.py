@@ -184,6 +184,8 @@ def test_the_optimum_comes_into_the_sliders_with_the_reason(app):
     assert lines[1] == f"stress index F_sigma: {peak_stress.text(first)} → {peak_stress.text(best.f)}"
     assert lines[2] == best.message
     assert "radius at the far dwell 140 mm (upper bound)" in panel.verdict.text
+    gain = peak_stress.text(-best.rates["max_radius"] * mm)
+    assert f"1 mm more room for the radius at the far dwell: {gain} less {peak_stress.name}." in panel.verdict.text
     assert f"best so far {peak_stress.text(best.f)}" in panel.runner.status.text
     panel.back.click()
     assert app.design == FIRST

@@ -19,7 +19,7 @@ from camkit.machines.door_handle import (
     door_handle_study,
     lift_curve_study,
 )
-from camkit.panels.kit.front_picker import FrontChoice, place_on
+from camkit.panels.kit.front_picker import FrontChoice, costs, place_on
 from camkit.panels.kit.latest_only import Debounced
 from camkit.panels.kit.parts import plain
 from camkit.panels.kit.quiet import Quiet
@@ -174,6 +174,16 @@ def test_the_winner_is_the_rules_own_and_said_with_its_units(front, rule):
     assert f"lift arm {front.x[choice.winner, 0] / mm:.4g}"[:11] in free
     assert choice.summary().splitlines()[0] == f"{len(front)} designs on the front; winner by {rule}:"
     assert len(choice.summary().splitlines()) == 3
+
+
+def test_what_one_objective_costs_the_other_at_a_design(front):
+    i = len(front) // 2
+    first, second = front.study.minimise
+    cost = 0.01 * front.rates(i)[0, 1]  # the first, the effort, has no unit
+    assert cost > 0
+    assert costs(front, [0, i]) == [
+        f"at design {i}: 0.01 less {first.name} costs {second.text(cost)} less {second.name}."
+    ]
 
 
 def test_a_front_without_a_design_has_no_winner():

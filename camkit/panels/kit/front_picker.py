@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ from ...decision import CHOOSERS
 from ...quantities import Analysable, label, quantities_of, value_of
 from ...quantities.types import Array
 from ...search.front import Front
+from ...search.rates import told_on_front
 from ...study.study import Study
 from ...views.front import Judged, shown_objectives
 from .drawn import nearest
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
 def objective_texts(study: Study, f: Array, between: str = " ") -> list[str]:
     """A design's objectives ``f`` by name, with their units."""
     return [f"{m.name}{between}{m.text(m.sign * v)}" for m, v in zip(study.minimise, f, strict=True)]
+
+
+def costs(front: Front, places: Iterable[int]) -> list[str]:
+    """What one objective costs the other at some designs of a front, where that is known."""
+    told = {i: told_on_front(front.study.minimise, front.rates(i)) for i in places}
+    return [f"at design {i}: {sentence}" for i, sentence in told.items() if sentence]
 
 
 def places_on(front: Judged, design: Analysable) -> np.ndarray:
@@ -138,6 +145,12 @@ class FrontPicker:
             if self.selected is not None and self.pick.value not in places:
                 self.pick.value = self.selected
             self.pick.value = min(self.pick.value, self.pick.max)
+
+    def verdict(self) -> list[Line]:
+        """The winner in words, and what the objectives cost each other there and at the design in the sliders."""
+        front = self.choice.front
+        places = dict.fromkeys(i for i in (self.choice.winner, self.selected) if i is not None)
+        return [*self.choice.verdict(), *costs(front, places)]
 
     @property
     def moved(self) -> bool:
