@@ -14,17 +14,18 @@ from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
-from .. import extrema
-from ..extrema import Extreme
+from ..extrema import Extreme, raised
 from ..geometry import Body, rotated
 from ..motion import Kinematics, Law, MotionProgram
+from ..motion.closing import TURN
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
 from ..quantities import counted, quantities_of, unless
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from . import bodies, statics
-from .force_closure import ContactPair, contact_along
+from .extremes import highest, lowest
+from .force_closure import ContactPair, contact_along, index_of_wear
 from .measures import number
 from .undercut import undercut_in_words
 
@@ -134,6 +135,11 @@ class CamAnalysis(ABC):
     @abstractmethod
     def pressure_angle(self) -> np.ndarray:
         """``alpha``, signed: between the contact normal and the way the follower goes where it is touched, rad."""
+
+    @property
+    @abstractmethod
+    def profile_radii(self) -> Array:
+        """Radii of curvature of the profile at `seen_at`, the least as `profile_margin` has it, m."""
 
     @property
     @abstractmethod
@@ -277,6 +283,11 @@ class CamAnalysis(ABC):
         pair = self.cam.contact
         return contact_along(self, pair).pressure if isinstance(pair, ContactPair) else np.nan * self.contact_force
 
+    @property
+    def wear_index(self) -> np.ndarray:
+        """``F sqrt(F kappa)``, force times index of stress, N^1.5 m^-0.5; ``nan`` where there is no contact."""
+        return index_of_wear(self.contact_force * self.loaded_flank, self.fit)
+
     @cached_property
     def rubbing(self) -> statics.Rubbing:
         """Contact force and cam torque with friction."""
@@ -321,6 +332,41 @@ class CamAnalysis(ABC):
         angle = np.broadcast_to(angle, size.shape)
         return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in (size, angle)))
 
+    def between(self, low: float, high: float) -> Self:
+        """The same cam seen between two cam angles (rad) alone: extremes are those there.
+
+        From 350 to 10 deg it is seen past the start of the turn, from 30 to 30 deg there alone.
+        """
+        if (low, high) not in self._zones:
+            shown, (jumps, leaps, at) = self.resolution.between(low, high, self.program.span), self._corners
+            inside = (at - low) % TURN <= (high - low) % TURN
+            zone = self.at(shown.angle)
+            corners = np.where(inside, jumps, 0.0), np.where(inside, leaps, 0.0), at
+            zone.__dict__.update(resolved=zone, resolution=shown, buildable=self.buildable, _corners=corners)
+            self._zones[low, high] = zone
+        return self._zones[low, high]
+
+    @cached_property
+    def _zones(self) -> dict[tuple[float, float], Self]:
+        """What `between` has made: an objective and a limit often ask for the same."""
+        return {}
+
+    def seen(self, f: Callable[[Self], Value], way: int = 1) -> Array:
+        """``f(analysis)`` at `seen_at`, each peak raised to its top, the largest as `highest` has it.
+
+        ``way`` = -1: each valley, the least as `lowest` has it.
+        """
+        shown = self.resolved
+        values = raised(way * f(shown) + 0.0 * shown.cam_angle, self.resolution.inner)
+        most = way * np.expand_dims(self._extreme(f, way).value, -1)
+        top = values >= values.max(-1, keepdims=True)
+        return way * np.minimum(np.where(top, np.inf, values), most)
+
+    @property
+    def seen_at(self) -> Array:
+        """The cam angles that show every peak, rad."""
+        return self.resolved.cam_angle
+
     def highest(self, f: Callable[[Self], Value]) -> Extreme:
         """The largest value of ``f(analysis)`` over the cam, whichever cam angles the analysis has."""
         return self._extreme(f, 1)
@@ -341,21 +387,3 @@ def over_the_motion(kind: type[Kind], cam: Any, n: int) -> Kind:
     analysis = kind(cam, np.linspace(0, 1, counted(n, "cam angles")) * cam.motion.span)
     analysis.refuse_impossible()
     return analysis
-
-
-def highest(analysis: Kind, f: Callable[[Kind], Value]) -> Extreme:
-    """The largest value of ``f(analysis)`` over the cam, whether it can be built or not."""
-    shown, resolution = analysis.resolved, analysis.resolution
-    if analysis.rough:
-        return extrema.roughly_highest(resolution.angle, f(shown), resolution.inner)
-
-    def value(angle: Array) -> Value:
-        return f(shown if angle is resolution.angle else analysis.at(angle))
-
-    return extrema.highest(value, resolution.angle, resolution.inner)
-
-
-def lowest(analysis: Kind, f: Callable[[Kind], Value]) -> Extreme:
-    """As `highest`, for the least value."""
-    value, angle = highest(analysis, lambda at: -f(at))
-    return Extreme(-value, angle)

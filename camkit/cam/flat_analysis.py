@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..extrema import Extreme
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 from .analysis import CamAnalysis
 
 
@@ -66,9 +66,16 @@ class FlatAnalysis(CamAnalysis):
 
         ``-inf`` where the follower's speed drops at once: the face cuts off the corner.
         """
-        found, corner = self.lowest(lambda analysis: analysis.profile_radius), self.corner(-1)
+        found, corner = self.lowest(_radius), self.corner(-1)
         drops = (corner.value > 0) & ~np.isnan(found.value)
         return Extreme(np.where(drops, -np.inf, found.value)[()], np.where(drops, corner.cam_angle, found[1])[()])
+
+    @property
+    def profile_radii(self) -> Array:
+        """Radii of curvature of the profile at `seen_at`, the least as `profile_margin` has it, m."""
+        values = self.seen(_radius, -1)
+        least = np.expand_dims(self.profile_margin.value, -1)
+        return np.where(values <= values.min(-1, keepdims=True), least, values)
 
     groove: ClassVar[bool] = False
     curvature_limit: ClassVar[str] = ""
@@ -122,3 +129,7 @@ class FlatAnalysis(CamAnalysis):
     def outer_profile(self) -> np.ndarray:
         """``nan``: there is no outer flank."""
         return np.nan * self.profile
+
+
+def _radius(analysis: FlatAnalysis) -> Array:
+    return analysis.profile_radius

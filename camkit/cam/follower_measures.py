@@ -6,7 +6,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from ..quantities import Measure
+from ..quantities import LeastMeasure, Measure
 from ..quantities.types import Value
 from .analysis import CamAnalysis
 from .force_closure import ContactPair, jump_speed, torque_balance
@@ -14,22 +14,27 @@ from .measures import (
     CURVE,
     base_radius,
     groove_gap,
+    least_over_cam,
     max_pressure_angle,
     mean_efficiency,
     number,
-    peak,
+    over_cam,
     peak_force,
     peak_torque,
+    seen_at,
 )
 
-_force = attrgetter("contact_force")
-
-min_profile_radius = Measure(
-    "minimum convex radius of curvature, profile", "mm", lambda a: a.profile_margin.value, in_trouble=True
+min_profile_radius = LeastMeasure(
+    "minimum convex radius of curvature, profile",
+    "mm",
+    lambda a: a.profile_margin.value,
+    angle=seen_at,
+    points=lambda a: a.profile_radii,
+    in_trouble=True,
 )
 undercut_place = Measure("cam angle of the minimum convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("minimum width of the face", "mm", lambda a: a.face_width)
-min_force = Measure("minimum contact force", "N", lambda a: a.lowest(_force).value)
+min_force = least_over_cam("minimum contact force", "N", attrgetter("contact_force"))
 
 
 def _mean_torque(analysis: CamAnalysis) -> Value:
@@ -51,7 +56,7 @@ leaving_speed = Measure("speed at which the follower leaves the cam", "rpm", jum
 jump_margin = Measure("overspeed before the follower leaves the cam", "%", _overspeed)
 
 
-peak_pressure = Measure("peak contact pressure", "MPa", peak(attrgetter("contact_pressure")))
+peak_pressure = over_cam("peak contact pressure", "MPa", attrgetter("contact_pressure"))
 """The largest Hertz pressure along a cam whose contact is given; ``nan`` if a flank is undercut."""
 ContactPair.measures = (peak_pressure,)
 

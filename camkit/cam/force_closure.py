@@ -188,6 +188,18 @@ def contact_choice() -> Any:
     return choice("C", NoContact(), (NoContact(), ContactPair()), "materials and width, for the pressure between them")
 
 
+def index_of_wear(force: Array, curvature: Array) -> Array:
+    """``F sqrt(F kappa)`` of the ``curvature`` of both surfaces together; ``nan`` where undercut or pulled apart.
+
+    >>> print(index_of_wear(np.array([100.0, -1.0]), np.array([400.0, 400.0])))
+    [20000.    nan]
+
+    Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (``F_wear = N F_sigma``).
+    """
+    with np.errstate(invalid="ignore"):
+        return np.where((force >= 0) & (curvature > 0), force * np.sqrt(force * curvature), np.nan)
+
+
 def contact_along(analysis: Any, pair: ContactPair) -> LineContact:
     """Pressure, half width, largest shear and its depth along the cam, on the flank that gives the force.
 

@@ -6,13 +6,15 @@ Each takes an analysis with a ``cam_angle`` axis last, so it serves one design a
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..quantities import Measure
-from ..quantities.types import Value
+from ..geometry import end_to_end
+from ..quantities import CurveMeasure, LeastMeasure, Measure, PeakMeasure
+from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:
     from .analysis import CamAnalysis
@@ -28,9 +30,29 @@ def peak(f: Callable[[Any], Value]) -> Callable[[Any], Value]:
     return lambda analysis: analysis.highest(f).value
 
 
-def _min_radius(side: int) -> Callable[[RollerAnalysis], Value]:
+def over_cam(name: str, unit: str, f: Callable[[Any], Value]) -> PeakMeasure:
+    """The largest value of ``f`` over the cam, of which a search sees every cam angle."""
+    return PeakMeasure(name, unit, peak(f), angle=seen_at, points=lambda analysis: analysis.seen(f))
+
+
+def least_over_cam(name: str, unit: str, f: Callable[[Any], Value]) -> LeastMeasure:
+    """The least value of ``f`` over the cam, of which a search sees every cam angle."""
+    return LeastMeasure(name, unit, lambda a: a.lowest(f).value, angle=seen_at, points=lambda a: a.seen(f, -1))
+
+
+def seen_at(analysis: CamAnalysis) -> Array:
+    """The cam angles that show every peak, rad."""
+    return analysis.seen_at
+
+
+def _min_radius(kind: str, side: int) -> LeastMeasure:
     """The least radius of the pitch curve where it is convex (``side`` = 1) or hollow (-1); ``inf`` if nowhere."""
-    return lambda analysis: radius_of(analysis.sharpest(side).value)
+    name = f"minimum {kind} radius of curvature, pitch curve"
+
+    def points(analysis: RollerAnalysis) -> Value:
+        return radius_of(analysis.bends(side))
+
+    return LeastMeasure(name, "mm", lambda a: radius_of(a.sharpest(side).value), angle=seen_at, points=points)
 
 
 def number(value: Value) -> Value:
@@ -46,12 +68,24 @@ def radius_of(curvature: Value) -> Value:
 
 def _groove_margin(analysis: RollerAnalysis) -> Value:
     """``1 - r_T kappa`` on the inner flank, ``1 + r_T kappa`` on a groove's outer one too, at its least."""
-    sides = (1, -1) if analysis.groove else (1,)
-    r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in sides]
+    r, most = number(analysis.cam.roller_radius), [analysis.sharpest(side).value for side in _flanks(analysis)]
+    return _room(r, reduce(np.maximum, most))
+
+
+def _groove_margins(analysis: RollerAnalysis) -> Array:
+    """The same at every cam angle, on one flank and then on the other."""
+    r = np.asarray(analysis.cam.roller_radius)
+    return end_to_end(*(_room(r, analysis.bends(side)) for side in _flanks(analysis)))
+
+
+def _flanks(analysis: RollerAnalysis) -> tuple[int, ...]:
+    return (1, -1) if analysis.groove else (1,)
+
+
+def _room(r: Value, curvature: Value) -> Array:
     with np.errstate(invalid="ignore"):
-        margin = 1 - r * reduce(np.maximum, most)
-    cornered = reduce(np.logical_or, map(np.isinf, most))
-    return np.where((r == 0) & cornered, 1.0, margin)[()]  # a knife edge fits into every corner
+        margin = 1 - r * curvature
+    return np.where((r == 0) & np.isinf(curvature), 1.0, margin)[()]  # a knife edge fits into every corner
 
 
 def mean_over(analysis: CamAnalysis | ConjugatePairAnalysis, name: str) -> Value:
@@ -88,29 +122,43 @@ def work_ratio(analysis: CamAnalysis | ConjugatePairAnalysis) -> Value:
     return np.where(np.isnan(eta).any(-1), np.nan, np.where(jammed, 0.0, ratio))
 
 
-max_pressure_angle = Measure("maximum pressure angle", "deg", peak(lambda a: abs(a.pressure_angle)))
+max_pressure_angle = over_cam("maximum pressure angle", "deg", lambda a: abs(a.pressure_angle))
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
-min_convex_radius = Measure("minimum convex radius of curvature, pitch curve", "mm", _min_radius(1))
-min_concave_radius = Measure("minimum concave radius of curvature, pitch curve", "mm", _min_radius(-1))
-undercut_margin = Measure("undercut margin", "", _groove_margin, in_trouble=True)
+min_convex_radius, min_concave_radius = _min_radius("convex", 1), _min_radius("concave", -1)
+undercut_margin = LeastMeasure(
+    "undercut margin", "", _groove_margin, angle=seen_at, points=_groove_margins, in_trouble=True
+)
 groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap, in_trouble=True)
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
 it is an estimate from above, and where nothing but neighbours along the curve is near it tells of them, up to 1.14
 radii."""
-peak_force = Measure("peak contact force", "N", peak(lambda a: abs(a.contact_force)))
-peak_torque = Measure("peak cam torque without friction", "N mm", peak(lambda a: abs(a.cam_torque)))
+peak_force = over_cam("peak contact force", "N", lambda a: abs(a.contact_force))
+peak_torque = over_cam("peak cam torque without friction", "N mm", lambda a: abs(a.cam_torque))
+peak_wear = over_cam("wear index", "N^1.5 mm^-0.5", lambda a: a.wear_index)
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "efficiency"))
 published_mean_efficiency = Measure(
     "mean efficiency, published formula", "%", lambda a: mean_over(a, "published_efficiency")
 )
 work_efficiency = Measure("work efficiency", "%", work_ratio)
 
+
+def _acceleration(analysis: CamAnalysis) -> Array:
+    return abs(analysis.acceleration)
+
+
+def _travel(analysis: CamAnalysis) -> Array:
+    return analysis.motion.s
+
+
 MOTION = (
-    Measure("peak velocity", "", peak(lambda a: abs(a.velocity))),
-    Measure("peak acceleration", "1/rad", peak(lambda a: abs(a.acceleration))),
-    Measure("peak jerk", "1/rad^2", peak(lambda a: abs(a.jerk))),
+    over_cam("peak velocity", "", lambda a: abs(a.velocity)),
+    over_cam("peak acceleration", "1/rad", _acceleration),
+    over_cam("peak jerk", "1/rad^2", lambda a: abs(a.jerk)),
 )
 """Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
+SLIDING = over_cam("travel", "mm", _travel), over_cam("peak acceleration", "mm/rad^2", _acceleration), peak_wear
+ROCKING = over_cam("travel", "deg", _travel), MOTION[1], peak_wear
+"""What a law can make small, or has to keep at some cam angles, beside what the tables show; travel from level 0."""
 
 CURVE = (
     max_pressure_angle,
@@ -130,16 +178,31 @@ ARM_CURVE = (*CURVE, published_mean_efficiency, groove_gap)
 
 def part(measure: Measure, name: str) -> Measure:
     """``measure`` of one curve of a machine that has several: ``part(max_pressure_angle, "lift")``."""
-    return Measure(
-        f"{measure.name}, {name}", measure.unit, lambda a: measure(getattr(a, name)), in_trouble=measure.in_trouble
+    told = f"{measure.name}, {name}"
+    if not isinstance(measure, CurveMeasure):
+        return Measure(told, measure.unit, lambda a: measure(getattr(a, name)), in_trouble=measure.in_trouble)
+    return replace(
+        measure,
+        name=told,
+        function=lambda a: measure.sign * measure(getattr(a, name)),
+        points=lambda a: measure.curve(getattr(a, name)),
+        angle=lambda a: getattr(a, name).seen_at,
     )
 
 
 def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = np.maximum) -> Measure:
     """The largest (``of=np.minimum``: least) value of ``measure`` over several curves of a machine."""
-    return Measure(
-        f"{measure.name}, worse curve",
-        measure.unit,
-        lambda a: reduce(of, [measure(getattr(a, name)) for name in names]),
-        in_trouble=measure.in_trouble,
+    told = f"{measure.name}, worse curve"
+
+    def whole(analysis: Any) -> Value:
+        return reduce(of, [measure(getattr(analysis, name)) for name in names])
+
+    if not isinstance(measure, CurveMeasure):
+        return Measure(told, measure.unit, whole, in_trouble=measure.in_trouble)
+    return replace(
+        measure,
+        name=told,
+        function=whole,
+        points=lambda a: end_to_end(*(measure.curve(getattr(a, name)) for name in names)),
+        angle=lambda a: end_to_end(*(getattr(a, name).seen_at for name in names)),
     )

@@ -26,14 +26,16 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
 from . import bodies
-from .analysis import lowest, over_the_motion
+from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
+from .extremes import lowest
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
 from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
+from .measures import ROCKING
 from .sizing import if_possible, refuse_radius
 
 
@@ -247,4 +249,4 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
         return self.contact_length
 
 
-OscillatingFlatCam.measures = (*FLAT_CURVE, jump_margin)
+OscillatingFlatCam.measures = (*FLAT_CURVE, jump_margin, *ROCKING)

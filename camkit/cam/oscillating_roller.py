@@ -30,7 +30,7 @@ from .directions import CLOSURES, ROTATIONS
 from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
-from .measures import ARM_CURVE
+from .measures import ARM_CURVE, ROCKING
 from .roller_analysis import RollerAnalysis
 
 
@@ -211,4 +211,4 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
         return self.cam.friction.published_efficiency(self._contact)
 
 
-OscillatingRollerCam.measures = ARM_CURVE
+OscillatingRollerCam.measures = (*ARM_CURVE, *ROCKING)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..extrema import Extreme
-from ..geometry import Body, Outline
+from ..geometry import Body, Outline, end_to_end
 from ..motion.resolution import Resolution
 from ..quantities import Design, choice, counted, declarations, quantity, words
 from ..quantities.types import Array, Value
@@ -180,6 +180,23 @@ class ConjugatePairAnalysis:
         """The same pair at the cam angles of its `resolution`."""
         return replace(self, cam_angle=self.resolution.angle)
 
+    def between(self, low: float, high: float) -> ConjugatePairAnalysis:
+        """The same pair seen between two cam angles (rad) alone (see `CamAnalysis.between`)."""
+        both = {name: curve.between(low, high) for name, curve in self.curves.items()}
+        zone = replace(self, cam_angle=both["first"].cam_angle)
+        zone.__dict__.update(both, resolved=zone)
+        return zone
+
+    def seen(self, f: Callable[[Any], Value], way: int = 1) -> Array:
+        """As `highest` and `lowest` see it, at `seen_at`: of the first cam and then of the second."""
+        shown = _Pushing(f) if way > 0 else f
+        return end_to_end(*(curve.seen(shown, way) for curve in self.curves.values()))
+
+    @property
+    def seen_at(self) -> Array:
+        """The cam angles that show every peak, rad, of the first cam and then of the second."""
+        return end_to_end(*(curve.seen_at for curve in self.curves.values()))
+
     def highest(self, f: Callable[[Any], Value]) -> Extreme:
         """The largest value of ``f`` of one of both cams over the angles at which that cam pushes."""
         return _larger(*(curve.highest(_Pushing(f)) for curve in self.curves.values()))
@@ -192,6 +209,11 @@ class ConjugatePairAnalysis:
     def profile_margin(self) -> Extreme:
         """The smaller of both cams' least convex radii, m; at or below 0 the follower cuts that cam away."""
         return _smaller(*(curve.profile_margin for curve in self.curves.values()))
+
+    @property
+    def profile_radii(self) -> Array:
+        """Radii of curvature of both profiles at `seen_at`, m."""
+        return end_to_end(*(curve.profile_radii for curve in self.curves.values()))
 
     @property
     def bodies(self) -> tuple[Body, ...]:

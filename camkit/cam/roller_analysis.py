@@ -71,6 +71,17 @@ class RollerAnalysis(CamAnalysis):
         value, angle = (np.where(jumps, *pair)[()] for pair in ((np.inf, found.value), (corner.cam_angle, found[1])))
         return Extreme(value, angle)
 
+    def bends(self, side: int) -> Array:
+        """The convex (``side`` = 1) or hollow (-1) curvature at `seen_at`, its largest as `sharpest` has it, 1/m."""
+        values = self.seen(_convex if side > 0 else _concave)
+        most = np.expand_dims(self.sharpest(side).value, -1)
+        return np.where(values >= values.max(-1, keepdims=True), most, values)
+
+    @property
+    def profile_radii(self) -> Array:
+        """Radii of curvature of the inner flank at `seen_at`, the least as `profile_margin` has it, m."""
+        return radius_of(self.bends(1)) - self.cam.roller_radius
+
     def _margin(self, flank: int) -> Extreme:
         most, angle = self.sharpest(flank)
         return Extreme(radius_of(most) - number(self.cam.roller_radius), angle)

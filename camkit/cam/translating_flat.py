@@ -22,13 +22,15 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
-from .analysis import lowest, over_the_motion
+from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
+from .extremes import lowest
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
 from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
+from .measures import SLIDING
 from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
 
@@ -176,4 +178,4 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
         return 1.0 + 0.0 * self.height
 
 
-TranslatingFlatCam.measures = (*FLAT_CURVE, jump_margin)
+TranslatingFlatCam.measures = (*FLAT_CURVE, jump_margin, *SLIDING)

@@ -23,13 +23,14 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
-from .analysis import highest, over_the_motion
+from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
+from .extremes import highest
 from .follower_measures import ROLLER_CURVE, jump_margin
 from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
-from .measures import number
+from .measures import SLIDING, number
 from .roller_analysis import RollerAnalysis
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
@@ -233,4 +234,4 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
         return self.height / self._size
 
 
-TranslatingRollerCam.measures = (*ROLLER_CURVE, jump_margin)
+TranslatingRollerCam.measures = (*ROLLER_CURVE, jump_margin, *SLIDING)

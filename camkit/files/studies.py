@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ..quantities import Design, Measure, measures_of, quantities_of
+from ..quantities import CurveMeasure, Design, Measure, measures_of, quantities_of
 from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..quantities.types import Array
 from ..study.study import Study, refuse_bounds
@@ -65,8 +65,9 @@ def study_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[M
         raise ValueError("the file is damaged: the start of its study is no design")
     named = _declared_measures(start)
     signs = {k: m.sign for k, m in named.items()}
+    own = {_key(m): m for each in measures for m in (each, each.whole) if m}
     made = [
-        _made(k, given, start)
+        _made(k, given, start, named | own)
         for k, given in reading.renaming.entries("measure", mapping(entry["made"], "made")).items()
     ]
     named |= {_key(m): m if m.sign == signs.get(_key(m), 1) else -m for m in (*made, *measures)}
@@ -149,10 +150,10 @@ def _declared_measures(start: object) -> dict[str, Measure]:
     return {_key(m): m for m in measures_of(start)}
 
 
-def _made(k: str, entry: Given, start: Design) -> Measure:
-    """A measure that one of the mechanism's makers makes of numbers and words."""
+def _made(k: str, entry: Given, start: Design, named: Mapping[str, Measure]) -> Measure:
+    """A measure that is made of numbers and words, by one of the mechanism's makers or from a measure of a curve."""
     name, *given = listed(entry.value, entry.name) or [None]
-    how = type(start).makers.get(name) if isinstance(name, str) else None
+    how = {**type(start).makers, **_zones(k, named)}.get(name) if isinstance(name, str) else None
     try:
         measure = how(*(_given(value) for value in given)) if how else None
     except (TypeError, ValueError):
@@ -160,6 +161,16 @@ def _made(k: str, entry: Given, start: Design) -> Measure:
     if measure is None or _key(measure) != k:
         raise ValueError(f"the file is damaged: what it says of {shown(entry.name)} does not make this measure")
     return measure
+
+
+def _zones(k: str, named: Mapping[str, Measure]) -> dict[str, Callable[..., Measure | None]]:
+    """What makes the measure of key ``k``, of a curve at one cam angle or between two, from that of the whole curve."""
+
+    def zone(way: str, name: str, *angles: float) -> Measure | None:
+        whole = named.get(name + "".join(k.partition(" [")[1:]))
+        return getattr(whole, way)(*angles) if isinstance(whole, CurveMeasure) else None
+
+    return {way: partial(zone, way) for way in ("at", "between")}
 
 
 def _given(value: object) -> object:

@@ -5,7 +5,7 @@ Source: Gong, Liu, He, Nanjing University of Aeronautics and Astronautics, 2025.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
@@ -52,6 +52,12 @@ class DoorHandleAnalysis:
     def relief(self) -> OscillatingRollerAnalysis:
         """The relief curve, in the frame of its own (mirrored) crank."""
         return OscillatingRollerAnalysis(self.cam.relief, self.cam_angle, rough=self.rough)
+
+    def between(self, low: float, high: float) -> DoorHandleAnalysis:
+        """Both curves seen between two handle angles (rad) alone (see `CamAnalysis.between`)."""
+        zone = replace(self)
+        zone.__dict__.update({name: curve.between(low, high) for name, curve in self.curves.items()})
+        return zone
 
     @property
     def curves(self) -> dict[str, OscillatingRollerAnalysis]:

@@ -80,6 +80,13 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         )
         return part
 
+    def between(self, low: float, high: float) -> HighSpeedAnalysis:
+        """The same cam seen between two cam angles (rad) alone."""
+        zone = super().between(low, high)
+        for part in (zone, zone.moving):
+            part.__dict__.update({name: getattr(self, name) for name in OF_THE_WHOLE})
+        return zone
+
     @cached_property
     def rise(self) -> HighSpeedAnalysis:
         """The interval in which the arm swings away."""

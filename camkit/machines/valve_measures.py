@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..cam.follower_measures import jump_margin, leaving_speed
-from ..cam.measures import max_pressure_angle, peak, peak_force
+from ..cam.measures import max_pressure_angle, over_cam, peak_force
 from ..quantities import Measure
 from ..quantities.kinds import listed, refuse_arguments
 from ..study.study import Space, Study
@@ -24,9 +24,9 @@ peak_acceleration = Measure("peak positive acceleration", "m/s^2", lambda a: a.p
 nose_radius = Measure("radius at the nose (flat follower)", "mm", lambda a: a.nose_radius)
 min_radius = Measure("minimum convex radius of curvature", "mm", lambda a: a.profile_margin.value)
 min_concave_radius = Measure("minimum concave radius of curvature", "mm", lambda a: a.min_concave_radius)
-face_reach = Measure("reach of the contact on a flat face", "mm", peak(lambda a: abs(a.velocity)))
-peak_stress = Measure("peak contact stress", "MPa", peak(lambda a: a.contact_stress))
-peak_camshaft_torque = Measure("peak camshaft torque", "N m", peak(lambda a: abs(a.cam_torque)))
+face_reach = over_cam("reach of the contact on a flat face", "mm", lambda a: abs(a.velocity))
+peak_stress = over_cam("peak contact stress", "MPa", lambda a: a.contact_stress)
+peak_camshaft_torque = over_cam("peak camshaft torque", "N m", lambda a: abs(a.cam_torque))
 
 VALVE_MEASURES = (
     fullness,

@@ -12,6 +12,7 @@ import numpy as np
 from ..geometry import end_to_end
 from ..quantities.known import known
 from ..quantities.types import Array, Value
+from .closing import TURN
 from .law import Kinematics, polynomial
 
 if TYPE_CHECKING:
@@ -61,10 +62,43 @@ class Resolution(NamedTuple):
 
     def of(self, segments: Sequence[int]) -> Resolution:
         """The angles of some segments alone."""
-        here, shares = self.within(segments), tuple(piece for piece in self.shares if piece[0] in segments)
-        sizes = (self.last - self.first + 1)[here[self.first]]
-        ends = np.cumsum(sizes)
-        return Resolution(self.angle[..., here], ends - sizes, ends - 1, self.moves[here], shares)
+        return self._of_pieces(np.array([i in segments for i, _ in self.shares]))
+
+    def _of_pieces(self, wanted: Array) -> Resolution:
+        sizes = self.last - self.first + 1
+        here, ends = np.repeat(wanted, sizes), np.cumsum(sizes[wanted])
+        shares = tuple(piece for piece, kept in zip(self.shares, wanted, strict=True) if kept)
+        return Resolution(self.angle[..., here], ends - sizes[wanted], ends - 1, self.moves[here], shares)
+
+    def between(self, low: float, high: float, span: Value) -> Resolution:
+        """As many angles of each piece between two cam angles (rad) alone; past the start if the first is larger.
+
+        Where both are the same, that angle alone; ``nan`` beyond the ``span`` of the motion.
+        """
+        low, high = (x if 0 <= x <= TURN else x % TURN for x in (low, high))
+        zones = [(low, high)] if low <= high else [(low, TURN), (0.0, high)]
+        first, *others = [self._between(np.where(a <= span, a, np.nan), np.minimum(b, span)) for a, b in zones]
+        return first._followed_by(others[0]) if others else first
+
+    def _between(self, low: Array, high: Array) -> Resolution:
+        """A piece that lies elsewhere is left out; where joints differ from design to design it shrinks to an end."""
+        begins, ends = self.angle[..., self.first], self.angle[..., self.last]
+        begin, end = (np.minimum(np.maximum(x, low), high) for x in (begins, ends))
+        piece = np.repeat(np.arange(len(self.first)), self.last - self.first + 1)
+        share = (self.angle - begins[..., piece]) / (ends - begins)[..., piece]
+        shown = self._replace(angle=begin[..., piece] + share * (end - begin)[..., piece])
+        inside = end > begin
+        if not known(inside) or inside.ndim > 1 or np.isnan(begin).any():
+            return shown
+        return shown._of_pieces(inside if inside.any() else np.arange(len(inside)) == 0)
+
+    def _followed_by(self, other: Resolution) -> Resolution:
+        n = self.angle.shape[-1]
+        first, last = (
+            np.concatenate([mine, its + n]) for mine, its in ((self.first, other.first), (self.last, other.last))
+        )
+        moves = np.concatenate([self.moves, other.moves])
+        return Resolution(end_to_end(self.angle, other.angle), first, last, moves, self.shares + other.shares)
 
 
 def resolve(

@@ -47,12 +47,13 @@ from .declaration import (
 from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
 from .known import certain, floats, known, text_if, text_of, unless
 from .markup import words
-from .measure import LeastMeasure, Measure, PeakMeasure
+from .measure import CurveMeasure, LeastMeasure, Measure, PeakMeasure
 from .tree import Paths, choices_of, declared_in, label, members, quantities_of, value_of, with_quantities
 
 __all__ = [
     "Analysable",
     "Choice",
+    "CurveMeasure",
     "D",
     "Declared",
     "Design",

@@ -112,7 +112,7 @@ def _measures_below(part: Declared) -> Iterator[Measure]:
 
 def refuse_unmeasured(design: object, measures: Iterable[Measure], what: str) -> None:
     """``ValueError`` in a sentence for a measure of a part that a choice of ``design`` offers and is not chosen."""
-    lacking = {measure.function: measure for measure in measures}
+    lacking = {(measure.whole or measure).function: measure for measure in measures}
     for measure in measures_of(design):
         lacking.pop(measure.function, None)
     for path, declared in choices_of(design).items() if lacking else ():

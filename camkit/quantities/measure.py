@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any, ClassVar, Self, cast
 
 import numpy as np
 
-from ..units import factor, in_unit
+from ..units import deg, factor, in_unit
 from .applied import applied
 from .kinds import one_number, plain, refuse_kinds, shown
 from .known import known, text_of
@@ -34,6 +34,8 @@ class Measure:
     sign: int = 1
     made: tuple[object, ...] = field(default=(), repr=False, compare=False, kw_only=True)
     """How a file can have it made again: the name of one of the design's `makers`, and what that was given."""
+    whole: Measure | None = field(default=None, repr=False, compare=False, kw_only=True)
+    """The measure that is seen at some cam angles alone, of one that is (see `CurveMeasure`)."""
     in_trouble: bool = field(default=False, repr=False, compare=False, kw_only=True)
     """Whether the ``trouble`` of the analysis says it in words where it is below 0."""
 
@@ -94,11 +96,92 @@ class Measure:
 
 
 @dataclass(frozen=True)
-class PeakMeasure(Measure):
+class CurveMeasure(Measure):
+    """The largest or the least value of a curve, of which a search sees every point and not only that one.
+
+    ``function`` gives the curve, its points last; where it gives the largest or least value itself, and more exactly,
+    ``points`` give the curve.  ``angle`` says at which cam angle each point stands.
+    """
+
+    way: ClassVar[int]
+    """+1 for the largest value, -1 for the least."""
+    angle: Callable[[Any], np.ndarray] | None = field(default=None, repr=False, compare=False)
+    points: Callable[[Any], Value] | None = field(default=None, repr=False, compare=False)
+
+    def curve(self, analysis: object) -> np.ndarray:
+        """The value at every point, before the sign."""
+        with applied(f"the {self.name}", analysis):
+            curve = self.points(analysis) if self.points else self.given(analysis)
+        if not np.ndim(curve) or not np.shape(curve)[-1]:
+            which = "largest" if self.way > 0 else "least"
+            raise ValueError(
+                f"the {self.name} gives {shown(curve)}; it is the {which} value of a curve, its points last"
+            )
+        return cast(np.ndarray, curve)
+
+    def __call__(self, analysis: object) -> Value:
+        if self.points:
+            return super().__call__(analysis)
+        curve = self.curve(analysis)
+        return self.sign * (curve.max(-1) if self.way > 0 else curve.min(-1))
+
+    def at(self, angle: float) -> Measure:
+        """The curve's value at one cam angle (rad), a checkpoint: a measure that can be an objective or have a limit.
+
+        >>> from camkit import TranslatingRollerCam, deg
+        >>> from camkit.cam import max_pressure_angle
+        >>> steep = max_pressure_angle.at(30 * deg)
+        >>> print(f"{steep.name}: {steep.text(steep(TranslatingRollerCam().analyse()))}")
+        maximum pressure angle at 30 deg: 13.49 deg
+
+        Raises ``ValueError`` for what is no angle, and for an analysis that cannot be seen at one angle alone.
+        """
+        angle = self._cam_angle(angle)
+        how: Any = {"made": ("at", self.name, angle), "whole": self}
+        function, name = _seen(self, angle, angle), f"{self.name} at {_degrees(angle)}"
+        return Measure(name, self.unit, lambda analysis: self.sign * function(analysis), self.sign, **how)
+
+    def between(self, low: float, high: float) -> Self:
+        """The largest or least value between two cam angles (rad), such as 340 and 20 deg: a measure as `at` makes one.
+
+        >>> from camkit import TranslatingRollerCam, deg
+        >>> from camkit.cam import max_pressure_angle
+        >>> zone = max_pressure_angle.between(340 * deg, 20 * deg)
+        >>> print(f"{zone.name}: {zone.text(zone(TranslatingRollerCam().analyse()))}")
+        maximum pressure angle, 340 to 20 deg: 7.056 deg
+
+        Raises ``ValueError`` for what are no two angles, and for an analysis that cannot be seen between two angles.
+        """
+        low, high = self._cam_angle(low), self._cam_angle(high)
+        if low == high:
+            raise ValueError(f"the {self.name} is to be seen from {_degrees(low)} to the same angle; take at() for one")
+        name = f"{self.name}, {low / deg:.6g} to {_degrees(high)}"
+        made = "between", self.name, low, high
+        seen: Any = {n: f and _seen(f, low, high) for n in ("function", "points", "angle") for f in [getattr(self, n)]}
+        return dataclasses.replace(self, name=name, made=made, whole=self, **seen)
+
+    def _cam_angle(self, angle: object) -> float:
+        if self.whole:
+            raise ValueError(f"the {self.name} is seen at some cam angles alone already")
+        must = "be from -360 to 360 deg; for 30 degrees write 30 * deg"
+        return one_number(angle, f"the cam angle (rad) of the {self.name}", must, lambda a: abs(a) <= 2 * np.pi)
+
+
+def _degrees(angle: float) -> str:
+    return f"{angle / deg:.6g} deg"
+
+
+def _seen(function: Callable[[Any], Value], low: float, high: float) -> Callable[[Any], Value]:
+    """``function`` of an analysis that is seen between two cam angles alone."""
+    return lambda analysis: function(analysis.between(low, high))
+
+
+@dataclass(frozen=True)
+class PeakMeasure(CurveMeasure):
     """The largest value of a curve: ``function`` gives the curve, its points last; the measure is their maximum.
 
     A search then sees every point and not only the largest, which jumps from one to another.  ``-PeakMeasure`` of
-    the negative curve is a least value.  ``angle`` says at which cam angle each point of the curve stands.
+    the negative curve is a least value.
 
     >>> import numpy as np
     >>> lowest = -PeakMeasure("least height", "mm", lambda analysis: -analysis["height"])
@@ -106,18 +189,11 @@ class PeakMeasure(Measure):
     0.02
     """
 
-    angle: Callable[[Any], np.ndarray] | None = field(default=None, repr=False, compare=False)
-
-    def curve(self, analysis: object) -> np.ndarray:
-        """The value at every point, before the sign."""
-        return _curve(self, analysis, "largest")
-
-    def __call__(self, analysis: object) -> Value:
-        return self.sign * self.curve(analysis).max(-1)
+    way = 1
 
 
 @dataclass(frozen=True)
-class LeastMeasure(Measure):
+class LeastMeasure(CurveMeasure):
     """The least value of a curve, or of several things such as the walls of a box: their points come last.
 
     A search, and a study under tolerances, then see every point, as they do of a `PeakMeasure`.
@@ -127,19 +203,4 @@ class LeastMeasure(Measure):
     0.02
     """
 
-    def curve(self, analysis: object) -> np.ndarray:
-        """The value at every point, before the sign."""
-        return _curve(self, analysis, "least")
-
-    def __call__(self, analysis: object) -> Value:
-        return self.sign * self.curve(analysis).min(-1)
-
-
-def _curve(measure: Measure, analysis: object, which: str) -> np.ndarray:
-    """What a measure gives that is the largest or least value of a curve."""
-    curve = measure.given(analysis)
-    if not np.ndim(curve) or not np.shape(curve)[-1]:
-        raise ValueError(
-            f"the {measure.name} gives {shown(curve)}; it is the {which} value of a curve, its points last"
-        )
-    return cast(np.ndarray, curve)
+    way = -1

@@ -100,7 +100,7 @@ class Epigraph:
     def columns(self, u: np.ndarray) -> np.ndarray:
         """All columns of designs ``(p, n)``; of a design that cannot be built all are ``BAD``."""
         heads, limits = self._blocks(u)
-        c = np.concatenate([*heads, *limits], axis=-1)
+        c = np.maximum(np.concatenate([*heads, *limits], axis=-1), -BAD)  # as infinite as a radius can be
         return np.where(np.isfinite(c).all(-1, keepdims=True), c, BAD)
 
     def at(self, u: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
-from ..quantities import D, Measure, PeakMeasure, label
+from ..quantities import CurveMeasure, D, Measure, label
 from ..study.study import Evaluation, Study
 from ..study.weighted import parts_of
 from ..units import deg
@@ -137,7 +137,7 @@ def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
     """Every peak of the objective, every limit and bound that is reached."""
     analysis = study.analysis(evaluation.x)
     objective = [part for _, part in parts_of(study.minimise[0])]
-    peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, PeakMeasure)]
+    peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, CurveMeasure) and m.way * m.sign > 0]
     limits = [
         _reached("limit", m, analysis, sense)
         for (m, _, sense), g in zip(study.limits, evaluation.g[0], strict=True)
@@ -152,10 +152,10 @@ def _reached(kind: str, measure: Measure, analysis: object, sense: int) -> Activ
 
 
 def _peak_angles(measure: Measure, analysis: object, sense: int) -> tuple[float, ...]:
-    """The angles at which a curve comes to its peak, one for each hill."""
-    if not isinstance(measure, PeakMeasure) or measure.angle is None or sense * measure.sign < 0:
+    """The angles at which a curve comes to its peak, or to its least value, one for each hill."""
+    if not isinstance(measure, CurveMeasure) or measure.angle is None or sense * measure.sign * measure.way < 0:
         return ()
-    curve, angle = np.ravel(measure.curve(analysis)), np.ravel(measure.angle(analysis))
+    curve, angle = measure.way * np.ravel(measure.curve(analysis)), np.ravel(measure.angle(analysis))
     padded = np.concatenate([[-np.inf], curve, [-np.inf]])
     hills = (curve >= padded[:-2]) & (curve > padded[2:]) & (curve >= curve.max() - CLOSE * abs(curve.max()))
     return tuple(float(a) for a in angle[hills])

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..quantities import LeastMeasure, Measure, PeakMeasure
+from ..quantities import CurveMeasure, Measure
 from ..quantities.kinds import finite, listed, one_number, shown
 from ..quantities.types import Value
 
@@ -75,7 +75,7 @@ def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
 def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.ndarray:
     """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
     sided = factor * measure.sign
-    if (isinstance(measure, PeakMeasure) and sided > 0) or (isinstance(measure, LeastMeasure) and sided < 0):
+    if isinstance(measure, CurveMeasure) and measure.way * sided > 0:
         curve = np.asarray(sided * measure.curve(analysis))
         return np.broadcast_to(curve, (p, curve.shape[-1]))
     return np.broadcast_to(factor * measure(analysis), p)[:, None]
