@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from .panels import live_pareto_panel as live_pareto_panel
     from .panels import optimise_panel as optimise_panel
     from .panels import pareto_panel as pareto_panel
+    from .panels import study_panel as study_panel
     from .panels import tolerance_panel as tolerance_panel
     from .panels.instrument import explore as explore
     from .panels.presets import presets as presets
@@ -79,6 +80,7 @@ _LATER = {
     "picture": "render.figure",
     "presets": "panels",
     "shortlist": "panels",
+    "study_panel": "panels",
     "to_html": "render.living",
     "tolerance_panel": "panels",
 }

@@ -16,6 +16,7 @@ with extra("camkit.panels"):
     from .presets import presets
     from .program import ProgramEditor, edit_program
     from .shortlist import shortlist
+    from .study import StudyPanel, study_panel
     from .tolerances import TolerancePanel, tolerance_panel
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "OptimisePanel",
     "ParetoPanel",
     "ProgramEditor",
+    "StudyPanel",
     "TolerancePanel",
     "ahp_panel",
     "choose_panel",
@@ -41,5 +43,6 @@ __all__ = [
     "pareto_panel",
     "presets",
     "shortlist",
+    "study_panel",
     "tolerance_panel",
 ]

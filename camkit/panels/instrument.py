@@ -19,12 +19,9 @@ from ..quantities import (
     Choice,
     Measure,
     Paths,
-    Quantity,
     declared_in,
-    label,
     measures_of,
     refuse_design,
-    value_of,
 )
 from ..quantities.applied import a_new_file, raised
 from ..quantities.kinds import refuse_arguments
@@ -33,7 +30,7 @@ from ..render.living import Living, limited, living
 from ..render.page_parts import STYLE, script
 from ..render.positions import positions_of, turn_range
 from ..study.study import refuse_limits
-from ..units import factor, in_unit
+from ..units import factor
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import changed, numbers_of, with_numbers
@@ -43,6 +40,7 @@ from .kit.keeper import Keeper
 from .kit.makes import Makes
 from .kit.seek import pull
 from .kit.sheet import IMPOSSIBLE, Sheet, reason
+from .kit.slider import slider_of
 from .kit.yields import Made
 
 if TYPE_CHECKING:
@@ -71,6 +69,8 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     message = traitlets.Unicode().tag(sync=True)
     tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
     """What stands beside the curves, by its title: sheets."""
+    opened = traitlets.Unicode().tag(sync=True)
+    """The tab that is to be seen now, by its title."""
     page = traitlets.Dict().tag(sync=True)
     """How the page was left beside its design: where it stands, what Undo goes back to, what is pinned."""
     design: Any = traitlets.Any()
@@ -99,7 +99,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         self._free = tuple(Paths(design, free).declared) if free is not None and len(free) else None
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
-        self._followers: list[Callable[..., object]] = []
+        self.followers: list[Callable[..., object]] = []
         self._makes = Makes()
         self._now: list[float] = []
         self._overtaken: dict[object, float] = {}
@@ -119,7 +119,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
 
     def on_change(self, act: Callable[..., object]) -> None:
         """Call ``act(design)`` after every change of what is shown."""
-        self._followers.append(act)
+        self.followers.append(act)
 
     def add_tab(self, title: str, *sheets: Sheet) -> None:
         """Show sheets in a tab of that title, in place of those that are there."""
@@ -140,26 +140,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
 
     def control(self, path: str) -> w.FloatSlider:
         """An ordinary slider for the quantity at ``path``, in its unit, linked both ways; it acts on release."""
-        declared: Quantity = Paths(self.design, [path], Quantity).declared[path]
-        low, high, name = declared.low, declared.high, label(path, declared)
-        step = 10 ** np.floor(np.log10((high - low) / 500))
-        # While it moves it would send back, too, what it is told, rounded to its steps.
-        slider = w.FloatSlider(min=low, max=high, step=step, description=name, continuous_update=False)
-
-        def follow(design: object) -> None:
-            value = in_unit(value_of(design, path), declared.unit)
-            slider.min, slider.max = min(slider.min, value), max(slider.max, value)  # else it would move the design
-            slider.value = value
-
-        def move(change: traitlets.Bunch) -> None:
-            numbers, asked = numbers_of(self.design), change.new * declared.factor
-            if abs(asked - self.values[list(numbers).index(path)]) > 1e-12 * declared.most * declared.factor:
-                self.values = list({**numbers, path: asked}.values())  # the page says why it cannot be, if it cannot
-
-        follow(self.design)
-        slider.observe(move, "value")
-        self.on_change(follow)
-        return slider
+        return slider_of(self, path)
 
     def _refuse_other(self, design: object) -> None:
         refuse_design(design, "the design")
@@ -246,7 +227,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
 
     def _tell_followers(self) -> None:
         """Each of them, whatever the others make of it."""
-        for act in self._followers:
+        for act in self.followers:
             try:
                 act(self.design)
             except IMPOSSIBLE as error:
@@ -288,6 +269,8 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
                 self._keeper.answer(message["session"])
             elif "seek" in message:
                 pull(self, *message["seek"])
+            elif "study" in message:
+                self._open_study()
             elif "compute" in message:
                 self._compute(message)
         except Exception as error:  # a page must always be answered
@@ -306,6 +289,11 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         """Whether what the page said last is of a design that was left since."""
         here, before = self._makes.last[0], self._overtaken.get(self.said.get("view"), -np.inf)
         return bool(self.said.get("at", np.inf) <= before or self.said.get("make", here) != here)
+
+    def _open_study(self) -> None:
+        from .study import StudyPanel  # it stands on this one
+
+        StudyPanel(self)
 
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])

@@ -355,12 +355,16 @@ def _structure(design: Analysable, free: Sequence[str] | None) -> dict[str, Json
     }
 
 
+def group_of(path: str, declared: Quantity) -> str:
+    """Among what a quantity stands on a page, in words."""
+    size = "size" if declared.unit in ("mm", "m", "um", "deg", "") else "power, speed, material"
+    return words(path.rpartition(".")[0]) or size
+
+
 def _quantity(path: str, declared: Quantity, value: float) -> dict[str, Json]:
     own = ("symbol", "unit", "low", "high", "meaning", "factor")
-    group, _, _ = path.rpartition(".")
-    size = "size" if declared.unit in ("mm", "m", "um", "deg", "") else "power, speed, material"
     return {
-        "group": words(group) or size,
+        "group": group_of(path, declared),
         "name": label(path, declared),
         "value": value,
         **{name: getattr(declared, name) for name in own},

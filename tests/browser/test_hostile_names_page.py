@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from camkit import *
 from camkit import contour_panel, tolerance_panel, compare_fronts, shortlist, choose_panel, edit_program, presets
+from camkit import study_panel
 from camkit.papers.published import Comparison, Row, Table
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from camkit.views.picture import Axes, Picture, Points
@@ -69,6 +70,7 @@ PANELS = (
     "compare_fronts(app, given={EVIL: found.front})",
     "contour_panel(app, {EVIL: Study(Evil(), space, (first,), at_most={limited: 5 * mm})}, {'x': 1.0})",
     "tolerance_panel(app, study())",
+    "study_panel(app, study())",
     "presets(app, {EVIL: {EVIL: lambda design: design}}, {EVIL: lambda design: design})",
     "edit_program(MotionProgram((Rise(2.0, 0.01, EvilLaw()), Dwell(1.0), Return(2.0, 0.01, EvilLaw()))))",
     "Evil()",

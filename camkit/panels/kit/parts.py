@@ -152,6 +152,8 @@ class Group(Part):
     look = traitlets.Unicode("").tag(page=True)
     description = traitlets.Unicode("").tag(page=True)
     """What is read aloud before each part in it."""
+    open = traitlets.Bool(False).tag(page=True)
+    """Of one that folds: it is unfolded when this becomes true."""
 
     def __init__(self, *children: Part, row: bool = False, **given: object) -> None:
         super().__init__(children=children, row=row, **given)

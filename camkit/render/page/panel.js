@@ -31,7 +31,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
  *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
- *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void}} Host what
+ *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void, study(): void}} Host what
  *   stands behind the page, if anything does
  */
 
@@ -181,6 +181,7 @@ export class Panel {
     const framed = curves.map((/** @type {HTMLElement} */ canvas) => make("div", { class: "camkit-curve" }, canvas));
     this.addTab("Curves", make("div", { class: "camkit-curves" }, ...framed), () => this._resize());
     this.addTab("Numbers", this.table.element, () => this.ask(true), true);
+    if (host?.study) this.addTab("Study", make("div", { class: "camkit-dock" }, "It opens as soon as its kernel is free."), () => host.study(), true);
     root.classList.add("camkit-page");
     const seen = make("div", { class: "camkit-seen" }, ...this.verdict.elements, this.middle); // in one column it stays in sight
     root.replaceChildren(this._bar(), this.note, seen, this.quantities.element, this.tabs.element, this.positions.element,

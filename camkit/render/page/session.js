@@ -105,7 +105,8 @@ export class Session {
     const left = standOf(panel), words = JSON.stringify([panel.structure.choices, [...panel.values], left]);
     if (words === this.told) return;
     this.told = words;
-    this.model.set("page", { ...left, number: (this.model.get("page").number ?? 0) + 1 }); // the design may be another one
+    const { study, number = 0 } = this.model.get("page"); // the kernel's own, and one more, since the design may be another one
+    this.model.set("page", { ...left, ...(study && { study }), number: number + 1 });
     this.model.save_changes();
   }
 }

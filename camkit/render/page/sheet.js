@@ -190,9 +190,9 @@ const KINDS = {
   group({ look: kind }, { sheet }) {
     const inside = make("div", {}), folds = ["fold", "room"].includes(kind), name = make("summary", { tabindex: "0" });
     const element = folds ? make("details", { class: "camkit-fold", open: kind === "room" && innerHeight >= ROOM, ontoggle: () => sheet.draw() }, name, inside) : inside;
-    return { element, inside, show(/** @type {any} */ { row, look, description }) {
+    return { element, inside, show(/** @type {any} */ { row, look, description, open }) {
       inside.className = `camkit-group ${row ? "camkit-line" : ""} ${look && !folds ? `camkit-${look}` : ""}`;
-      if (folds) name.textContent = description;
+      if (folds) { name.textContent = description; element.open ||= open; }
       else if (description) { element.setAttribute("role", "group"); element.setAttribute("aria-label", description); }
     } };
   },

@@ -67,6 +67,7 @@ async function view({ model, el }) {
     file: (/** @type {string} */ kind) => { saving = true; ask({ file: kind }); },
     open: (/** @type {string} */ text) => ask({ open: text }),
     name: (/** @type {any} */ asked) => ask({ session: asked }),
+    study: () => ask({ study: true }),
   };
   /** Before somebody can run a cell: what is shown, though a kernel that is at work on an earlier value is told no newer
    * one till it is done. @param {any} event */
@@ -127,6 +128,7 @@ async function view({ model, el }) {
     "change:program": begin,
     "change:tabs": dock,
     "change:made": tell,
+    "change:opened": () => { void dock().then(() => panel?.showTab(model.get("opened"))); },
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
