@@ -11,7 +11,8 @@ import numpy as np
 from ..quantities import CurveMeasure, Design, Measure, measures_of, quantities_of
 from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..quantities.types import Array
-from ..study.study import Study, refuse_bounds
+from ..study.free import refuse_bounds
+from ..study.study import Study
 from ..study.weighted import WeightedSum, weighted
 from ..units import factor
 from .checks import all_numbers, listed, mapping, plain

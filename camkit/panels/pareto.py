@@ -15,7 +15,8 @@ from ..quantities import Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
 from ..search.front import Front
 from ..search.protocol import Step
-from ..study.study import Study, named_studies, refuse_bounds
+from ..study.free import refuse_bounds
+from ..study.study import Study, named_studies
 from ..views.front import ShownFront, pareto
 from .ahp import AhpPanel
 from .instrument import Instrument

@@ -9,10 +9,13 @@ from pymoo.core.algorithm import Algorithm
 from pymoo.core.population import Population
 from pymoo.core.problem import Problem
 from pymoo.core.repair import Repair
+from pymoo.operators.crossover.sbx import SBX
+from pymoo.operators.mutation.pm import PM
 from pymoo.util.display.single import SingleObjectiveOutput
 from pymoo.util.optimum import filter_optimum
 
 from ..quantities.applied import applied
+from ..study.free import Menu
 from ..study.study import Study
 from .checkpoint import WORST
 from .protocol import on_grid
@@ -24,6 +27,8 @@ class StudyProblem(Problem):
     def __init__(self, study: Study) -> None:
         with applied("a search", study):
             low, high = study.bounds
+            self.menus = np.array([isinstance(free, Menu) for free in study.free.values()])
+            low, high = low - self.menus / 2, high + self.menus / 2  # as much room for each option
             counts = {"n_obj": len(study.minimise), "n_ieq_constr": len(study.limits)}
         super().__init__(n_var=len(study.free), xl=low, xu=high, **counts)
         self.study = study
@@ -39,7 +44,34 @@ class OnGrid(Repair):
 
     def _do(self, problem: Problem, x: np.ndarray, **kwargs: object) -> np.ndarray:
         low, high = problem.xl, problem.xu
-        return np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
+        x = np.clip(low + on_grid((x - low) / (high - low)) * (high - low), low, high)
+        return problem.study.rows(x) if problem.study.menus else x
+
+
+class _Exchange(SBX):
+    """Crossover of numbers by `SBX`; an option is that of one parent or the other."""
+
+    def _do(self, problem: Any, X: np.ndarray, *args: object, random_state: Any = None, **kwargs: object) -> np.ndarray:
+        crossed = super()._do(problem, X, *args, random_state=random_state, **kwargs)
+        other = random_state.random(X.shape[1:]) < 0.5
+        return np.where(problem.menus, np.where(other, X[::-1], X), crossed)
+
+
+class _Draw(PM):
+    """Mutation of numbers by `PM`; in place of an option any other is drawn."""
+
+    def _do(self, problem: Any, X: np.ndarray, *args: object, random_state: Any = None, **kwargs: object) -> np.ndarray:
+        mutated = super()._do(problem, X, *args, random_state=random_state, **kwargs)
+        drawn = random_state.uniform(problem.xl, problem.xu, X.shape)
+        again = random_state.random(X.shape) < self.get_prob_var(problem, size=len(X))[:, None]
+        return np.where(problem.menus, np.where(again, drawn, X), mutated)
+
+
+def mixed(study: Study, **given: Any) -> dict[str, Any]:
+    """What an algorithm of pymoo needs besides where menus are free among the numbers."""
+    if not study.menus:
+        return {}
+    return {"crossover": _Exchange(**given), "mutation": _Draw(), "repair": OnGrid()}
 
 
 class OneObjective(Algorithm):

@@ -23,6 +23,7 @@ from ..quantities.kinds import refuse_arguments
 from ..study.study import Evaluation, Study
 from .checkpoint import versions
 from .front import Front, dominated
+from .options import alone, fronts_of_options, refuse_many
 from .protocol import Step, on_grid
 from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
 
@@ -84,12 +85,16 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
     other free quantities.
     """
     *_, last = fast_front_steps(study, size, start)
-    return surviving(last.front, _roughly(study))
+    return last.front if study.menus else surviving(last.front, _roughly(study))
 
 
 def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Step]:
     """`quick_front` one round at a time; leave the loop to stop."""
     _refuse(study, start)
+    if study.menus:
+        steps = partial(_steps_with_options, size)
+        yield from fronts_of_options(study, steps, _roughly, start, lambda f: spread(f, size))
+        return
     began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
     coarse, room = _roughly(study), Room(_roughly(study))
@@ -113,6 +118,10 @@ def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) 
         yield Step(number + 1, pace.rounds + LAST_ROUNDS, study, found, designs, record=record)
 
 
+def _steps_with_options(size: int, study: Study, start: Front | None) -> Iterator[Step]:
+    return fast_front_steps(study, size, start) if study.free else alone(study)
+
+
 def _roughly(study: Study) -> Study:
     """The study as most of the rounds see it."""
     return study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
@@ -125,11 +134,14 @@ def _exactly(study: Study, archive: Archive, size: int) -> Evaluation:
 
 def _refuse(study: Study, start: Front | None) -> None:
     refuse_arguments(_refuse, locals())
-    n, objectives = len(study.free), len(study.minimise)
+    refuse_many(study, "a quick front", "nsga2()")
+    n, objectives = max(len(made.study.free) for made in study.options.each()), len(study.minimise)
     if n > MOST_FREE:
         raise ValueError(f"a quick front takes up to {MOST_FREE} free quantities; this study has {n}: take nsga2()")
     if objectives < 2:
         raise ValueError("a quick front takes two or more objectives; this study has one: take minimise")
+    if start is not None and start.study.menus != study.menus:
+        raise ValueError("the start has other menus, or other options in them, than this study")
     if start is not None and tuple(start.study.free) != tuple(study.free):
         raise ValueError(
             f"the start has the free quantities {', '.join(start.study.free)}; this study has {', '.join(study.free)}"
@@ -193,16 +205,21 @@ def _unbeaten(f: np.ndarray) -> np.ndarray:
 
 
 def _thinned(archive: Archive, size: int) -> Archive:
-    """An even spread of ``size`` designs: again and again the one farthest from those that are taken."""
-    if len(archive.f) <= size:
-        return archive
-    f = normalised(archive.f)
+    """An even spread of ``size`` designs."""
+    return _of(archive, spread(archive.f, size))
+
+
+def spread(f: np.ndarray, size: int) -> np.ndarray:
+    """Which ``size`` rows of objectives are spread evenly: again and again the one farthest from those taken."""
+    if len(f) <= size:
+        return np.arange(len(f))
+    f = normalised(f)
     taken = list(dict.fromkeys(f.argmin(0).tolist()))
     gap = ((f[:, None] - f[taken]) ** 2).sum(-1).min(1)
     while len(taken) < size:
         taken.append(int(gap.argmax()))
         gap = np.minimum(gap, ((f - f[taken[-1]]) ** 2).sum(-1))
-    return _of(archive, np.sort(taken))
+    return np.sort(taken)
 
 
 def _tried(archive: Archive, step: float, draw: np.random.Generator) -> np.ndarray:

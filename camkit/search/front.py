@@ -14,6 +14,7 @@ from ..quantities.kinds import numbers, refuse_arguments, refuse_kinds, shown
 from ..study.recheck import Recheck
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
+from .minimum import Reached
 from .rates import slope_on_front
 
 
@@ -40,6 +41,8 @@ class Front(Generic[D]):
     f: np.ndarray
     message: str = ""
     record: Mapping[str, object] = field(default_factory=dict)
+    options: tuple[Reached, ...] = ()
+    """What was reached with each combination of options, where menus are free and were gone through."""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)

@@ -19,6 +19,7 @@ from ..study.robust import RobustStudy
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
 from .minimum import SAME, Found, Minimum, described
+from .options import best_of_options
 from .protocol import Step, plain, stepwise
 
 ROUGH, EXACT = 1e-6, 1e-10
@@ -74,6 +75,9 @@ def minimise(
     if method not in METHODS:
         raise ValueError(f"the method is {method!r}; there are {', '.join(map(repr, METHODS))}")
     judge = study if recheck is None else study.replace(angles=recheck)
+    if study.menus and method == "slsqp":
+        each = partial(minimise, method=method, seed=seed, starts=starts, designs=designs, recheck=recheck)
+        return best_of_options(study, plain(judge), each)
     found = METHODS[method](study, judge, seed, starts, designs)
     if method != "slsqp":
         found = _checked(plain(study), plain(judge), found)
@@ -262,7 +266,9 @@ def _evolution(algorithm: Any, each: int, study: Study, judge: Study, seed: int,
 def _ga(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
     from pymoo.algorithms.soo.nonconvex.ga import GA
 
-    return _evolution(GA(pop_size=100, eliminate_duplicates=False), 100, study, judge, seed, designs)
+    from .evolution import mixed
+
+    return _evolution(GA(pop_size=100, eliminate_duplicates=False, **mixed(study)), 100, study, judge, seed, designs)
 
 
 def _competitive(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Found:
@@ -275,7 +281,13 @@ def _checked(study: Study, judge: Study, found: Found) -> Found:
     """With where a descent from what was found ends; its designs are not counted."""
     if not np.isfinite(study.evaluate(found.x).f).all():
         return found
-    return found._replace(descended=_tightened(study, judge, found.x)[0])
+    if not study.menus:
+        return found._replace(descended=_tightened(study, judge, found.x)[0])
+    here, at = (which.options.at(found.x) for which in (study, judge))
+    if not here.study.free:
+        return found
+    end = _tightened(here.study, at.study, here.x(study.rows(found.x))[0])[0]
+    return found._replace(descended=here.rows(end[None])[0])
 
 
 METHODS: dict[str, Callable[[Study, Study, int, int, int], Found]] = {

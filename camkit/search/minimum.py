@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, NamedTuple
@@ -9,6 +10,7 @@ from typing import Generic, NamedTuple
 import numpy as np
 
 from ..quantities import CurveMeasure, D, Measure, label
+from ..study.free import Menu
 from ..study.study import Evaluation, Study
 from ..study.weighted import parts_of
 from ..units import deg
@@ -32,6 +34,26 @@ class Active(NamedTuple):
         return f"{self.name} = {self.value}" if symbol else f"the {self.name} {self.value}{where}"
 
 
+class Reached(NamedTuple):
+    """What a search reached with some options of the menus that are free."""
+
+    options: Mapping[str, str]
+    """Their names, by menu."""
+    f: tuple[float, ...]
+    """The least of each objective, SI, of designs that keep every limit; else ``nan``, or what came nearest to it."""
+    feasible: bool
+    text: str
+    """The least of each objective, or why there is no design that keeps every limit."""
+
+    @property
+    def name(self) -> str:
+        """The names of the options."""
+        return ", ".join(self.options.values())
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.text}"
+
+
 @dataclass(frozen=True)
 class Minimum(Generic[D]):
     """The best design that a search found; ``message`` says in words why it stopped and what holds the design there.
@@ -51,6 +73,8 @@ class Minimum(Generic[D]):
     message: str = ""
     descended: np.ndarray | None = None
     """Free values where a descent from ``x`` ends; ``None`` after a search that is a descent itself."""
+    options: tuple[Reached, ...] = ()
+    """What was reached with each combination of options, where menus are free and were gone through."""
 
     @cached_property
     def rates(self) -> dict[Measure | str, float]:
@@ -164,6 +188,8 @@ def _peak_angles(measure: Measure, analysis: object, sense: int) -> tuple[float,
 def _bounds_reached(study: Study, x: np.ndarray) -> list[Active]:
     found = []
     for name, value, low, high in zip(study.free, x, *study.bounds, strict=True):
+        if isinstance(study.free[name], Menu):
+            continue
         for end, word in ((low, "lower"), (high, "upper")):
             if abs(value - end) <= CLOSE * (high - low):
                 found.append(

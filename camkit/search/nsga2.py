@@ -17,7 +17,7 @@ from ..quantities import D
 from ..quantities.kinds import refuse_arguments, whole
 from ..study.study import Evaluation, Study
 from .checkpoint import ALGORITHM, WORST, Checkpoint, fingerprint, remove_parts, resume, versions, why
-from .evolution import OnGrid, StudyProblem
+from .evolution import OnGrid, StudyProblem, mixed
 from .front import Front
 from .protocol import Step
 from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
@@ -45,8 +45,9 @@ def nsga2_steps(
     generations = whole(generations, "the number of generations", 1)
     seed = whole(seed, "the seed", 0, MOST_SEED)
     refuse_arguments(nsga2_steps, locals())
-    algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, repair=OnGrid())
-    room = Room(study, fits=not checkpoint)
+    given = {"repair": OnGrid(), **mixed(study, eta=15, prob=0.9)}
+    algorithm = NSGA2(pop_size=population, eliminate_duplicates=False, **given)
+    room = Room(study, fits=not checkpoint and not study.menus)
     algorithm.setup(StudyProblem(room.within(study)), termination=("n_gen", generations), seed=seed, verbose=False)
     record: dict[str, Any] = {"population": int(population), "seed": int(seed), "versions": versions()}
     about = {"study": fingerprint(study), "algorithm": ALGORITHM, **record} if checkpoint else {}

@@ -15,17 +15,18 @@ from functools import cached_property, partial
 from importlib import import_module
 from inspect import signature
 from queue import SimpleQueue
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..quantities.kinds import refuse_arguments
 from ..study.margins import TightenedStudy
+from ..study.options import Plain
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
 from .front import Front, front_of
-from .minimum import Minimum
+from .minimum import Minimum, Reached
 
 ONE = "minimise", "minimise_steps"
 METHODS = {
@@ -50,6 +51,7 @@ class Evaluated(NamedTuple):
 
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Study)
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,8 @@ class Step:
     """Why the search ended, or why it goes on without its checkpoint; empty where there is nothing to say."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """How it was found: size, seed, seconds, versions."""
+    options: tuple[Reached, ...] = ()
+    """What was reached with each combination of options, at the end of a search that went through them."""
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -78,7 +82,7 @@ class Step:
     @cached_property
     def front(self) -> Front:
         """The front so far."""
-        return replace(front_of(self.evaluation, self.study), record=self.record)
+        return replace(front_of(self.evaluation, self.study), record=self.record, options=self.options)
 
     @property
     def feasible(self) -> int:
@@ -149,6 +153,10 @@ class _FollowedStudy(TightenedStudy):
 
     follow: Callable[[Evaluation], None] | None = None
 
+    def as_plain(self, start: Any, free: Any, of: Plain[Self]) -> Self:
+        """The same study with some options, followed as designs of this one."""
+        return _followed_too(super().as_plain(start, free, of), of)
+
     def analysis(self, x: ArrayLike) -> Any:
         """The analysis of the design or population ``x``."""
         analysis = super().analysis(x)
@@ -163,16 +171,28 @@ class _FollowedRobustStudy(RobustStudy):
 
     follow: Callable[[Evaluation], None] | None = None
 
+    def as_plain(self, start: Any, free: Any, of: Plain[Self]) -> Self:
+        """The same study with some options, followed as designs of this one."""
+        return _followed_too(super().as_plain(start, free, of), of)
+
     def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of designs."""
         found = super().evaluate(x)
         assert self.follow is not None
-        self.follow(found)
+        if not self.menus:  # else those with the same options were handed on
+            self.follow(found)
         return found
 
     def tightened(self, margins: Callable[[np.ndarray], np.ndarray]) -> TightenedStudy:
         """The nominal study with limits tightened by ``margins``."""
         return _FollowedStudy(**_fields(self, Study), margins=margins, follow=self.follow)
+
+
+def _followed_too(study: F, of: Plain[F]) -> F:
+    """``study`` with the options ``of`` a plain one, whose designs are handed on as those of the whole study."""
+    follow: Any = study.__dict__["follow"]
+    study.__dict__["follow"] = lambda found: follow(replace(found, x=of.rows(found.x)))
+    return study
 
 
 def _fields(study: Study, kind: type) -> dict[str, Any]:

@@ -41,6 +41,9 @@ def multipliers(study: Study, x: np.ndarray) -> dict[Measure | str, float]:
     """
     from scipy.optimize import linprog, nnls
 
+    if study.menus:
+        made = study.options.at(x)
+        return multipliers(made.study, made.x(study.rows(x))[0]) if made.study.free else {}
     nominal, (low, high) = study.nominal, study.bounds
     size = float(abs(nominal.evaluate(x).f[0, 0])) or 1.0
     if not np.isfinite(size):

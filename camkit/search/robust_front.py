@@ -69,7 +69,9 @@ class Room:
 
 def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
     """What a study says of designs: of their tolerances on the ``rough`` one's angles, moved to what all angles say."""
-    if not isinstance(study, RobustStudy) or not isinstance(rough, RobustStudy) or study.objective != "nominal":
+    if study.menus or not isinstance(study, RobustStudy) or not isinstance(rough, RobustStudy):
+        return study.evaluate(x)
+    if study.objective != "nominal":
         return study.evaluate(x)
     found, models = _moved(study, rough, x)
     return Evaluation(x, found.f, study.held(x, models))
@@ -90,7 +92,8 @@ def surviving(front: Front[D], rough: Study) -> Front[D]:
     study = front.study
     if not isinstance(study, RobustStudy) or not isinstance(rough, RobustStudy) or not len(front):
         return front
-    checked = rechecked(study, front.x, PARTS, _moved(study, rough, front.x)[1])
+    moved = None if study.menus or not study.free else _moved(study, rough, front.x)[1]
+    checked = study.recheck(front.x, PARTS) if moved is None else rechecked(study, front.x, PARTS, moved)
     good = checked.share >= checked.wanted
     best = (
         f"no design of the front yields {100 * checked.wanted:g} %; the best yields {100 * checked.share.max():.1f} %"

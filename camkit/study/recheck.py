@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING
@@ -106,6 +107,14 @@ def rechecked(study: RobustStudy, x: Array, parts: int | None, models: list[Thre
         open_ = open_[(low < wanted) & (high >= wanted)] if parts is None and number < MOST else open_[:0]
         number *= 4
     return Recheck(1 - missed / of, clopper_pearson(missed, of), missed, of, wanted, looked)
+
+
+def joined(every: Sequence[tuple[Array, Recheck]]) -> Recheck:
+    """What is said of groups of designs, each with its rows, as one."""
+    rows = np.argsort(np.concatenate([at for at, _ in every]))
+    names = ("share", "interval", "missed", "parts")
+    columns = {name: np.concatenate([getattr(found, name) for _, found in every])[rows] for name in names}
+    return Recheck(**columns, wanted=every[0][1].wanted, evaluations=sum(found.evaluations for _, found in every))
 
 
 def _rows(model: ThreePoint, rows: Array) -> ThreePoint:

@@ -16,10 +16,12 @@ from numpy.typing import ArrayLike
 from ..quantities import D, Paths, Quantity, words
 from ..quantities.kinds import one_number, shown
 from ..quantities.types import Array
+from .free import declared_with
 from .margins import TightenedStudy, tightened
-from .recheck import Recheck, corners, largest, rechecked
+from .options import ready
+from .recheck import Recheck, corners, joined, largest, rechecked
 from .spread import Source, Tolerance, correlated, spread_shares
-from .study import KEPT, Evaluation, Study, _ready
+from .study import KEPT, Evaluation, Study
 from .three_point import FLOOR, ThreePoint, floor_of, seen, star
 from .weighted import points_of
 
@@ -77,8 +79,11 @@ class RobustStudy(Study[D]):
         if self.objective not in OBJECTIVES:
             raise ValueError(f"the objective is {shown(self.objective)}; there are {', '.join(OBJECTIVES)}")
         moved = [path for path, _ in self._moves if path not in self.free]
-        object.__setattr__(self, "start", _ready(self.start, moved))
+        object.__setattr__(self, "start", ready(self.start, [*self.free, *moved]))
         self._correlation  # noqa: B018  refuses pairs that are none
+        if self.menus:
+            declared_with(self.start, self.menus, [path for path, _ in self._moves])
+            return
         half = self._half(self._base(self.x0[None]))[1][0]
         for name, unknown in zip(self.names, np.isnan(half), strict=True):
             if unknown:
@@ -240,6 +245,8 @@ class RobustStudy(Study[D]):
         is kept by more than its own size counts there as kept by that.
         """
         rows = self.rows(x)
+        if self.menus:
+            return self.options.table(rows, len(self.limits), lambda study, x: study.margins(x), np.inf)
         return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g, self.floors)
 
     def exact_margins(self, x: Array) -> Array:
@@ -266,6 +273,8 @@ class RobustStudy(Study[D]):
     def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)``: limits as a share ``yield_at_least`` keeps them."""
         rows = self.rows(x)
+        if self.menus:
+            return self.options.evaluate(rows)
         found = self.judge(rows, self.analysis(rows))
         middle = found
         if (self._half(self._base(rows))[0] != 0).any():
@@ -298,6 +307,8 @@ class RobustStudy(Study[D]):
         found by the models of the limits; the parts that decide are then evaluated.
         """
         rows = self.rows(x)
+        if self.menus:
+            return self.options.table(rows, 1, lambda study, x: study.tolerance_factor(x)[:, None], 0.0)[:, 0]
         growth = np.ones(len(rows))
         for number in range(FACTOR_ROUNDS):
             models = self.models(rows, growth[:, None])
@@ -328,4 +339,8 @@ class RobustStudy(Study[D]):
 
         ``parts``: how many, a power of two; unless said otherwise as many as decide it, up to 16384.
         """
-        return rechecked(self, self.rows(x), parts)
+        rows = self.rows(x)
+        if not self.menus:
+            return rechecked(self, rows, parts)
+        every = [(at, plain.study.recheck(plain.x(rows[at]), parts)) for at, plain in self.options.groups(rows)]
+        return joined(every)

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 from ..quantities import (
     Analysable,
     D,
-    Design,
     Measure,
     Paths,
     Quantity,
@@ -29,7 +28,6 @@ from ..quantities import (
 from ..quantities.kinds import (
     finite,
     listed,
-    number,
     numbers,
     refuse_empty,
     refuse_fields,
@@ -37,6 +35,8 @@ from ..quantities.kinds import (
     shown,
 )
 from ..quantities.types import Array, Value
+from .free import Free, Menu, declared_with, freed, is_number
+from .options import Options, Plain, copied, ready
 from .three_point import floor_of
 from .weighted import WeightedSum, checked_weight
 
@@ -62,31 +62,6 @@ def keeps(value: Value, limit: float, sense: int) -> Value:
     return sense * (value - limit) <= KEPT * (abs(limit) or 1.0)
 
 
-def _number(value: object) -> bool:
-    known = number(value)
-    return known is not None and np.ndim(known) == 0
-
-
-def refuse_bounds(declared: Mapping[str, Quantity], space: Mapping[str, Any]) -> None:
-    """``ValueError`` in a sentence for bounds that are no two possible numbers, the first below the second."""
-    for name, bounds in space.items():
-        ordered = isinstance(bounds, (tuple, list)) or np.ndim(bounds) == 1
-        if not ordered or len(bounds) != 2 or not all(map(_number, bounds)):
-            raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
-        _check_bounds(name, declared[name], *bounds)
-
-
-def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> None:
-    told = f"the bounds of the {words(name)} are {declared.text(low)} and {declared.text(high)}"
-    if not (np.isfinite([low, high]).all() and low < high):
-        raise ValueError(f"{told}; they must be finite, the first below the second")
-    if not (declared.allows(low) and declared.allows(high)):
-        possible = declared.possible_for(low if declared.allows(high) else high)
-        raise ValueError(f"{told}; each must be {possible}")
-    declared.remark(name, float(low))
-    declared.remark(name, float(high))
-
-
 def refuse_objectives(minimise: object) -> None:
     """``ValueError`` in a sentence for what is no tuple of measures, each of them once."""
     if not isinstance(minimise, (tuple, list)) or not minimise:
@@ -108,7 +83,7 @@ def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, f
     for measure, limit in (*at_most.items(), *at_least.items()):
         if not isinstance(measure, Measure):
             raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
-        if not _number(limit) or not finite(limit):
+        if not is_number(limit) or not finite(limit):
             raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
     told = [*_sides(at_most, 1), *_sides(at_least, -1)]
     ranges = ((m, low, high) for m, low, side in told if side < 0 for n, high, other in told if other > 0 and m == n)
@@ -121,11 +96,6 @@ def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, f
 def _sides(limits: Mapping[Measure, float], sense: int) -> list[tuple[Measure, float, int]]:
     """Limits as measure without its sign, value, and +1 for at most, -1 for at least."""
     return [(m if m.sign > 0 else -m, m.sign * limit, m.sign * sense) for m, limit in limits.items()]
-
-
-def _ready(design: D, paths: Iterable[str]) -> D:
-    """The design, made so that ``paths`` can vary, if it is one that can say how (see `Design.ready_for`)."""
-    return design.ready_for(paths) if isinstance(design, Design) else design
 
 
 def named_studies(studies: Study | Mapping[str, Study], start: Analysable) -> dict[str, Study]:
@@ -163,14 +133,29 @@ class Study(Generic[D]):
     """Search space, objectives and limits around a starting design.
 
     ``free`` are paths of quantities of the design, with bounds in SI or, as a bare path, with the range that its
-    declaration gives.  ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
+    declaration gives; and menus.  A bare path of a choice frees all of its options, a tuple some of them.  A quantity
+    has a set of sizes in place of bounds.  A tuple of paths has options that move them together, each a value for every
+    path or one for all; options can have names: ``{name: option}``.  A free quantity that an option does not have, such
+    as a coefficient of another law, is no variable with it.  Among free values an option is its place on the menu.
+
+    >>> from camkit import Cycloidal, ModifiedSine, TranslatingRollerCam, mm
+    >>> from camkit.cam import max_pressure_angle
+    >>> laws, sizes = (Cycloidal(), ModifiedSine()), {8 * mm, 9.5 * mm, 11 * mm}
+    >>> free = {"motion.rise.law": laws, "roller_radius": sizes, "base_radius": (20 * mm, 40 * mm)}
+    >>> study = Study(TranslatingRollerCam(), free, (max_pressure_angle,))
+    >>> cam = study.design([1, 2, 0.03])
+    >>> cam.motion.segments[0].law.name, cam.roller_radius, study.x_of(cam).tolist()
+    ('modified sine', 0.011, [1.0, 2.0, 0.03])
+
+    ``minimise`` are measures (``-measure`` to make one large); ``at_most`` and
     ``at_least`` map measures to limits.  ``angles`` is how many cam angles an analysis takes.  A ``rough`` study
     is for the first rounds of a search: where an analysis can find its peaks more quickly and less exactly, it does.
 
     Raises ``ValueError`` for what is no design that can be analysed, for a name that is not a number of the design,
     for bounds that are reversed, not finite or impossible, for a limit that is not finite, and for no free quantity or
-    no objective at all, for a measure of a part that the design does not have, such as a contact that is not given.
-    `evaluate` does for one that does not apply to the design in another way.
+    no objective at all, for a menu without options, with one twice or with one that it does not have, for a measure
+    of a part that the design does not have, such as a contact that is not given.  `evaluate` does for one that does not
+    apply to the design in another way; designs with an option that cannot be built or judged are infeasible.
     """
 
     start: D
@@ -188,19 +173,16 @@ class Study(Generic[D]):
             raise ValueError("a study needs the names of one or more free quantities")
         if twice := [name for i, name in enumerate(given) if name in list(given)[:i]]:
             raise ValueError(f"the study frees {shown(twice[0])} twice; each quantity can be free once")
-        if not isinstance(self.free, Mapping):
-            ranges = {path: (q.low * q.factor, q.high * q.factor) for path, q in self.declared.items()}
-            object.__setattr__(self, "free", ranges)
+        object.__setattr__(self, "free", freed(self.start, self.free))
         refuse_objectives(self.minimise)
         object.__setattr__(self, "minimise", tuple(self.minimise))
         counted(self.angles, "cam angles of a study")
         refuse_kinds(self, but=("minimise", "angles"))
         object.__setattr__(self, "at_most", dict(self.at_most or {}))
         object.__setattr__(self, "at_least", dict(self.at_least or {}))
-        refuse_bounds(self.declared, self.free)
-        object.__setattr__(self, "free", {name: (float(low), float(high)) for name, (low, high) in self.free.items()})
         refuse_limits(self.at_most, self.at_least)  # type: ignore[arg-type]
-        refuse_unmeasured(self.start, self.measures, "the start of the study")
+        if not self.menus:
+            refuse_unmeasured(self.start, self.measures, "the start of the study")
 
     @cached_property
     def _paths(self) -> Paths:
@@ -208,14 +190,32 @@ class Study(Generic[D]):
         return Paths(self.start, self.free, Quantity)
 
     @property
-    def declared(self) -> dict[str, Quantity]:
-        """The declarations of the free quantities, in order."""
-        return self._paths.declared
+    def menus(self) -> tuple[Menu, ...]:
+        """The menus that are free."""
+        return tuple(free for free in self.free.values() if isinstance(free, Menu))
+
+    @cached_property
+    def options(self) -> Options[Self]:
+        """The plain studies of the options of its menus."""
+        return Options(self)
+
+    def as_plain(self, start: Any, free: Any, of: Plain[Self]) -> Self:
+        """The same study of a ``start`` with some options, without menus."""
+        return copied(self, start, free)
+
+    @cached_property
+    def declared(self) -> dict[str, Any]:
+        """The declarations of the free quantities, and the free menus, in order."""
+        if not self.menus:
+            return self._paths.declared
+        found = declared_with(self.start, self.menus, [n for n, b in self.free.items() if not isinstance(b, Menu)])
+        return {name: free if isinstance(free, Menu) else found[name] for name, free in self.free.items()}
 
     @property
     def bounds(self) -> np.ndarray:
-        """Lower and upper bounds, ``(2, n_free)``, SI."""
-        return np.array(list(self.free.values()), dtype=float).T
+        """Lower and upper bounds, ``(2, n_free)``, SI; of a menu its first and its last place."""
+        bounds = [(0, len(b.options) - 1) if isinstance(b, Menu) else b for b in self.free.values()]
+        return np.array(bounds, dtype=float).reshape(-1, 2).T
 
     @property
     def x0(self) -> np.ndarray:
@@ -225,7 +225,9 @@ class Study(Generic[D]):
     def x_of(self, design: Analysable) -> np.ndarray:
         """The free values of a design of the same kind as the start, made ready for them, ``(n_free,)``, SI."""
         refuse_design(design, "the design")
-        return np.array(self._paths.values(_ready(design, self.free)), dtype=float)
+        Paths(self.start, ()).values(design)  # refuses another kind
+        design = ready(design, self.free)
+        return self.options.x_of(design) if self.menus else np.array(self._paths.values(design), dtype=float)
 
     @property
     def nominal(self) -> Study[D]:
@@ -273,6 +275,9 @@ class Study(Generic[D]):
         x = numbers(x, "the free values")
         if np.shape(x)[-1:] != (len(self.free),):
             raise ValueError(f"the design has {np.size(x)} values; this study has {len(self.free)} free quantities")
+        if self.menus:
+            plain, rows = self.options.one(self.rows(x))
+            return plain.study.design(rows[0] if np.ndim(x) == 1 else rows)
         columns = (
             [float(v) for v in x] if np.ndim(x) == 1 else [np.ascontiguousarray(c)[:, None] for c in np.transpose(x)]
         )
@@ -291,7 +296,7 @@ class Study(Generic[D]):
     def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
         rows = self.rows(x)
-        return self.judge(rows, self.analysis(rows))
+        return self.options.evaluate(rows) if self.menus else self.judge(rows, self.analysis(rows))
 
     def rows(self, x: ArrayLike) -> np.ndarray:
         """``x`` as a table with a row for each design; ``ValueError`` in a sentence for what is none."""
@@ -303,7 +308,7 @@ class Study(Generic[D]):
             raise ValueError(f"x has the shape {x.shape}; it must be a table, a row for each design")
         if x.shape[1] != len(self.free):
             raise ValueError(f"x has {x.shape[1]} columns; this study has {len(self.free)} free quantities")
-        return x
+        return self.options.settled(x) if self.menus else x
 
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
@@ -346,16 +351,15 @@ class Study(Generic[D]):
         """
         refuse_design(design, "the design")
         Paths(self.start, ()).values(design)  # refuses another kind
-        study = replace(self, start=_ready(design, self.free))
+        study = replace(self, start=ready(design, self.free))
         return study if free is None else study.around(study.design(free))
 
-    def freeing(self, free: Sequence[str] | Space) -> Self:
+    def freeing(self, free: Sequence[Any] | Free) -> Self:
         """The same study with other free quantities, as ``free`` of a study names them.
 
         Raises ``ValueError`` for one on which nothing depends that the study judges.
         """
-        paths = [path for path in free if isinstance(path, str)] if isinstance(free, Iterable) else ()
-        study = replace(self, free=free, start=_ready(self.start, paths))
+        study = replace(self, free=free, start=ready(self.start, free if isinstance(free, Iterable) else ()))
         for path, idle in zip(study.free, study._idle(), strict=True):
             if idle:
                 raise ValueError(f"the {words(path)} has no effect on what the study judges; it must not be free")
@@ -368,10 +372,12 @@ class Study(Generic[D]):
         x = np.repeat(first[:, None], n + 1, axis=1)
         x[:, range(n), range(n)] = second  # the last of each row stays as it was
         found = self.evaluate(x.reshape(-1, n))
+        x = found.x.reshape(TRIED, n + 1, n)  # the same where it is no variable with the options of its menus
         judged = np.hstack([found.f, found.g]).reshape(TRIED, n + 1, -1)
         known = np.isfinite(judged).all(-1)
-        same = (judged[:, :n] == judged[:, n:]).all(-1) & known[:, :n] & known[:, n:]
-        return np.asarray(same.any(0) & (same | ~known[:, :n] | ~known[:, n:]).all(0))
+        known = known[:, :n] & known[:, n:] & (x[:, range(n), range(n)] != x[:, n])
+        same = (judged[:, :n] == judged[:, n:]).all(-1) & known
+        return np.asarray(same.any(0) & (same | ~known).all(0))
 
     def with_weights(self, weights: ArrayLike) -> Self:
         """The same study with other weights in the objectives that are weighted sums."""

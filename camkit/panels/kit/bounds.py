@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...quantities import Quantity, label
-from ...study.study import refuse_bounds
+from ...study.free import refuse_bounds
 from ...units import in_unit
 from .inputs import Amount, Check
 from .parts import Part
