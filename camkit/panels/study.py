@@ -4,24 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ..decision import Judgements
 from ..files import Session, designs
 from ..quantities import Measure, measures_of
 from ..quantities.kinds import refuse_arguments
 from ..search.fast_front import MOST_FREE
+from ..study.robust import RobustStudy
 from ..study.study import Study
+from ..units import factor, in_unit
 from .ahp import ahp_panel
 from .choose import choose_panel
 from .instrument import Instrument
 from .kit.design_files import remarked
-from .kit.inputs import Download, Upload
+from .kit.inputs import Amount, Check, Download, Upload
 from .kit.parts import Banner, Button, Group, Message, Words, row
 from .kit.runner import JobPanel
 from .kit.sheet import IMPOSSIBLE, Panel, reason
 from .kit.space import FreeQuantities
 from .kit.wishes import Wishes
+from .kit.yields import YIELD
 from .live_pareto import live_pareto_panel
 from .optimise import optimise_panel
 from .pareto import pareto_panel
@@ -30,6 +33,9 @@ from .tolerances import tolerance_panel
 TOLD = 3
 """So many free quantities are named in the line that says what is asked for."""
 P = TypeVar("P", bound=Panel)
+ROBUST = (
+    "the limits are then kept by so many of the parts: within the tolerances given, or the general ones (ISO 2768-1 m)"
+)
 HINT = "Say what is to be small or large and what it is to keep, tick what may change, and press Find."
 
 
@@ -50,12 +56,15 @@ class StudyPanel(Panel):
         self.banner, self.space = Banner(), FreeQuantities(self._refuse)
         self.wishes = Wishes((*explorer.measures, *measures_of(explorer.design), *measures))
         find = Button("Find", self.find, primary=True, tooltip="look for the design, or the front, that this asks for")
-        made = Button("Tolerances", self.open_tolerances, tooltip="what the workshop makes of the design")
+        parts = Button("Tolerances", self.open_tolerances, tooltip="what the workshop makes of the design")
         save = Download("Save study", "study.json", "application/json", self._json, self.banner.show_message)
-        buttons = row(find, made, save, Upload("Load study", self.load_json))
+        buttons = row(find, parts, save, Upload("Load study", self.load_json))
         free = Group(Words(value=["what may change, and its bounds"], look="hint"), self.space.part)
         self.told, self._kept = Words(look="hint"), ""
-        super().__init__(Group(buttons, self.banner, self.told, look="stays"), self.wishes.part, free)
+        self.robust = Check(description="when it is made within tolerances, with a yield of at least", tooltip=ROBUST)
+        self.share = Amount(unit="%", description="yield of at least")
+        made = row(self.robust, self.share)
+        super().__init__(Group(buttons, self.banner, self.told, look="stays"), self.wishes.part, made, free)
         self._ask(study)
         self._continue()
         explorer.observe(lambda _: self._continue(), "page")
@@ -71,6 +80,8 @@ class StudyPanel(Panel):
             self.wishes.ask(study.minimise if study else (), study.limits if study else sides)
             self._follow()
             self.space.ask(study.free if study else {})
+            self.robust.value = isinstance(study, RobustStudy)
+            self.share.value = in_unit(study.yield_at_least if isinstance(study, RobustStudy) else YIELD, "%")
             self._tell_asked()
 
     def _tell_asked(self) -> None:
@@ -102,8 +113,14 @@ class StudyPanel(Panel):
         """Show the values of the design in the sliders, and the quantities that it has."""
         with self.held():
             self.wishes.follow(self.explorer.analysis)
-            design = self.explorer.design
-            self.space.offer(self._given.around(design).start if self._given else design)
+            self.space.offer(self._design)
+
+    @property
+    def _design(self) -> Any:
+        """The design in the sliders, ready for what the given study frees, if it can be."""
+        with suppress(ValueError):
+            return self._given.around(self.explorer.design).start if self._given else self.explorer.design
+        return self.explorer.design
 
     def _refuse(self, sentence: str) -> None:
         self.banner.show_message(sentence)
@@ -116,12 +133,18 @@ class StudyPanel(Panel):
             raise ValueError("nothing is to be small or large; choose it for one measure or more")
         if not free:
             raise ValueError("nothing may change; tick one quantity or more")
-        at_most, at_least = self.wishes.limits(1), self.wishes.limits(-1)
-        design = self.explorer.design
+        limits = self.wishes.limits(1), self.wishes.limits(-1)
         if self._given:
-            asked = self._given.replace(free=free, minimise=minimise, at_most=at_most, at_least=at_least)
-            return asked.around(design)
-        return Study(design, free, minimise, at_most, at_least)
+            start, (at_most, at_least) = self._design, limits
+            asked = self._given.replace(start=start, free=free, minimise=minimise, at_most=at_most, at_least=at_least)
+        else:
+            asked = Study(self._design, free, minimise, *limits)
+        if not self.robust.value:
+            return asked.nominal
+        share = self.share.value * factor("%")
+        if isinstance(asked, RobustStudy):
+            return asked.replace(yield_at_least=share)
+        return asked.under(self.explorer.within(asked.start), share)
 
     def find(self) -> None:
         """Look for what is asked for, in tabs of their own; the banner says what cannot be searched."""
@@ -129,7 +152,7 @@ class StudyPanel(Panel):
 
     def open_tolerances(self) -> None:
         """Show what the workshop makes of the design in the sliders, in a tab of its own."""
-        self._open(lambda study: self._tab("Tolerances", lambda: tolerance_panel(self.explorer, study)), "made")
+        self._open(lambda study: self._tab("Tolerances", lambda: tolerance_panel(self.explorer, study.nominal)), "made")
 
     def _open(self, show: Callable[[Study], Panel], what: str) -> None:
         """Show panels of what is asked for, and their last one's tab."""
@@ -176,7 +199,7 @@ class StudyPanel(Panel):
     # ------------------------------------------------------------ files and words
 
     def _json(self) -> str:
-        return designs.to_json(Session(self.study, self.explorer.design))
+        return designs.to_json(Session(self.study.nominal, self.explorer.design))
 
     def load_json(self, file: str | bytes) -> None:
         """Ask for what a saved study asks for; a file that cannot be used is refused in a sentence."""
@@ -207,7 +230,7 @@ class StudyPanel(Panel):
         wanted = [f"{'small' if m.sign > 0 else 'large'}: {m.name}" for m in self.wishes.minimise]
         for sense, said in ((1, "at most"), (-1, "at least")):
             wanted += [f"{said} {m.text(limit)}: {m.name}" for m, limit in self.wishes.limits(sense).items()]
-        return wanted
+        return [*wanted, f"yield at least {self.share.value:g} %"] if self.robust.value else wanted
 
 
 def study_panel(explorer: Instrument, study: Study | None = None, measures: Sequence[Measure] = ()) -> StudyPanel:

@@ -135,6 +135,36 @@ def test_the_least_contact_pressure_of_a_spring(law, pressure):
     assert panel.wishes.rows[min_force].now.text == "10 N"
 
 
+def test_a_yield_is_wanted_too():
+    app = explore(ROLLER)
+    panel = study_panel(app)
+    gentle_roller(panel)
+    nominal = panel.study
+    do(panel, panel.robust, value=True)
+    assert panel.study == nominal.under(app.within(app.design), 0.99)
+    do(panel, panel.share, value=95.0)
+    assert panel.study.yield_at_least == pytest.approx(0.95)
+    assert "yield at least 95 %; free: spring rate" in panel.told.text
+    do(panel, panel.share, value=20.0)
+    press(panel, "Find")
+    assert alert(panel) == "This cannot be searched: the yield is 0.2; it must lie above 0.5, up to 1."
+    do(panel, panel.share, value=99.0)
+    press(panel, "Find")
+    optimise = opened(panel, "Optimise")
+    optimise.wait(PATIENCE)
+    found = panel.study.recheck(panel.study.x_of(app.design)[None])
+    assert found.share[0] >= 0.99
+    assert min_force.one(app.analysis) > 10.005  # there is room for the parts
+
+
+def test_a_study_under_tolerances_is_asked_for_as_it_is():
+    given = shaft_study().under({"outer_diameter": 0.5 * mm}, 0.9)
+    panel = study_panel(explore(given.start), given)
+    assert panel.study == given
+    do(panel, panel.robust, value=False)
+    assert panel.study == shaft_study()
+
+
 def test_several_wishes_open_front_judgements_and_decision_on_them():
     app = explore(door_handle_study().start)
     panel = study_panel(app, door_handle_study())
