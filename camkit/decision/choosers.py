@@ -164,6 +164,37 @@ def most_isolated(front: object, weights: object = None) -> Any:
     return _whatever_the_weights(alone, weights, f.shape[1])
 
 
+AUGMENTED = 1e-4
+"""How much the sum of all shortfalls counts beside the largest: so little that it only decides between equals."""
+
+
+def achievement(front: object, reference: object = None) -> Any:
+    """The design that comes nearest to a ``reference``, what a person wishes of each objective (Wierzbicki 1980).
+
+    ``reference``: ``(k,)`` in the front's own units, all to be small, or ``(m, k)``; by default the ideal, the best of
+    each.  The augmented achievement function: least is the largest amount by which a design falls short of a wish,
+    in ranges of the objectives from the front's ideal to its nadir, plus `AUGMENTED` times the sum of these amounts.
+    A wish that can be met is exceeded alike in all; so no other design of the front is better in everything, and a
+    design of the front is chosen by its own objectives.
+
+    >>> front = [[0, 1], [0.2, 0.5], [0.5, 0.2], [1, 0]]
+    >>> achievement(front, [0.1, 0.4]), achievement(front, [0.4, 0.1]), achievement(front, [[0, 1], [2, 2]]).tolist()
+    (1, 2, [0, 1])
+
+    Raises ``ValueError`` for a reference that is not a finite number for each objective.
+    """
+    f = objectives_of(front)
+    must = f"the reference point is {shown(reference)}; it must be {f.shape[1]} finite numbers"
+    wish = f.min(0) if reference is None else _numbers(reference, must)
+    if wish.ndim not in (1, 2) or wish.shape[-1] != f.shape[1] or not np.isfinite(wish).all():
+        raise ValueError(must)
+    scale = -np.frexp(abs(f).max(axis=0))[1]  # as in `normalised`
+    f, wish = np.ldexp(f, scale), np.ldexp(wish, scale)
+    span = np.ptp(f, axis=0)
+    short = (f - wish[..., None, :]) / np.where(span > 0, span, 1)
+    return _chosen(-(short.max(-1) + AUGMENTED * short.sum(-1)))
+
+
 CHOOSERS = {"crowding distance": most_isolated, "weighted sum": weighted_sum, "TOPSIS": topsis, "knee": knee}
 """The ways to choose, by the name that a menu shows."""
 

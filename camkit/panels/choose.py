@@ -33,6 +33,7 @@ from .kit.front_picker import costs, objective_texts, place_on
 from .kit.inputs import Menu, Span
 from .kit.parts import Banner, Button, Group, Table, Words, row
 from .kit.quiet import Quiet
+from .kit.reference import ReferencePoint
 from .kit.sheet import Panel
 
 NO_FRONT = "There is no front to choose from yet: run a search."
@@ -78,12 +79,13 @@ class ChoosePanel(Panel):
         self.map = LivePicture((winners_by_weight, judgement_bars), "Winners by weight")
         self.picture.on_pointer(self.pointed)
         self.map.on_click(self.map_clicked)
+        self.reference = ReferencePoint(self.points, source.select, self._draw)
         self.picture.pixels = self.points.pixels = self.map.pixels = 240
         hint = Words(value=[HINT], look="hint")
         loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS), hint)
         designs = Group(self.points, self.picture, look="beside")
         sure = Group(self.map, self._verdict, look="room", description="Who wins at which weights")
-        self._decided = Group(self.numbers, loads, designs, self._brush(), sure)
+        self._decided = Group(self.numbers, loads, designs, self.reference.box, self._brush(), sure)
         super().__init__(self.banner, self._decided)
         self.take_up()
         source.on_front(self.take_up)
@@ -120,6 +122,7 @@ class ChoosePanel(Panel):
             else:
                 return
             self._key, self._said = key, said
+            self.reference.show(front)
             self._show()
 
     def _judgements(self, front: Judged) -> Judgements | None:
@@ -150,8 +153,10 @@ class ChoosePanel(Panel):
 
     def _draw(self) -> None:
         """The designs, as they are kept and marked."""
+        assert self.shown
+        shown = replace(self.shown, reference=self.reference.point)
         for each in (self.picture, self.points):
-            each.show(self.shown)
+            each.show(shown)
 
     def _show(self) -> None:
         assert self.shown

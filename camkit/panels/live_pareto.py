@@ -60,9 +60,8 @@ class LiveParetoPanel(FrontPanel):
         began = time.monotonic()
         self._mode, first = self.menu.value, quick_front(self._wanted[1])
         self._first = {self._mode: first}
-        self.picker = FrontPicker(explorer, first, importance, self._judged, self._with_free)
         self.picture = LivePicture((live_pareto,), "Pareto front that follows the sliders", width=7.6, height=6.0)
-        self.picture.on_click(self.picker.select_nearest)
+        self.picker = FrontPicker(explorer, first, importance, self.picture, self._judged, self._with_free)
         super().__init__(self._body())
         self._tell_time(time.monotonic() - began)
         self._show(first)
@@ -82,7 +81,9 @@ class LiveParetoPanel(FrontPanel):
     def _body(self) -> Part:
         menus = [self.menu] if len(self.studies) > 1 else []
         picker = self.picker
-        left = Group(*menus, picker.rule, picker.pick, row(picker.take), self.status, self.numbers)
+        left = Group(
+            *menus, picker.rule, picker.pick, row(picker.take), picker.reference.box, self.status, self.numbers
+        )
         return Group(left, Group(self.banner, self.picture), look="beside")
 
     # ------------------------------------------------------------ the front
@@ -169,7 +170,7 @@ class LiveParetoPanel(FrontPanel):
             here = self._here()
             self.numbers.say(*self.picker.verdict(), self._in_sliders(here))
             self.picture.offer(*self.picker.offered)
-            self.picture.show(LiveFront(front, self._before(), here, self.winner))
+            self.picture.show(LiveFront(front, self._before(), here, self.winner, self.picker.reference.point))
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture."""

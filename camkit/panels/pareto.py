@@ -85,9 +85,8 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.search: SessionSearch | None = None
         self._went_back = ""
         self._showing = RLock()  # a search shows its steps from its own thread
-        self.picker = FrontPicker(explorer, self.found, importance, self._show_again)
         self.picture = LivePicture((pareto,), "Pareto front", width=7.6, height=5.6)
-        self.picture.on_click(self.picker.select_nearest)
+        self.picker = FrontPicker(explorer, self.found, importance, self.picture, self._show_again)
         for panel in self._judges.values():
             panel.on_change(self.picker.quiet.unless(self._judged))
         explorer.on_change(lambda _: self._show_again() if self.picker.moved else None)
@@ -135,7 +134,7 @@ class ParetoPanel(JobPanel, FrontPanel):
             self.banner,
             row(save, Upload("Load study", self.load_json)),
         )
-        right = Group(self.picture, picker.pick, row(picker.rule, picker.take), self.verdict)
+        right = Group(self.picture, picker.pick, row(picker.rule, picker.take), picker.reference.box, self.verdict)
         return Group(left, right, look="beside")
 
     # ------------------------------------------------------------ the search
@@ -227,7 +226,8 @@ class ParetoPanel(JobPanel, FrontPanel):
             analysis = self.explorer.start.analyse(self.study.angles)
             start = np.array([measure(analysis) for measure in self.study.minimise])
             self.picture.offer(*self.picker.offered)
-            self.picture.show(ShownFront(front, self.picker.selected, self.winner, start))
+            reference = self.picker.reference.point
+            self.picture.show(ShownFront(front, self.picker.selected, self.winner, start, reference=reference))
             self.verdict.say(*self.picker.verdict())
             self.record.say(record_text(front.record))
         self._tell_followers()

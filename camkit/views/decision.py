@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..decision import CHOOSERS, WEIGHING, JudgementRange, Judgements, WinnerMap, judgement_ranges, winner_map
 from ..quantities import Measure, label
 from ..units import factor
-from .front import Judged
+from .front import Judged, wished
 from .parallel import Column, Designs, parallel_coordinates
 from .picture import Axes, Line, Mark, MarkStyle, Picture, Points, Polygon, Text, in_lines, joined
 
@@ -42,6 +42,8 @@ class ShownDecision:
     """Who wins at which weights, for each rule that asks for weights."""
     ranges: Mapping[str, tuple[JudgementRange, ...]]
     """How far each judgement may move, for the same rules."""
+    reference: Sequence[float] | None = None
+    """Objectives that a person wishes, ``(k,)``."""
 
     def judged(self, judgements: Judgements | None = None) -> ShownDecision:
         """The same front under other judgements of its objectives; ``None``: all alike."""
@@ -138,6 +140,7 @@ def front_winners(shown: ShownDecision) -> Picture:
             )
             for rule, i in shown.winners.items()
         ],
+        wished(shown.front, shown.reference),
     )
 
 

@@ -52,6 +52,8 @@ class ShownFront:
     """Objectives of the starting design, ``(k,)``."""
     known: Array | Sequence[Sequence[float]] | None = None
     """Points of the front that are known, as they are read, ``(2, m)``."""
+    reference: Array | Sequence[float] | None = None
+    """Objectives that a person wishes, ``(k,)``."""
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
@@ -59,6 +61,7 @@ class ShownFront:
             if place is not None and not 0 <= place < len(self.front):
                 raise ValueError(f"the {what} is {place}; there are {len(self.front)} designs, counted from 0")
         _refuse_objectives(self.start, "starting design", self.front)
+        _refuse_objectives(self.reference, "reference point", self.front)
         if self.known is not None and numbers(self.known, "the points of the front that are known").shape[:-1] != (2,):
             raise ValueError(f"the points of the front that are known are {shown(self.known)}; they must be two rows")
 
@@ -98,7 +101,15 @@ def pareto(shown: ShownFront) -> Picture:
         _axes("Pareto front", shown.front.study.minimise),
         _front(shown),
         Points("known", *known, role="allowed", mark="diamond", size=9, fill="none", label=label),
+        wished(shown.front, shown.reference),
     )
+
+
+def wished(front: Judged, reference: ArrayLike | None) -> Points:
+    """The reference point among the first two objectives, if there is one: what a person wishes of them."""
+    label = "" if reference is None else "reference point"
+    at = _one(front.study.minimise, reference)
+    return Points("reference", *at, mark="plus", size=13, label=label)
 
 
 def _front(shown: ShownFront) -> list[Mark]:
@@ -157,6 +168,8 @@ class LiveFront:
     before: Judged
     here: Array | Sequence[float]
     winner: int | None = None
+    reference: Array | Sequence[float] | None = None
+    """Objectives that a person wishes, ``(k,)``."""
 
 
 def live_pareto(shown: LiveFront) -> Picture:
@@ -171,6 +184,7 @@ def live_pareto(shown: LiveFront) -> Picture:
         front["front"],
         Points("in the sliders", *np.reshape(here, (-1, 1)), size=14, fill="none", label="in the sliders"),
         front["winner"],
+        wished(shown.front, shown.reference),
     )
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from camkit import ArmLoad, DoorHandleCam, ahp, door_handle_study
-from camkit.decision import CHOOSERS, judgement_ranges, side_by_side, weighted_sum
+from camkit import ArmLoad, DoorHandleCam, ahp, deg, door_handle_study
+from camkit.decision import CHOOSERS, achievement, judgement_ranges, side_by_side, weighted_sum
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, WORSE_CURVE
 from camkit.views.decision import triangle
 from lab import OWN_SHEETS, eventually, kernel_value, on_page, open_notebook, run_all
@@ -131,6 +131,39 @@ def test_a_click_on_a_line_loads_its_design_and_one_on_the_map_its_winner(page: 
 def as_list(values: Any) -> list[float]:
     """An array of the page, which comes as an object."""
     return list(values.values()) if isinstance(values, dict) else values
+
+
+def reference(decision: Any) -> list[float]:
+    """Where the reference point is drawn."""
+    mark = drawn(decision, "front winners")["reference"]
+    return [as_list(mark[name])[0] for name in "xy"]
+
+
+def test_a_reference_point_that_is_dragged_or_moved_by_keys_picks_the_nearest_design(page: Page) -> None:
+    decision = panel(page, "load the winner by")
+    decision.get_by_role("group", name="Winners on the front").scroll_into_view_if_needed()
+    f = front(page)
+    start, (low, high) = reference(decision), (f[:, :2].min(0), f[:, :2].max(0))
+    np.testing.assert_allclose(start, [low[0] / deg, low[1]], rtol=1e-9)  # the ideal
+    there = [(low[0] + 0.6 * (high[0] - low[0])) / deg, low[1] + 0.2 * (high[1] - low[1])]
+    page.mouse.move(*decision.evaluate(PLACE, ["front winners", *start]))
+    page.mouse.down()
+    page.mouse.move(*decision.evaluate(PLACE, ["front winners", *there]), steps=8)
+
+    def nearest(wish: list[float]) -> int:
+        return achievement(f, [wish[0] * deg, wish[1], f[:, 2].min()])
+
+    eventually(lambda: np.allclose(reference(decision), there, rtol=5e-3))
+    eventually(lambda: kernel_value(page, f"app.design == finder.front[{nearest(reference(decision))}]"))  # held
+    page.mouse.up()
+    picked = reference(decision)
+    for key, k in (("ArrowRight", 0), ("ArrowUp", 1)):
+        before = reference(decision)
+        decision.get_by_role("group", name="Winners on the front").locator("canvas").press(key)
+        eventually(lambda before=before, k=k: reference(decision)[k] > before[k])
+    eventually(lambda: kernel_value(page, f"app.design == finder.front[{nearest(reference(decision))}]"))
+    assert reference(decision)[0] > picked[0]
+    assert reference(decision)[1] > picked[1]
 
 
 def test_the_bands_handles_are_called_after_the_axis_and_move_with_the_keys(page: Page) -> None:

@@ -20,6 +20,7 @@ from camkit.decision import (
     SAATY_SCALE,
     WEIGHING,
     Judgements,
+    achievement,
     crowding_distance,
     judged_weights,
     judgement_ranges,
@@ -729,3 +730,41 @@ def test_a_map_says_what_the_chooser_says(k):
         assert len(chart.weights) == math.comb(steps + k - 1, k - 1)
         for i in range(0, len(chart.weights), max(len(chart.weights) // 7, 1)):
             assert chart.winners[i] == choose(f, chart.weights[i])
+
+
+# ---------------------------------------------------------------- a reference point
+
+
+def test_the_nearest_design_to_a_wish_by_hand():
+    """Ranges 4 and 10: short by 0.25 and 0.3, by 0.5 and 0.1, by 0 and 0.6."""
+    front = [[2, 5], [3, 3], [1, 8], [5, 2], [4, 12]]
+    assert achievement(front, [1, 2]) == 0
+    assert achievement(front, [3, 0]) == 1
+    assert achievement(front, [[1, 2], [0, 9], [9, 0]]).tolist() == [0, 2, 3]
+    assert achievement(front) == 0
+    assert achievement([[1, 3], [1, 3]], [0, 0]) == 0
+
+
+fronts = arrays(float, st.tuples(st.integers(1, 30), st.integers(1, 4)), elements=st.integers(-9, 9).map(float))
+
+
+@given(fronts, st.data())
+@settings(deadline=None)
+def test_no_design_is_better_than_the_nearest_in_everything_and_units_do_not_matter(f, data):
+    k = f.shape[1]
+    wish = np.array(data.draw(st.lists(st.integers(-20, 20).map(float), min_size=k, max_size=k)))
+    chosen = achievement(f, wish)
+    assert not ((f <= f[chosen]).all(-1) & (f < f[chosen]).any(-1)).any()
+    short = (f - wish) / np.where(np.ptp(f, axis=0) > 0, np.ptp(f, axis=0), 1)
+    assert short[chosen].max() <= short.max(-1).min() + 1e-4 * abs(short).sum(-1).max() * 2
+    scale = 2.0 ** np.arange(k)
+    assert achievement(8 * scale * f, 8 * scale * wish) == chosen
+    efficient = [i for i in range(len(f)) if not ((f <= f[i]).all(-1) & (f < f[i]).any(-1)).any()]
+    for i in efficient:
+        assert (f[achievement(f, f[i])] == f[i]).all()
+
+
+@pytest.mark.parametrize("wish", [[1.0], [1.0, 2.0, 3.0], [math.nan, 1.0], "ab", [[1.0]]])
+def test_what_is_no_wish(wish):
+    with pytest.raises(ValueError, match=r"the reference point is .*; it must be 2 finite numbers"):
+        achievement([[0, 1], [1, 0]], wish)

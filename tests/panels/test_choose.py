@@ -1,5 +1,6 @@
 """The decision panel and its views against the package's own winners, weights and numbers."""
 
+import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,7 +13,7 @@ from sheets import do, press
 from try_everything import try_everything
 
 from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore
-from camkit.decision import CHOOSERS, WEIGHING, judgement_ranges, topsis, weighted_sum, winner_map
+from camkit.decision import CHOOSERS, WEIGHING, achievement, judgement_ranges, topsis, weighted_sum, winner_map
 from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
 from camkit.quantities import Design, quantity
@@ -372,7 +373,7 @@ def test_one_to_four_objectives(k):
     assert len(panel.sureness) == (0 if k == 1 else 2)
     press(panel, "knee")
     assert source.explorer.design == source.front[panel.shown.winners["knee"]]
-    assert try_everything(panel) == (1 if k == 1 else 2)  # one design has no band
+    assert try_everything(panel) == (1 if k == 1 else 2 + k)  # one design has no band, and no wishes
     assert panel.designs.bands == {}
 
 
@@ -404,6 +405,55 @@ def test_what_a_wish_costs_the_other_is_told_for_each_winner():
     assert {int(each[1]): float(each[2]) for each in said} == {i: pytest.approx(c, rel=5e-4) for i, c in chords.items()}
     assert told
     assert not [line for line in choose_panel(Source(a_front(3)))._verdict.value if "costs" in line]
+
+
+# --- a reference point ------------------------------------------------------------------------------------------------
+
+
+def wish_of(panel):
+    """What stands in the boxes of the reference point."""
+    return [line.children[1].value for line in panel.reference.box.children]
+
+
+def test_a_reference_point_that_is_dragged_picks_the_nearest_design():
+    front = a_front(2)
+    panel = choose_panel(source := Source(front))
+    ideal = [front.f[:, 0].min() / mm, -front.f[:, 1].min() / mm**2]
+    assert_allclose(xy(panel.points.shown[0], "reference").ravel(), ideal)
+    assert_allclose(wish_of(panel), ideal, rtol=1e-5)
+    assert panel.points.movable == "reference"
+    for at in ([25.0, 2000.0], [40.0, 2300.0], [12.0, 500.0]):
+        do(panel, panel.points, does="move", view=0, at=at, pixel=[0.1, 1.0])
+        expected = achievement(front, [at[0] * mm, -at[1] * mm**2])
+        assert source.explorer.design == front[expected]
+        assert panel.designs.selected == expected
+        assert_allclose(xy(panel.points.shown[0], "reference").ravel(), at)
+        assert_allclose(wish_of(panel), at)
+    do(panel, panel.points, does="move", view=0, at=[math.inf, 1.0], pixel=[0.1, 1.0])
+    assert_allclose(wish_of(panel), [12, 500])
+    source.show(front_of(front.study.evaluate(front.x[:-1]), front.study))
+    assert_allclose(wish_of(panel), [12, 500])  # what is wished stays
+
+
+def test_a_reference_point_is_typed_where_there_are_more_objectives(source):
+    panel = choose_panel(source)
+    assert [line.children[0].text for line in panel.reference.box.children] == ["width", "area", "slope"]
+    panel.reference.box.children[2].children[1].value = 1.5
+    wish = source.front.f.min(0)
+    wish[2] = 1.5
+    assert source.explorer.design == source.front[achievement(source.front, wish)]
+    do(panel, panel.points, does="move", view=0, at=[30.0, 900.0], pixel=[0.1, 1.0])
+    wish[:2] = 30 * mm, -900 * mm**2
+    assert source.explorer.design == source.front[achievement(source.front, wish)]
+    assert_allclose(wish_of(panel), [30, 900, 1.5])
+
+
+def test_one_objective_has_no_reference_point():
+    panel = choose_panel(Source(a_front(1)))
+    assert not panel.reference.box.visible
+    assert panel.points.shown[0]["reference"].label == ""
+    do(panel, panel.points, does="move", view=0, at=[1.0, 1.0], pixel=[0.1, 1.0])
+    assert panel.banner.text == ""
 
 
 # --- judgements typed and left open -----------------------------------------------------------------------------------

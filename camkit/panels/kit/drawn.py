@@ -34,6 +34,8 @@ class LivePicture(Part):
     pixels = traitlets.Int().tag(page=True)
     pointing = traitlets.Unicode("").tag(page=True)
     """What a person may do in it beside looking: "click", or "drag", which includes it."""
+    movable = traitlets.Unicode("").tag(page=True)
+    """The key of the mark that a person may drag, or move with the arrow keys."""
     count = traitlets.Int(0).tag(page=True)
     """How often it has been drawn: by it the page knows another picture."""
 
@@ -45,6 +47,7 @@ class LivePicture(Part):
         self._last: tuple[object, dict[str, object]] | None = None
         self._offered: dict[str, object] = {}
         self._pointed: Callable[[int, str, Array, Array], None] = lambda *told: None
+        self._moved: Callable[[int, Array], None] = lambda *told: None
         super().__init__(description=description, pixels=round(INCH * height))
 
     def show(self, thing: object, views: tuple[View, ...] | None = None, **asked: object) -> None:
@@ -89,10 +92,18 @@ class LivePicture(Part):
         self._pointed = lambda view, kind, at, pixel: act(view, at, pixel) if kind == "click" else None
         self.pointing = "click"
 
+    def on_move(self, key: str, act: Callable[[int, Array], None]) -> None:
+        """Let a person move the mark ``key``, a point: ``act(view, at)`` is told where to; `on_click` goes on."""
+        self._moved, self.movable = act, key
+
     def take(self, message: Message) -> None:
         """The pointer does something."""
         at, pixel = (np.array(message[name], dtype=float) for name in ("at", "pixel"))
-        if at.shape == pixel.shape == (2,) and np.isfinite([at, pixel]).all():
+        if at.shape != (2,) or pixel.shape != (2,) or not np.isfinite([at, pixel]).all():
+            return
+        if message["does"] == "move":
+            self._moved(int(message["view"]), at)
+        else:
             self._pointed(int(message["view"]), str(message["does"]), at, pixel)
 
 

@@ -20,10 +20,11 @@ from ...search.front import Front
 from ...search.rates import told_on_front
 from ...study.study import Study
 from ...views.front import Judged, shown_objectives
-from .drawn import nearest
+from .drawn import LivePicture, nearest
 from .inputs import Menu, Whole
 from .parts import Button, Line, bold
 from .quiet import Quiet
+from .reference import ReferencePoint
 from .sheet import Panel, Sheet
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class FrontPicker:
 
     ``choice`` is what they show.  What is picked goes into the sliders of an `Instrument`: ``design(i)``, by default
     the front's own.  ``importance`` judges the objectives, and the first rule is then the weighted sum; ``judged()`` is
-    called when another rule is asked for.
+    called when another rule is asked for, or a reference point.  A click in ``picture`` loads the nearest design.
     """
 
     def __init__(
@@ -120,6 +121,7 @@ class FrontPicker:
         explorer: Instrument,
         front: Front,
         importance: AhpPanel | None,
+        picture: LivePicture,
         judged: Callable[[], None],
         design: Callable[[int], Any] | None = None,
     ) -> None:
@@ -130,14 +132,17 @@ class FrontPicker:
         self.rule = Menu(list(CHOOSERS), "choose by", value=self.first_rule)
         self.pick = Whole(0, 0, 0, "design", slider=True, tooltip="loads a design of the front")
         self.take = Button("Load the winner", lambda: self.select(self.choice.winner))
+        self.reference = ReferencePoint(picture, self.select, judged)
         self.quiet.hear(self.rule, lambda _: judged())
         self.quiet.hear(self.pick, self.select)
+        picture.on_click(self.select_nearest)
         self.show(front)
 
     def show(self, front: Front) -> None:
         """Choose from another front, or anew from the same one; the slider is at the design in the explorer's."""
         self.choice = FrontChoice(front, self.rule.value, self.importance.weights if self.importance else None)
         self.take.disabled = self.choice.winner is None
+        self.reference.show(front)
         places = places_on(front, self.explorer.design)
         self.selected = next(map(int, places), None)
         with self.quiet:

@@ -6,6 +6,7 @@ import { fill } from "./numbers.js";
 import { placeOf, say, under, zooms } from "./pointer.js";
 import { download } from "./files.js";
 import { PATIENCE, arrays, atTheEnd } from "./kernel.js";
+import { many } from "./marks.js";
 import { Theme } from "./theme.js";
 import { Units } from "./units.js";
 
@@ -210,13 +211,13 @@ const KINDS = {
         chart.canvas.setAttribute("aria-label", chart.describe());
       }
     };
-    part.show = (/** @type {any} */ { id, pixels, description, pointing }) => {
+    part.show = (/** @type {any} */ { id, pixels, description, pointing, movable }) => {
       const made = sheet.model.get(`picture_${id}`) ?? [];
       if (made.length !== part.charts.length) {
-        part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, () => part.pointing, say, sheet));
+        part.charts = made.map((/** @type {any} */ one, /** @type {number} */ k) => pointed(new Chart(make("canvas", { role: "img", tabindex: "0" }), one.picture, look), k, tip, part, say, sheet));
         element.replaceChildren(...part.charts.map((/** @type {Chart} */ chart) => chart.canvas), tip);
       }
-      part.pointing = pointing;
+      Object.assign(part, { pointing, movable });
       element.style.setProperty("--tall", String(pixels));
       element.setAttribute("role", "group"); element.setAttribute("aria-label", description);
       part.charts.forEach((/** @type {Chart} */ chart, /** @type {number} */ k) => {
@@ -232,11 +233,17 @@ const KINDS = {
 };
 
 /** What the pointer does in a picture: hover for values; click and drag for the kernel, else pan and zoom.
- * @param {Chart} chart @param {number} view @param {HTMLElement} tip @param {() => string} pointing @param {any} say @param {Sheet} sheet */
-function pointed(chart, view, tip, pointing, say, sheet) {
-  const { canvas } = chart, draw = () => sheet.draw();
+ * @param {Chart} chart @param {number} view @param {HTMLElement} tip @param {any} part @param {any} say @param {Sheet} sheet */
+function pointed(chart, view, tip, part, say, sheet) {
+  const { canvas } = chart, draw = () => sheet.draw(), pointing = () => part.pointing;
   /** @type {number[] | null} */ let from = null;
-  let moved = false;
+  let moved = false, holding = false;
+  /** Where the mark stands that may be moved, if there is one. @returns {number[] | null} */
+  const grip = () => {
+    const mark = part.movable && chart.picture.marks.find((/** @type {any} */ { key }) => key === part.movable), [x] = mark ? many(mark.x, chart.own) : [];
+    return x === undefined ? null : [chart.x(x), chart.y(many(mark.y, chart.own)[0])];
+  };
+  const near = (/** @type {number[]} */ [px, py]) => { const place = grip(); return place !== null && Math.hypot(place[0] - px, place[1] - py) < 14; };
   const at = (/** @type {any} */ event) => placeOf(canvas, event);
   const tell = (/** @type {string} */ does, /** @type {number[]} */ [px, py]) => {
     const [x, y] = [chart.x.back(px), chart.y.back(py)];
@@ -244,17 +251,18 @@ function pointed(chart, view, tip, pointing, say, sheet) {
   };
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button || !chart.box) return;
-    from = at(event); moved = false;
+    from = at(event); moved = false; holding = near(from);
     canvas.setPointerCapture(event.pointerId);
     if (pointing() === "drag") tell("press", from);
   });
   canvas.addEventListener("pointermove", (event) => {
     if (!chart.box) return;
     const here = at(event);
-    if (!from) { hover(chart, tip, here); sheet.preview(designAt(chart, here)); return; }
+    if (!from) { hover(chart, tip, here); sheet.preview(designAt(chart, here)); canvas.style.cursor = near(here) ? "move" : ""; return; }
     if (!moved && Math.hypot(here[0] - from[0], here[1] - from[1]) < 4) return;
     moved = true;
-    if (pointing() === "drag") tell("drag", here);
+    if (holding) tell("move", here);
+    else if (pointing() === "drag") tell("drag", here);
     else { chart.pan(here[0] - from[0], here[1] - from[1]); from = here; draw(); }
   });
   canvas.addEventListener("pointerup", (event) => {
@@ -267,6 +275,13 @@ function pointed(chart, view, tip, pointing, say, sheet) {
   });
   canvas.addEventListener("pointercancel", () => { from = null; });
   canvas.addEventListener("pointerleave", () => { tip.hidden = true; sheet.preview(null); });
+  canvas.addEventListener("keydown", (event) => {
+    const { key, ctrlKey, metaKey, altKey } = event, place = ctrlKey || metaKey || altKey ? null : grip();
+    const [across, up] = /** @type {Record<string, number[]>} */ ({ ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, -8], ArrowDown: [0, 8] })[key] ?? [0, 0];
+    if (!place || !(across || up)) return;
+    event.preventDefault();
+    tell("move", [place[0] + across, place[1] + up]);
+  });
   zooms(chart, draw);
   return chart;
 }
