@@ -14,6 +14,8 @@ from .minimax import Epigraph
 
 CLOSE = 1e-4
 """A peak, a limit or a bound holds a design that comes as near to it, as a share of it."""
+APART = 0.02
+"""Designs are next to each other from this share of the range on; between nearer ones there is little but noise."""
 STATIONARY = 1e-2
 """So much of the objective's slope may be left where the limits are to hold it."""
 
@@ -21,10 +23,12 @@ STATIONARY = 1e-2
 def slope_on_front(f: np.ndarray, place: int) -> float:
     """How fast the second objective falls with the first at a design of a front ``(p, 2)``.
 
-    That of the parabola through the nearest designs on both sides (three-point formula); ``nan`` at the front's ends.
+    That of the parabola through the nearest designs on both sides (three-point formula), `APART` or more of the first
+    objective's range away; ``nan`` at the front's ends.
     """
     x, y = f[place]
-    before, after = f[f[:, 0] < x], f[f[:, 0] > x]
+    away = (f[:, 0] - x) / (np.ptp(f[:, 0]) or 1.0)
+    before, after = f[away <= -APART], f[away >= APART]
     if not (len(before) and len(after)):
         return float("nan")
     left, right = before[before[:, 0].argmax()] - (x, y), after[after[:, 0].argmin()] - (x, y)

@@ -182,7 +182,7 @@ def test_what_one_objective_costs_the_other_at_a_design(front):
     cost = 0.01 * front.rates(i)[0, 1]  # the first, the effort, has no unit
     assert cost > 0
     assert costs(front, [0, i]) == [
-        f"at design {i}: 0.01 less {first.name} costs {second.text(cost)} less {second.name}."
+        f"At design {i}: 0.01 less {first.name} costs {second.text(cost)} less {second.name}."
     ]
 
 

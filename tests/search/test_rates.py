@@ -37,7 +37,7 @@ def front_on(f, objectives=(angle, force)):
 
 
 def test_rates_of_a_parabola_are_exact():
-    x = np.sort(np.random.default_rng(3).random(9))
+    x = np.cumsum(np.random.default_rng(3).uniform(0.05, 0.1, 9))
     front = front_on(np.stack([x, (1 - x) ** 2], axis=-1))
     for i in range(1, 8):
         rates = front.rates(i)
@@ -61,6 +61,8 @@ def test_rates_where_nobody_knows_are_none():
     for end in (0, 1, -1):
         assert np.isnan(two.rates(end)).all()
     assert two.rates(2)[0, 1] == two.rates(3)[0, 1] == pytest.approx((2 * 2 + 1 * 0.5) / 3)
+    close = front_on([(0, 3), (0.99, 1.2), (1, 1), (1.01, 0.99), (3, 0)])  # 0.5 % of the range apart
+    assert close.rates(2)[0, 1] == pytest.approx((2 * 2 + 1 * 0.5) / 3)
     three = front_on([(0, 1, 2), (1, 2, 0), (2, 0, 1)], (angle, force, third))
     assert np.isnan(three.rates(1)).all()
     assert three.rates(1).shape == (3, 3)

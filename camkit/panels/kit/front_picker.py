@@ -40,7 +40,7 @@ def objective_texts(study: Study, f: Array, between: str = " ") -> list[str]:
 def costs(front: Front, places: Iterable[int]) -> list[str]:
     """What one objective costs the other at some designs of a front, where that is known."""
     told = {i: told_on_front(front.study.minimise, front.rates(i)) for i in places}
-    return [f"at design {i}: {sentence}" for i, sentence in told.items() if sentence]
+    return [f"At design {i}: {sentence}" for i, sentence in told.items() if sentence]
 
 
 def places_on(front: Judged, design: Analysable) -> np.ndarray:
