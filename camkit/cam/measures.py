@@ -197,8 +197,12 @@ def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = n
     def whole(analysis: Any) -> Value:
         return reduce(of, [measure(getattr(analysis, name)) for name in names])
 
+    def each(analysis: Any) -> Array:
+        return np.stack(np.broadcast_arrays(*[measure(getattr(analysis, name)) for name in names]), axis=-1)
+
     if not isinstance(measure, CurveMeasure):
-        return Measure(told, measure.unit, whole, in_trouble=measure.in_trouble)
+        kind = LeastMeasure if of is np.minimum else PeakMeasure
+        return kind(told, measure.unit, whole, points=each, in_trouble=measure.in_trouble)
     return replace(
         measure,
         name=told,

@@ -16,7 +16,7 @@ from typing import Any, TypeGuard, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from ..motion import Law, MotionProgram, Segment
+from ..motion import FormError, Law, MotionProgram, Segment
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..quantities.kinds import kind_words, shown
 from ..units import factor, in_unit
@@ -106,7 +106,11 @@ def _has_fields(value: Any) -> bool:
 
 def kinds() -> dict[str, type]:
     """Every class that a file may name; of two with one name camkit's own, else the newest."""
-    every = [MotionProgram, *(kind for base in (Design, Law, Segment) for kind in _below(base))]
+    every = [
+        MotionProgram,
+        FormError,
+        *(kind for base in (Design, Law, Segment, MotionProgram) for kind in _below(base)),
+    ]
     known = [kind for kind in every if "__dataclass_fields__" in vars(kind) and not inspect.isabstract(kind)]
     return {k.__name__: k for k in sorted(known, key=_ours) if not k.__name__.startswith("_")}
 

@@ -12,6 +12,7 @@ from ..decision import Judgements, Judges
 from ..quantities import Analysable, Measure
 from ..quantities.kinds import refuse_kinds, shown, whole
 from ..search.front import Front, front_of
+from ..search.robust_front import surviving
 from ..study.study import Study
 from .checks import all_numbers, listed, mapping, message, plain
 from .entries import MOST_ROWS, Reading, entry_of, is_number
@@ -35,9 +36,10 @@ DEFAULTS: dict[str, object] = {
     "record": {},
     "judgements": {},
     "search": {},
+    "tolerances": {},
 }
 """What a study is read with where its file says nothing."""
-QUIETLY = {"columns", "sums", "made", "record"}
+QUIETLY = {"columns", "sums", "made", "record", "tolerances"}
 """Which of them are no matter for a remark: an earlier camkit wrote none, or there is nothing to say."""
 SESSION = {"design", "judgements", "methods", "search"}
 """What a front alone does not have."""
@@ -135,7 +137,10 @@ def _front(study: Study, entry: Mapping[str, object], reading: Reading) -> Front
     x, record, said = x_of(entry, study, reading), _record(entry["record"]), message(entry.get("message", ""))
     if not len(x):
         return empty_front(study, said, record)
-    front = front_of(study.evaluate(x), study)
+    found = study.evaluate(x)
+    if study.nominal is not study:  # whether they survive being made is said by exact parts
+        found = replace(found, g=study.nominal.evaluate(x).g)
+    front = surviving(front_of(found, study))
     reading.remarks.extend(left_out(len(x), len(front)))
     return replace(front, record=record)
 

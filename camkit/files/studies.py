@@ -12,12 +12,14 @@ from ..quantities import CurveMeasure, Design, Measure, measures_of, quantities_
 from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..quantities.types import Array
 from ..study.free import refuse_bounds
+from ..study.robust import RobustStudy
 from ..study.study import Study
 from ..study.weighted import WeightedSum, weighted
 from ..units import factor
 from .checks import all_numbers, listed, mapping, plain
 from .entries import Reading, entry_of, exact_in_unit, is_number, key
 from .renamed import Given, Renaming
+from .tolerances import tolerances_entry, under_tolerances
 
 Find = Callable[[str], Measure]
 
@@ -31,8 +33,6 @@ MOST_POINTS = 5_000_000
 
 def study_entry(study: Study) -> dict[str, object]:
     """A study as JSON knows it."""
-    if study.nominal is not study:
-        raise ValueError("the study is one under tolerances, which no file can hold; save its nominal study")
     _refuse_namesakes(study)
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
     made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}
@@ -50,6 +50,7 @@ def study_entry(study: Study) -> dict[str, object]:
         **({"sums": [_objective_entry(m, known) for m in sums]} if sums else {}),
         **({"made": {k: entry_of(how) for k, how in made.items()}} if made else {}),
         "angles": int(study.angles),
+        **({"tolerances": tolerances_entry(study)} if isinstance(study, RobustStudy) else {}),
     }
 
 
@@ -81,7 +82,8 @@ def study_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[M
     minimise = tuple(_objective(each, find) for each in listed(entry["minimise"], "minimise"))
     free = {path: _bounds(start, path, *freed) for path, freed in _free(entry, start, reading).items()}
     angles = whole(entry["angles"], "the file's 'angles'", 2, MOST_ANGLES)
-    return Study(start, free, minimise, at_most=limits["at_most"], at_least=limits["at_least"], angles=angles)
+    study: Study = Study(start, free, minimise, at_most=limits["at_most"], at_least=limits["at_least"], angles=angles)
+    return under_tolerances(study, entry["tolerances"], reading) if entry["tolerances"] else study
 
 
 def _free(entry: Mapping[str, object], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:

@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from ..quantities import Declared, Quantity, quantity
-from ..quantities.kinds import a_number, refuse_arguments, shown, whole
+from ..quantities.kinds import a_number, kind_words, shown, whole
 from ..quantities.types import Array, Value
 from .law import Kinematics
 from .program import MotionProgram
@@ -54,7 +54,11 @@ class FormError(Declared):
 
     def on(self, program: MotionProgram) -> FormedProgram:
         """The motion of a follower on a profile with this error."""
-        refuse_arguments(FormError.on, locals())
+        if not isinstance(program, MotionProgram):
+            raise ValueError(
+                f"an error of form rides on a motion program; {kind_words(type(program), article=True)} is none, "
+                "and a machine whose motion follows from quantities of its own takes no error of form"
+            )
         return FormedProgram(program.segments, program.start, self)
 
 

@@ -85,7 +85,7 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
     other free quantities.
     """
     *_, last = fast_front_steps(study, size, start)
-    return last.front if study.menus else surviving(last.front, _roughly(study))
+    return last.front if study.menus else surviving(last.front)
 
 
 def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Step]:
@@ -93,7 +93,7 @@ def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) 
     _refuse(study, start)
     if study.menus:
         steps = partial(_steps_with_options, size)
-        yield from fronts_of_options(study, steps, _roughly, start, lambda f: spread(f, size))
+        yield from fronts_of_options(study, steps, start, lambda f: spread(f, size))
         return
     began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)

@@ -84,7 +84,7 @@ class Front(Generic[D]):
     @cached_property
     def yields(self) -> Recheck | None:
         """The yield of each design by exact parts, with what is sure of it; ``None`` without tolerances."""
-        return self.study.recheck(self.x, 1024) if isinstance(self.study, RobustStudy) else None
+        return self.study.recheck(self.x) if isinstance(self.study, RobustStudy) else None
 
     def price(self, nominal: Front[D]) -> Price:
         """What it costs that this front's designs survive being made: what it lacks of the ``nominal`` front.

@@ -140,19 +140,23 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
 
 def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts: int, designs: int) -> Found:
     """Descents with margins in place of tolerances, which are renewed from exact parts at each end."""
-    inside = partial(np.clip, a_min=0, a_max=-study.floors)
-    margins = inside(np.nan_to_num(study.margins(_start(study))[0], posinf=0.0))
+    if study.objective != "nominal":
+        raise ValueError(
+            f"the method 'slsqp' makes the nominal objective small; this study has the objective {study.objective!r}: "
+            "take 'de', 'ga' or 'competitive'"
+        )
+    margins = np.maximum(np.nan_to_num(study.margins(_start(study))[0], posinf=0.0, neginf=0.0), 0)
     used, ends, finished = 0, [_start(study)], ""
     for number in range(PASSES):
         tight, exact = (which.tightened(partial(_constant, margins)) for which in (study, judge))
         found = _slsqp(tight.replace(start=study.design(ends[-1])), exact, seed, 1 if number else starts, designs)
         ends.append(found.x)
         used, finished = used + found.evaluations, found.why
-        before, margins = margins, inside(judge.exact_margins(found.x))
+        before, margins = margins, np.maximum(judge.exact_margins(found.x), 0)
         missed = plain(judge).evaluate(found.x).missed[0]
         if (abs(margins - before) < SETTLED).all() and not missed.any():
             break
-        margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.minimum(missed, -study.floors), 0))
+        margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.where(np.isfinite(missed), missed, 1), 0))
     return Found(_better(plain(judge), *ends), used, (), finished)
 
 
@@ -281,13 +285,22 @@ def _checked(study: Study, judge: Study, found: Found) -> Found:
     """With where a descent from what was found ends; its designs are not counted."""
     if not np.isfinite(study.evaluate(found.x).f).all():
         return found
+    if isinstance(study, RobustStudy) and study.objective != "nominal":
+        return found
     if not study.menus:
-        return found._replace(descended=_tightened(study, judge, found.x)[0])
+        return found._replace(descended=_descended(study, judge, found.x))
     here, at = (which.options.at(found.x) for which in (study, judge))
     if not here.study.free:
         return found
-    end = _tightened(here.study, at.study, here.x(study.rows(found.x))[0])[0]
+    end = _descended(here.study, at.study, here.x(study.rows(found.x))[0])
     return found._replace(descended=here.rows(end[None])[0])
+
+
+def _descended(study: Study, judge: Study, x: np.ndarray) -> np.ndarray:
+    """Where a descent from a design ends."""
+    if isinstance(study, RobustStudy) and isinstance(judge, RobustStudy):
+        return _within_tolerances(study.replace(start=study.design(x)), judge, 0, 1, 0).x
+    return _tightened(study, judge, x)[0]
 
 
 METHODS: dict[str, Callable[[Study, Study, int, int, int], Found]] = {

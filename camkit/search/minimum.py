@@ -13,7 +13,7 @@ from ..quantities import CurveMeasure, D, Measure, label
 from ..study.free import Menu
 from ..study.study import Evaluation, Study
 from ..study.weighted import parts_of
-from ..units import deg
+from ..units import deg, factor
 from .rates import CLOSE, multipliers
 
 SAME = 1e-3
@@ -59,8 +59,8 @@ class Minimum(Generic[D]):
     """The best design that a search found; ``message`` says in words why it stopped and what holds the design there.
 
     ``x`` are its free values in SI, ``f`` the objective, ``ends`` the objectives at which each start ended (``inf``
-    where limits are missed by `SAME` or more), ``evaluations`` how many designs were evaluated.  While the search goes
-    on, ``message``, ``ends`` and ``active`` are empty.
+    where limits are missed by `SAME` or more), ``evaluations`` how many designs were evaluated; under tolerances the
+    parts of each are not counted.  While the search goes on, ``message``, ``ends`` and ``active`` are empty.
     """
 
     study: Study[D]
@@ -164,8 +164,8 @@ def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
     peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, CurveMeasure) and m.way * m.sign > 0]
     limits = [
         _reached("limit", m, analysis, sense)
-        for (m, _, sense), g in zip(study.limits, evaluation.g[0], strict=True)
-        if abs(g) <= CLOSE
+        for (m, v, sense), g in zip(study.limits, evaluation.g[0], strict=True)
+        if abs(g) <= CLOSE * (1 if v else factor(m.unit))
     ]
     return (*peaks, *limits, *_bounds_reached(study, evaluation.x[0]))
 

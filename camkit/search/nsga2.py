@@ -55,7 +55,7 @@ def nsga2_steps(
 
     def step() -> Step:
         so_far = {**record, "generations": number, "seconds": time.monotonic() - began}
-        found = _found(algorithm, study, closely=room.needed and number == generations)
+        found = _found(algorithm, study, closely=room.needed)
         return Step(number, generations, study, found, number * population, None, message, so_far)
 
     if checkpoint:
@@ -153,4 +153,4 @@ def nsga2(
                 RuntimeWarning,
                 stacklevel=2,
             )
-    return surviving(step.front, study)
+    return surviving(step.front)

@@ -102,7 +102,6 @@ class _Part(NamedTuple):
 def fronts_of_options(
     study: Study[D],
     steps: Steps[D],
-    roughly: Callable[[Study[D]], Study[D]],
     start: Front[D] | None,
     thin: Callable[[Array], Array],
 ) -> Iterator[Step]:
@@ -122,7 +121,7 @@ def fronts_of_options(
                     so_far = partial(_together, study, [*parts], made, step)
                     yield replace(_step(study, began, number, of, evaluated + step.evaluated), found=so_far)
                 else:
-                    front, evaluated = surviving(step.front, roughly(made.study)), evaluated + step.evaluated
+                    front, evaluated = surviving(step.front), evaluated + step.evaluated
         except ValueError as refusal:
             front = str(refusal)
         if isinstance(front, Front):

@@ -222,8 +222,9 @@ def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Ite
             nonlocal best, count
             count += len(evaluation.x)
             step = Step(count, max(of, count) if of else 0, study, evaluation, count)
-            if step.summary.feasible and (best is None or step.summary.f < best.f):
-                i = int(np.lexsort((evaluation.f[:, 0], ~evaluation.feasible))[0])
+            i = int(np.lexsort((evaluation.f[:, 0], ~evaluation.feasible))[0])
+            better = step.summary.feasible and (best is None or step.summary.f < best.f)
+            if better and (study.nominal is study or study.evaluate(evaluation.x[i]).feasible[0]):
                 best = Minimum(study, evaluation.x[i].copy(), step.summary.f, True, count)
             give(replace(step, best=best))
 

@@ -6,20 +6,19 @@ is that of the nominal study with tighter limits.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..quantities import D
 from ..study.margins import FittedMargins
-from ..study.recheck import rechecked
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
-from ..study.three_point import ThreePoint, seen
+from ..study.three_point import bounded, seen
 from .front import Front
 
 FITTED, RAISED = 32, 16
 """So many designs are looked at for a fit, and to raise it at the end."""
-PARTS = 1024
-"""Parts of each design of a front that judge it at the end."""
 
 
 class Room:
@@ -61,10 +60,9 @@ class Room:
     def _looked_at(self, x: np.ndarray, together: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Those of some designs that can be built, their limits, and their margins."""
         assert self.study is not None
-        g = seen(self.study.nominal.evaluate(x).g, self.study.floors)
+        g = seen(self.study.nominal.evaluate(x).g)
         x, g = (values[np.isfinite(g).all(-1)] for values in (x, g))
-        margins = self.study.held(x, self.study.models(x), together) - g
-        return x, g, np.minimum(margins, -self.study.floors)
+        return x, g, self.study.margins(x, together)
 
 
 def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
@@ -73,31 +71,28 @@ def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
         return study.evaluate(x)
     if study.objective != "nominal":
         return study.evaluate(x)
-    found, models = _moved(study, rough, x)
+    found = study.nominal.evaluate(x)
+    with np.errstate(invalid="ignore"):
+        by = bounded(seen(found.g)) - bounded(seen(rough.nominal.evaluate(x).g))
+    by = np.where(np.isfinite(by), by, 0.0)
+    models = [m._replace(centre=m.centre + by[:, i : i + 1]) for i, m in enumerate(rough.models(x)[: by.shape[1]])]
     return Evaluation(x, found.f, study.held(x, models))
 
 
-def _moved(study: RobustStudy, rough: RobustStudy, x: np.ndarray) -> tuple[Evaluation, list[ThreePoint]]:
-    """The nominal evaluation of designs, and models of their limits that agree with it."""
-    found = study.nominal.evaluate(x)
-    with np.errstate(invalid="ignore"):
-        by = seen(found.g, study.floors) - seen(rough.nominal.evaluate(x).g, study.floors)
-    by = np.where(np.isfinite(by), by, 0.0)
-    models = [m._replace(centre=m.centre + by[:, i : i + 1]) for i, m in enumerate(rough.models(x))]
-    return found, models
+def surviving(front: Front[D]) -> Front[D]:
+    """The designs of a front whose yield is enough for sure, by exact parts, with what these say of each: ``yields``.
 
-
-def surviving(front: Front[D], rough: Study) -> Front[D]:
-    """The designs of a front whose yield is enough by exact parts, with what these say of each: ``yields``."""
+    That all parts keep their limits, no number of parts makes sure; then none of them may miss one.
+    """
     study = front.study
-    if not isinstance(study, RobustStudy) or not isinstance(rough, RobustStudy) or not len(front):
+    if not isinstance(study, RobustStudy) or not len(front):
         return front
-    moved = None if study.menus or not study.free else _moved(study, rough, front.x)[1]
-    checked = study.recheck(front.x, PARTS) if moved is None else rechecked(study, front.x, PARTS, moved)
-    good = checked.share >= checked.wanted
-    best = (
-        f"no design of the front yields {100 * checked.wanted:g} %; the best yields {100 * checked.share.max():.1f} %"
-    )
-    found = Front(study, front.x[good], front.f[good], front.message if good.any() else best, front.record)
+    checked = study.recheck(front.x)
+    good = checked.kept if checked.wanted < 1 else checked.missed == 0
+    wanted, best = f"{100 * checked.wanted:g} %", str(checked.of(np.array([checked.share.argmax()])))
+    message = front.message if good.all() else f"{(~good).sum()} of {len(good)} left out: not sure to yield {wanted}"
+    if not good.any():
+        message = f"no design of the front yields {wanted} for sure; the best yields {best}"
+    found = replace(front, x=front.x[good], f=front.f[good], message=message)
     vars(found)["yields"] = checked.of(good)
     return found

@@ -11,7 +11,6 @@ import numpy as np
 from ..quantities import D
 from ..quantities.types import Array
 from .study import KEPT, Evaluation, Study
-from .three_point import seen
 
 RIDGE = 1e-2
 """How much a fit prefers margins that are the same everywhere."""
@@ -32,7 +31,7 @@ class TightenedStudy(Study[D]):
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and tightened limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
         found = super().judge(x, analysis)
-        return found if self.margins is None else replace(found, g=seen(found.g, self.floors) + self.margins(x))
+        return found if self.margins is None else replace(found, g=found.g + self.margins(x))
 
 
 def tightened(study: Study[D], margins: Callable[[Array], Array]) -> TightenedStudy[D]:

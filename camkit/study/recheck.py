@@ -12,15 +12,15 @@ import numpy as np
 from ..quantities import counted
 from ..quantities.types import Array
 from .study import KEPT
-from .three_point import FLOOR, ThreePoint
+from .three_point import DEEP, ThreePoint, bounded
 
 if TYPE_CHECKING:
     from .robust import RobustStudy
 
 SEED = 20768
 """Of parts that no search has seen."""
-FIRST, MOST = 1024, 16384
-"""How many parts there are at first, and at most while it is not decided."""
+LOOKS = 1024, 4096, 16384
+"""How many parts there are at first, and while it is not decided."""
 BATCH, SURE = 8, 2.0
 """So many parts are judged at a time, until the next lies so many of the model's errors within its limits."""
 CONFIDENCE = 0.95
@@ -38,7 +38,10 @@ class Recheck:
     share: Array
     """The yield, ``(p,)``."""
     interval: Array
-    """Between which yields the true one lies, ``(p, 2)`` (Clopper and Pearson; each end holds with 95 %)."""
+    """Between which yields the true one lies, ``(p, 2)`` (Clopper and Pearson; each end holds with 95 %).
+
+    Who looks up to three times errs up to three times as often: then each look is sure to a third of the error.
+    """
     missed: Array
     """How many parts miss a limit or cannot be built, ``(p,)``."""
     parts: Array
@@ -64,15 +67,19 @@ class Recheck:
         return replace(self, share=share, interval=interval, missed=missed, parts=parts)
 
     def __str__(self) -> str:
-        rows = zip(self.share, self.interval, self.decided, strict=True)
-        return "; ".join(
-            f"{100 * share:.1f} % ({100 * low:.1f} to {100 * high:.1f}){'' if sure else ', not decided'}"
-            for share, (low, high), sure in rows
-        )
+        return "; ".join(self._text(i) for i in range(len(self.share)))
+
+    def _text(self, i: int) -> str:
+        (low, high), share = 100 * self.interval[i], 100 * self.share[i]
+        if self.wanted == 1 and self.missed[i] == 0 and not self.decided[i]:
+            return f"none of {self.parts[i]} parts misses: at least {low:.2f} %, of all only a worst case is sure"
+        return f"{share:.1f} % ({low:.1f} to {high:.1f}){'' if self.decided[i] else ', not decided'}"
 
 
-def clopper_pearson(missed: Array, parts: Array) -> Array:
+def clopper_pearson(missed: Array, parts: Array, looks: int = 1) -> Array:
     """The ends of the yield's interval when ``missed`` of ``parts`` miss, ``(..., 2)``; each holds with 95 %.
+
+    ``looks``: how often there is a look at most, after more and more parts.
 
     >>> clopper_pearson(np.array([4, 5]), np.array([1024, 1024]))[:, 0].round(4).tolist()
     [0.9911, 0.9898]
@@ -80,33 +87,34 @@ def clopper_pearson(missed: Array, parts: Array) -> Array:
     from scipy.special import betaincinv
 
     missed, parts = np.asarray(missed, dtype=float), np.asarray(parts, dtype=float)
-    kept, beyond = parts - missed, 1 - CONFIDENCE
+    kept, beyond = parts - missed, (1 - CONFIDENCE) / looks
     low = np.where(kept > 0, betaincinv(np.maximum(kept, 1), missed + 1, beyond), 0.0)
-    high = np.where(missed > 0, betaincinv(kept + 1, np.maximum(missed, 1), CONFIDENCE), 1.0)
+    high = np.where(missed > 0, betaincinv(kept + 1, np.maximum(missed, 1), 1 - beyond), 1.0)
     return np.stack([low, high], axis=-1)
 
 
-def rechecked(study: RobustStudy, x: Array, parts: int | None, models: list[ThreePoint] | None = None) -> Recheck:
-    """`RobustStudy.recheck`; ``models`` of the limits, if there are any, say which parts are judged."""
+def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
+    """`RobustStudy.recheck`: models of the limits say which parts are judged."""
     p, wanted = len(x), study.yield_at_least
-    models, looked = (study.models(x), p * (2 * len(study.tolerances) + 1)) if models is None else (models, 0)
+    models, looked = study.models(x), p * (2 * len(study.tolerances) + 1)
     if study.worst_case:
         found = largest(study, study.made(x, corners(study, models)))
         missed, used = (found > KEPT).sum(1), found.shape[1]
         share = 1 - missed / used
         return Recheck(share, np.stack([share, share], -1), missed, np.full(p, used), 1.0, looked + found.size)
-    number = FIRST if parts is None else counted(parts, "parts", 4, 2**20)
-    if number & (number - 1):
-        raise ValueError(f"the number of parts is {number}; it must be a power of 2")
-    missed, of = np.zeros(p, dtype=int), np.full(p, number)
-    open_ = np.arange(p)
-    while len(open_):
+    numbers = LOOKS if parts is None else (counted(parts, "parts", 4, 2**20),)
+    if numbers[0] & (numbers[0] - 1):
+        raise ValueError(f"the number of parts is {numbers[0]}; it must be a power of 2")
+    missed, of, open_ = np.zeros(p, dtype=int), np.full(p, numbers[0]), np.arange(p)
+    for number in numbers:
         missed[open_], judged = _missed(study, x[open_], [_rows(model, open_) for model in models], number)
         of[open_], looked = number, looked + judged
-        low, high = clopper_pearson(missed[open_], of[open_]).T
-        open_ = open_[(low < wanted) & (high >= wanted)] if parts is None and number < MOST else open_[:0]
-        number *= 4
-    return Recheck(1 - missed / of, clopper_pearson(missed, of), missed, of, wanted, looked)
+        interval = clopper_pearson(missed, of, len(numbers))
+        said = Recheck(1 - missed / of, interval, missed, of, wanted, looked)
+        open_ = np.flatnonzero(~said.decided)
+        if not len(open_):
+            break
+    return said
 
 
 def joined(every: Sequence[tuple[Array, Recheck]]) -> Recheck:
@@ -124,7 +132,7 @@ def _rows(model: ThreePoint, rows: Array) -> ThreePoint:
 def largest(study: RobustStudy, parts: Array) -> Array:
     """The largest ``g`` of each of ``parts`` ``(p, m, n_paths)``, ``(p, m)``; ``inf`` for what cannot be built."""
     found = study.judged(parts.reshape(-1, parts.shape[-1]))
-    worst = found.g.max(-1, initial=FLOOR)
+    worst = found.g.max(-1, initial=DEEP)
     return np.where(np.isfinite(found.f).all(-1), worst, np.inf).reshape(parts.shape[:2])
 
 
@@ -134,19 +142,21 @@ def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int)
     The worst by the model are judged, until the next lies well within its limits by the largest error seen.
     """
     z = study.shares(number, SEED)
-    g = np.full((len(x), number), FLOOR)
+    g = np.full((len(x), number), DEEP)
     for rows in np.array_split(np.arange(number), max(1, number // 1024)):
         for model in models:
             g[:, rows] = np.maximum(g[:, rows], model.at(z[rows]))
     order = np.argsort(-g, axis=1, kind="stable")
-    missed, error, at, judged = np.zeros(len(x), dtype=int), np.zeros(len(x)), 0, 0
+    missed, at, judged = np.zeros(len(x), dtype=int), 0, 0
+    error = np.full(len(x), 0.0 if study.limits else np.inf)
     open_, batch = np.arange(len(x)), BATCH
     while at < number and len(open_):
         tried = order[open_, at : at + batch]
         found = largest(study, study.made(x[open_], z[tried]))
         guess = np.take_along_axis(g[open_], tried, 1)
         missed[open_] += (found > KEPT).sum(1)
-        error[open_] = np.maximum(error[open_], np.minimum(abs(found - guess), 1.0).max(1))
+        off = np.minimum(abs(found - guess), abs(bounded(found) - guess))  # seen by itself or by its reciprocal
+        error[open_] = np.maximum(error[open_], np.minimum(off, 1.0).max(1))
         at, judged = at + tried.shape[1], judged + tried.size
         batch = min(2 * batch, 256)
         if at < number:

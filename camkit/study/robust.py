@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import D, Paths, Quantity, words
+from ..quantities import D, Measure, Paths, Quantity, words
 from ..quantities.kinds import one_number, shown
 from ..quantities.types import Array
 from .free import declared_with
@@ -22,7 +22,7 @@ from .options import ready
 from .recheck import Recheck, corners, joined, largest, rechecked
 from .spread import Source, Tolerance, correlated, spread_shares
 from .study import KEPT, Evaluation, Study
-from .three_point import FLOOR, ThreePoint, floor_of, seen, star
+from .three_point import FLOOR, ThreePoint, seen, star
 from .weighted import points_of
 
 PARTS = 512
@@ -95,6 +95,11 @@ class RobustStudy(Study[D]):
     def nominal(self) -> Study[D]:
         """The same study without tolerances."""
         return Study(**{f.name: getattr(self, f.name) for f in fields(Study)})
+
+    @property
+    def wanted(self) -> float:
+        """The share of parts that has to keep every limit; all corners in the worst case."""
+        return 1.0 if self.worst_case else self.yield_at_least
 
     @property
     def sought(self) -> RobustStudy[D]:
@@ -195,14 +200,13 @@ class RobustStudy(Study[D]):
         q, analysis = len(parts), self.analysis_of_parts(parts)
         f = [np.asarray(m.of(analysis, q))[:, None] for m in self.minimise]
         limits = [
-            seen(points_of(m, analysis, sense / (abs(v) or 1.0), q) - sense * np.sign(v), floor_of(v))
-            for m, v, sense in self.limits
+            seen(_points(m, analysis, sense / (abs(v) or 1.0), q) - sense * np.sign(v)) for m, v, sense in self.limits
         ]
         built = np.isfinite(np.hstack(f)).all(-1, keepdims=True)
         limits = [np.where(built, g, np.inf) for g in limits or [np.full((q, 1), FLOOR)]]
-        both = limits, [] if self.objective == "nominal" else f
-        limit_models, objective_models = ([ThreePoint.of(g.reshape(len(x), len(z), -1)) for g in one] for one in both)
-        return limit_models, objective_models
+        f = [] if self.objective == "nominal" else f
+        limits, f = ([g.reshape(len(x), len(z), g.shape[-1]) for g in one] for one in (limits, f))
+        return [ThreePoint.of(g) for g in limits], [ThreePoint.of(g, limit=False) for g in f]
 
     def modelled_yield(self, x: ArrayLike) -> Array:
         """Which share of 512 modelled parts of designs ``(p, n_free)`` can be built and keeps every limit, ``(p,)``.
@@ -215,7 +219,12 @@ class RobustStudy(Study[D]):
         >>> robust.modelled_yield([[0.1293, 0.103], [0.1302, 0.103]]).round(2).tolist()
         [0.61, 1.0]
         """
-        models = self.models(self.rows(x))
+        rows = self.rows(x)
+        if self.menus:
+            return self.options.table(rows, 1, lambda study, x: study.modelled_yield(x)[:, None], 0.0)[:, 0]
+        return self._kept(self.models(rows))
+
+    def _kept(self, models: list[ThreePoint]) -> Array:
         z = corners(self, models) if self.worst_case else self._shares
         return np.asarray((np.max([model.at(z) for model in models], axis=0) <= KEPT).mean(-1))
 
@@ -229,7 +238,7 @@ class RobustStudy(Study[D]):
         if self.worst_case:
             parts = self.made(x, np.stack([model.corner for model in models], axis=1))
             found = self.judged(parts.reshape(-1, parts.shape[-1])).g.reshape(len(x), len(models), -1)
-            return seen(found, self.floors).max(1)
+            return seen(found).max(1)
         each = np.stack([model.at(self._shares) for model in models], axis=-1)
         place = int(np.ceil(self.yield_at_least * each.shape[1])) - 1
         g = np.partition(each, place, axis=1)[:, place]
@@ -238,25 +247,31 @@ class RobustStudy(Study[D]):
             np.put_along_axis(g, g.argmax(-1)[:, None], most[:, None], -1)
         return g
 
-    def margins(self, x: ArrayLike) -> Array:
+    def margins(self, x: ArrayLike, together: bool = True) -> Array:
         """By how much each limit is to be tightened, as a share of it, for designs ``(p, n_free)``: ``(p, n_limits)``.
 
-        ``nominal.evaluate(x).g + margins(x)`` is kept (<= 0) where enough of the parts keep every limit; a limit that
-        is kept by more than its own size counts there as kept by that.
+        ``nominal.evaluate(x).g + margins(x)`` is kept (<= 0) where enough of the parts keep every limit, all of them
+        ``together``.
         """
         rows = self.rows(x)
         if self.menus:
-            return self.options.table(rows, len(self.limits), lambda study, x: study.margins(x), np.inf)
-        return self.held(rows, self.models(rows)) - seen(self.nominal.evaluate(rows).g, self.floors)
+            return self.options.table(rows, len(self.limits), lambda study, x: study.margins(x, together), np.inf)
+        models = self.models(rows)
+        return self.held(rows, models, together) - self._near(self.nominal.evaluate(rows).g, models)
+
+    def _near(self, g: Array, models: list[ThreePoint]) -> Array:
+        """Limits ``(p, n_limits)``, those that are kept without end not farther from the models than they reach."""
+        return np.maximum(seen(g), np.stack([m.low for m in models], axis=-1)[:, : len(self.limits)])
 
     def exact_margins(self, x: Array) -> Array:
         """The same at one design ``(n_free,)`` by parts that are evaluated, ``(n_limits,)``.
 
         One level for all limits, raised until enough of the parts keep all of them together.
         """
-        z = corners(self, self.models(x[None])) if self.worst_case else self.shares(EXACT_PARTS)
-        here = seen(self.nominal.evaluate(x).g[0], self.floors)
-        away = seen(self.judged(self.made(x[None], z.reshape(-1, z.shape[-1]))[0]).g, self.floors) - here
+        models = self.models(x[None])
+        z = corners(self, models) if self.worst_case else self.shares(EXACT_PARTS)
+        here = self._near(self.nominal.evaluate(x).g, models)[0]
+        away = self._near(self.judged(self.made(x[None], z.reshape(-1, z.shape[-1]))[0]).g, models) - here
         ordered = np.sort(away, axis=0)
         least = len(away) if self.worst_case else int(np.ceil(self.yield_at_least * len(away)))
         for place in range(least - 1, len(away)):
@@ -286,6 +301,8 @@ class RobustStudy(Study[D]):
         if len(good):
             limits, objectives = self._modelled(rows[good])
             g[good] = self.held(rows[good], limits)
+            if not self.limits:
+                f[good] = np.where(self._kept(limits)[:, None] >= self.wanted, f[good], np.inf)
             for column, model in enumerate(objectives):
                 f[good, column] = self._objective(model)
         return Evaluation(rows, f, g)
@@ -330,7 +347,8 @@ class RobustStudy(Study[D]):
             above, below = (np.max([model.at(s * each) for model in models], axis=0) for s in (1 + STEP, 1 - STEP))
             with np.errstate(divide="ignore", invalid="ignore"):
                 newton = 1 - found * (2 * STEP) / (above - below)
-            sure = np.isfinite(newton) & (above > below) & (found > FLOOR)
+            guess = np.max([model.at(each) for model in models], axis=0)
+            sure = np.isfinite(newton) & (above > below) & (found > guess + FLOOR)
             np.put_along_axis(room, few, np.where(sure, np.maximum(newton, 0), np.take_along_axis(room, few, 1)), 1)
         return np.asarray(np.partition(room, missing, axis=1)[:, missing])
 
@@ -344,3 +362,13 @@ class RobustStudy(Study[D]):
             return rechecked(self, rows, parts)
         every = [(at, plain.study.recheck(plain.x(rows[at]), parts)) for at, plain in self.options.groups(rows)]
         return joined(every)
+
+
+def _points(measure: Measure, analysis: Any, factor: float, p: int) -> Array:
+    """``factor * measure`` as points ``(p, n)``, moved by as much as the measure knows their largest more exactly."""
+    points = points_of(measure, analysis, factor, p)
+    if points.shape[1] == 1:
+        return points
+    with np.errstate(invalid="ignore"):
+        by = factor * measure.of(analysis, p) - points.max(-1)
+    return points + np.where(np.isfinite(by), by, 0.0)[:, None]

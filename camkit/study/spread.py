@@ -6,7 +6,7 @@ between -1 and 1 (normal: with a standard deviation of 1/3, and not cut).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -168,10 +168,24 @@ def en_10210(outer: str, inner: str) -> dict[Source, Tolerance]:
     refuse_arguments(en_10210, locals())
     diameter = Source("diameter", {outer: 1.0, inner: 1.0}, {outer: 1.0})
     wall = Source("wall", {inner: -2.0}, {outer: 0.5, inner: -0.5})
-    return {
-        diameter: Tolerance(lambda D: np.clip(0.01 * D, 0.5 * mm, 10 * mm)),
-        wall: Tolerance(lambda T: (-0.1 * T, 0.08 * T)),
-    }
+    return {diameter: Tolerance(_tube_diameter), wall: Tolerance(_tube_wall)}
+
+
+def _tube_diameter(D: Array) -> Array:
+    return np.clip(0.01 * D, 0.5 * mm, 10 * mm)
+
+
+def _tube_wall(T: Array) -> tuple[Array, Array]:
+    return -0.1 * T, 0.08 * T
+
+
+STANDARDS: dict[str, Callable[..., Any]] = {
+    "ISO 2768": iso_2768,
+    "ISO 286": iso_286,
+    "EN 10210 diameter": _tube_diameter,
+    "EN 10210 wall": _tube_wall,
+}
+"""What a file may name as a tolerance that depends on the value."""
 
 
 def spread_shares(unit: Array, spreads: Iterable[str], correlation: Array | None = None) -> Array:

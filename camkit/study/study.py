@@ -37,7 +37,6 @@ from ..quantities.kinds import (
 from ..quantities.types import Array, Value
 from .free import Free, Menu, declared_with, freed, is_number
 from .options import Options, Plain, copied, ready
-from .three_point import floor_of
 from .weighted import WeightedSum, checked_weight
 
 if TYPE_CHECKING:
@@ -320,11 +319,6 @@ class Study(Generic[D]):
     @staticmethod
     def _columns(values: list[Array], p: int) -> np.ndarray:
         return np.stack(values, axis=-1) if values else np.zeros((p, 0))
-
-    @cached_property
-    def floors(self) -> np.ndarray:
-        """How far below each limit it is modelled, ``(n_limits,)``."""
-        return np.array([floor_of(value) for _, value, _ in self.limits])
 
     def tightening(self, x: Array) -> Array:
         """By how much its limits are tighter than they say, as shares of them: not at all."""

@@ -11,10 +11,14 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from ..quantities.types import Array, Value
+from ..quantities.types import Array
 
-FLOOR = -1.0
-"""A limit kept by more than its own size counts as kept by this: a radius is infinite where a curve is straight."""
+DEEP = -1e9
+"""A limit that is kept without end counts as kept by this: a radius is infinite where a curve is straight."""
+ENDLESS = -1e3
+"""What is kept by more than so many times its size is seen by its reciprocal in any case."""
+FLOOR, REACH = -1.0, 8.0
+"""A limit below -1 is kept by more than its own size; so many times what tolerances move it, no design is away."""
 POINTS = 64
 """Of each curve so many points are modelled at most: those that come nearest to the limit, or farthest beyond it."""
 
@@ -24,15 +28,40 @@ def star(k: int) -> Array:
     return np.concatenate([np.zeros((1, k)), np.eye(k), -np.eye(k)])
 
 
-def seen(g: Array, floor: Value = FLOOR) -> Array:
-    """Limits ``g`` as they are modelled: not below ``floor``; ``nan``, which cannot be built, is missed without end."""
-    g = np.maximum(np.where(np.isnan(g), np.inf, g), floor)
-    return np.where(np.isneginf(g), FLOOR, g)
+def seen(g: Array) -> Array:
+    """Limits ``g`` that can be told from each other; ``nan``, which cannot be built, is missed without end."""
+    return np.maximum(np.where(np.isnan(g), np.inf, g), DEEP)
 
 
-def floor_of(value: float) -> float:
-    """How far below a limit is modelled: one of 0 has no size of its own."""
-    return FLOOR if value else -np.inf
+def bounded(g: Array) -> Array:
+    """Limits ``g`` that are kept, seen by the reciprocal of what is limited: ``1 / (1 - g) - 1``, from -1 to 0."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(g < 0, g / (1 - g), g)
+
+
+def straightened(g: Array) -> Array:
+    """Limits at the `star`, ``(p, 2k + 1, n)``, by the reciprocal where that bends less and one is kept by far.
+
+    A radius grows without end where a curve is straight; its curvature does not.  A force is best left as it is.
+    """
+    inverse = bounded(g)
+    least = g.min(1, keepdims=True)
+    bent = (_bent(g) >= _bent(inverse)) | (least < ENDLESS)
+    return np.where((least < FLOOR) & bent, inverse, g)
+
+
+def _bent(g: Array) -> Array:
+    """Which share of what the tolerances move is no straight line, ``(p, 1, n)``."""
+    slope, bend = _parabolas(g)
+    bends = abs(bend).sum(1, keepdims=True)
+    return np.asarray(bends / np.maximum(abs(slope).sum(1, keepdims=True) + bends, 1e-300))
+
+
+def _parabolas(g: Array) -> tuple[Array, Array]:
+    """``a`` and ``b`` of what was found at the `star`, both ``(p, k, n)``."""
+    k = g.shape[1] // 2
+    centre, upper, lower = g[:, :1], g[:, 1 : k + 1], g[:, k + 1 :]
+    return (upper - lower) / 2, (upper + lower) / 2 - centre
 
 
 class ThreePoint(NamedTuple):
@@ -46,14 +75,13 @@ class ThreePoint(NamedTuple):
     """``b``, ``(p, k, n)``."""
 
     @classmethod
-    def of(cls, g: Array) -> Self:
-        """From what was found at the `star`, ``(p, 2k + 1, n)``."""
+    def of(cls, g: Array, limit: bool = True) -> Self:
+        """From what was found at the `star`, ``(p, 2k + 1, n)``, of a ``limit`` or an objective."""
         built = np.isfinite(g)
         least = np.where(built, g, -np.inf).max((1, 2), keepdims=True, initial=0.0)
         g = np.where(built, g, 1.0 + least)
-        k = g.shape[1] // 2
-        centre, upper, lower = g[:, :1], g[:, 1 : k + 1], g[:, k + 1 :]
-        found = cls(centre[:, 0], (upper - lower) / 2, (upper + lower) / 2 - centre)
+        g = straightened(g) if limit else g
+        found = cls(g[:, 0], *_parabolas(g))
         return found._nearest() if g.shape[2] > 1 else found
 
     def _nearest(self) -> Self:
@@ -74,12 +102,20 @@ class ThreePoint(NamedTuple):
 
     @property
     def worst(self) -> Array:
-        """The largest value at the ends of the tolerances, ``(p,)``."""
-        return np.asarray((self.centre + np.maximum(self.bend + abs(self.slope), 0).sum(1)).max(-1))
+        """The largest value within the tolerances, ``(p,)``: at their ends, or where a parabola has its top between."""
+        a, b = abs(self.slope), self.bend
+        with np.errstate(divide="ignore", invalid="ignore"):
+            most = np.where(a < -2 * b, a * a / (-4 * b), np.maximum(a + b, 0))
+        return np.asarray((self.centre + most.sum(1)).max(-1))
 
     def room(self, z: Array) -> Array:
         """By which factor shares ``z`` can grow until a point comes to 0, ``(p, m)``; 0 if one is above."""
         return np.asarray(_growth(self.centre[:, None], z @ self.slope, z * z @ self.bend).min(-1))
+
+    @property
+    def low(self) -> Array:
+        """So low that no design comes there that is as near as the tolerances are wide, ``(p,)``."""
+        return np.asarray((self.centre - REACH * (abs(self.slope) + abs(self.bend)).sum(1)).max(-1))
 
     @property
     def corner(self) -> Array:

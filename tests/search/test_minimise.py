@@ -14,7 +14,7 @@ from camkit.machines.high_speed_measures import (
     peak_wear,
 )
 from camkit.papers.high_speed_cam import STRESS_CAP
-from camkit.quantities import Design, PeakMeasure, quantity
+from camkit.quantities import Design, Measure, PeakMeasure, quantity
 from camkit.search import minimax
 from camkit.search.minimax import FLAT, Epigraph
 from camkit.search.minimise import METHODS, minimise
@@ -102,6 +102,12 @@ def test_a_limit_on_a_peak_holds_at_every_point():
         assert y.min() == pytest.approx(-1 / 8, abs=1e-9)
         assert [a.kind for a in best.active] == ["peak", "limit"]
         assert "At their limits: the depth" in best.message
+
+
+@pytest.mark.parametrize(("room", "said"), [(0.05, "No limit is reached."), (0.0, "At their limits: the room 0 mm.")])
+def test_a_limit_of_0_is_reached_to_a_ten_thousandth_of_its_unit(room, said):
+    left = Measure("room", "mm", lambda _: room * mm)
+    assert said in minimise(chebyshev(at_least={left: 0.0})).message
 
 
 def test_a_limit_that_asks_for_a_large_peak_is_taken_as_a_number():

@@ -17,6 +17,7 @@ from camkit.machines import (
 )
 from camkit.machines.shaft import twist_utilisation
 from camkit.machines.valve_measures import fullness, peak_acceleration
+from camkit.quantities import Measure, value_of
 from camkit.search import fast_front, search
 from camkit.search.front import Front
 from camkit.search.nsga2 import nsga2_steps
@@ -69,27 +70,40 @@ def found(machine):
     return quick_front(robust.nominal), quick_front(robust)
 
 
-def brute(robust, x, parts):
-    """The yield of one design by plain random parts."""
-    draw, kept, at_once = np.random.default_rng(11), 0, 5000
-    for _ in range(parts // at_once):
-        z = draw.uniform(-1, 1, (at_once, len(robust.tolerances)))
-        kept += int(robust.judged(robust.made(x[None], z)[0]).feasible.sum())
-    return kept / parts
+def by_chance(robust, x, parts=100_000, at_once=5000):
+    """The yield of one design by plain random parts, judged by the nominal study with all that deviates free."""
+    half = {path: tolerance.deviation for path, tolerance in robust.tolerances.items()}
+    middle = dict.fromkeys(half | robust.free) | dict(zip(robust.free, x, strict=True))
+    middle = {path: value_of(robust.start, path) if v is None else v for path, v in middle.items()}
+    study = robust.nominal.replace(free={path: (v - abs(v) / 2, v + abs(v) / 2) for path, v in middle.items()})
+    at, widths = np.array([*middle.values()]), np.array([half.get(path, 0.0) for path in middle])
+    draw, times = np.random.default_rng(11), parts // at_once
+    kept = [study.evaluate(at + widths * draw.uniform(-1, 1, (at_once, len(at)))).feasible for _ in range(times)]
+    return np.mean(kept)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("machine", [shaft, valve, door, whole_cam, linkage])
 def test_every_design_of_a_robust_front_survives_being_made(machine):
-    """By 1e5 parts the design with the least yield, by 4096 all; 0.2 and 0.3 % for the scatter of 1024 parts."""
+    """As it says for sure, and by 4096 parts all, to 0.2 % of scatter."""
     nominal, front = found(machine)
     robust = front.study
     assert len(front) > 40
-    assert (front.yields.share >= 0.99).all()
+    assert front.yields.kept.all()
     assert front.yields.share.shape == (len(front),)
-    assert (robust.recheck(front.x, 2**12).share > 0.987).all()
+    assert (robust.recheck(front.x, 2**12).share > 0.988).all()
     assert (robust.recheck(nominal.x, 1024).share < 0.9).any()
-    assert brute(robust, front.x[front.yields.share.argmin()], 100_000) > 0.988
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("machine", [shaft, valve, whole_cam, linkage])
+def test_plain_parts_agree_that_designs_of_a_robust_front_survive(machine):
+    """1e5 parts of the design with the least yield, and of one in the middle: 0.03 % of scatter, four times of it."""
+    _, front = found(machine)
+    for i in (front.yields.share.argmin(), len(front) // 2):
+        share, (low, high) = by_chance(front.study, front.x[i]), front.yields.interval[i]
+        assert share > 0.9888
+        assert low - 0.0012 < share < high + 0.0012
 
 
 @pytest.mark.parametrize(("machine", "most"), [(valve, 0.03), (door, 0.02)])
@@ -138,6 +152,20 @@ def test_other_objectives_and_the_worst_case():
     assert_allclose(mean.f, mean.study.evaluate(mean.x).f)
 
 
+def test_a_small_limit_that_parts_miss_by_many_times_its_size():
+    """A force of at least 1 N that moves by 15 N with each of two deviations, and 0.99 of the parts of a known one."""
+
+    def force_of(a):
+        return np.ravel(20 + 3e4 * (a.shaft.outer_diameter + a.shaft.inner_diameter - 0.23))
+
+    force, widths = Measure("force", "N", force_of), dict.fromkeys(TUBE, 0.5 * mm)
+    study = shaft().nominal.replace(at_most={}, at_least={force: 1.0})
+    front = quick_front(study.under(widths), 20)
+    assert len(front) > 10
+    least = force_of(front.study.analysis(front.x)).min()
+    assert least == pytest.approx(1 + 15 * (2 - 0.08**0.5), abs=0.6)  # a corner of the square: (2 - s)^2 / 8 = 0.01
+
+
 def test_where_nothing_survives_it_is_said():
     study = valve().nominal
     wide = study.under({"base_radius": 5 * mm})
@@ -154,7 +182,9 @@ def test_the_steps_of_a_robust_search_are_those_of_any():
     assert robust.evaluate(steps[-1].front.x).feasible.mean() > 0.9
     generations = list(search(robust, "nsga2", population=20, generations=12))
     assert [step.number for step in generations] == list(range(1, 13))
-    assert robust.evaluate(generations[-1].front.x).feasible.all()
+    for step in (*steps, *generations):  # stopped anywhere, and before margins are fitted
+        assert robust.evaluate(step.front.x).feasible.all(), step.number
+    assert len(generations[-1].front) > 10
 
 
 def test_a_robust_search_goes_on_from_its_checkpoint(tmp_path):
