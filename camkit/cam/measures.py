@@ -126,7 +126,12 @@ max_pressure_angle = over_cam("maximum pressure angle", "deg", lambda a: abs(a.p
 base_radius = Measure("base radius (pitch)", "mm", lambda a: a.lowest(lambda at: at.pitch_radius).value)
 min_convex_radius, min_concave_radius = _min_radius("convex", 1), _min_radius("concave", -1)
 undercut_margin = LeastMeasure(
-    "undercut margin", "", _groove_margin, angle=seen_at, points=_groove_margins, in_trouble=True
+    "undercut margin",
+    "",
+    _groove_margin,
+    angle=lambda a: end_to_end(*(seen_at(a) for _ in _flanks(a))),
+    points=_groove_margins,
+    in_trouble=True,
 )
 groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groove_gap, in_trouble=True)
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
@@ -181,12 +186,13 @@ def part(measure: Measure, name: str) -> Measure:
     told = f"{measure.name}, {name}"
     if not isinstance(measure, CurveMeasure):
         return Measure(told, measure.unit, lambda a: measure(getattr(a, name)), in_trouble=measure.in_trouble)
+    at = measure.angle or seen_at
     return replace(
         measure,
         name=told,
         function=lambda a: measure.sign * measure(getattr(a, name)),
         points=lambda a: measure.curve(getattr(a, name)),
-        angle=lambda a: getattr(a, name).seen_at,
+        angle=lambda a: at(getattr(a, name)),
     )
 
 
@@ -203,10 +209,11 @@ def worst(measure: Measure, names: tuple[str, ...], of: Callable[..., Value] = n
     if not isinstance(measure, CurveMeasure):
         kind = LeastMeasure if of is np.minimum else PeakMeasure
         return kind(told, measure.unit, whole, points=each, in_trouble=measure.in_trouble)
+    at = measure.angle or seen_at
     return replace(
         measure,
         name=told,
         function=whole,
         points=lambda a: end_to_end(*(measure.curve(getattr(a, name)) for name in names)),
-        angle=lambda a: end_to_end(*(getattr(a, name).seen_at for name in names)),
+        angle=lambda a: end_to_end(*(at(getattr(a, name)) for name in names)),
     )

@@ -201,6 +201,7 @@ def test_the_worse_of_two_curves_is_modelled_curve_by_curve():
     assert_allclose(points[0].max(-1), np.maximum(*steepest), rtol=1e-3)
     assert points[1].shape == (2, 2)
     assert_allclose(robust.limits[1][0](analysis), -points[1].max(-1))
+    assert robust.limits[3][0].angle(analysis).shape == points[3].shape
     models = robust.models(robust.x0[None])
     assert_allclose([m.centre.max() for m in models[:2]], robust.nominal.evaluate(robust.x0).g[0, :2], atol=1e-12)
 
