@@ -43,6 +43,8 @@ COARSE, LEAST_ANGLES = 4, 61
 """The other rounds look at one of so many angles, but not at fewer than these."""
 RENEWED = 10 / 24
 """After which share of the rounds the margins for tolerances are fitted again."""
+FEW = 12
+"""So few designs that keep their limits are joined by those that miss them least for what they are worth."""
 GROWN = 3
 """At how many times its size the archive is thinned."""
 DIGITS = 2.0**36
@@ -190,7 +192,13 @@ def _best(archive: Archive, size: int) -> Archive:
     kept = np.flatnonzero(archive.missed == 0)
     if not len(kept):
         return _of(archive, np.argsort(archive.missed, kind="stable")[:size])
-    found = _of(archive, kept[_unbeaten(archive.f[kept])])
+    best = kept[_unbeaten(archive.f[kept])]
+    if len(best) < FEW:
+        near = np.flatnonzero((archive.missed > 0) & np.isfinite(archive.missed))
+        near = near[_unbeaten(np.column_stack([archive.f[near], archive.missed[near]]))]
+        best = np.append(best, near[np.argsort(archive.missed[near], kind="stable")][: FEW - len(best)])
+        return _of(archive, best[np.argsort(archive.f[best, 0], kind="stable")])
+    found = _of(archive, best)
     return found if len(found.f) <= GROWN * size else _thinned(found, size)
 
 
