@@ -1,11 +1,14 @@
 """The maths needs numpy and scipy only, and what is installed from the wheel is all of camkit."""
 
+import ast
 import os
 import re
 import subprocess
 import sys
 import sysconfig
+import tomllib
 import zipfile
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import numpy
@@ -74,6 +77,26 @@ def test_a_panel_opens_without_what_only_searches_and_still_pictures_need() -> N
 GROUND = {"units", "quantities", "geometry", "contact", "extrema", "data"}
 WINGS = {*("motion", "cam", "linkage", "machines", "study", "search", "decision"), *("files", "papers", "views"),
          *("program", "render", "panels")}  # fmt: skip
+
+
+def imported(folder: str) -> set[str]:
+    """The libraries that a folder's code imports, wherever in a file that stands."""
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in REPOSITORY.glob(f"{folder}/**/*.py")]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    named = {node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level and node.module}
+    ours = {path.stem for path in REPOSITORY.glob("tests/**/*.py")} | {path.stem for path in REPOSITORY.glob("*/*.py")}
+    return {name.partition(".")[0] for name in plain | named} - sys.stdlib_module_names - ours - {"camkit"}
+
+
+@pytest.mark.parametrize("folder", ["camkit", "tests", "benchmarks", ".jupyter"])
+def test_what_is_imported_is_declared(folder: str) -> None:
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    listed = project["dependencies"] + extras["lab"] + extras["app"] + (extras["test"] if folder != "camkit" else [])
+    declared = {re.match(r"[\w-]+", each)[0].lower().replace("-", "_") for each in listed}  # type: ignore[index]
+    brought = {name: {d.lower().replace("-", "_") for d in by} for name, by in packages_distributions().items()}
+    assert {name for name in imported(folder) if not brought[name] & declared} == set()
 
 
 def test_nothing_else_stands_at_the_root() -> None:
