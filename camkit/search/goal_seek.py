@@ -13,6 +13,7 @@ import numpy as np
 from ..quantities import D
 from ..quantities.kinds import finite, one_number, refuse_arguments
 from ..quantities.types import Array
+from ..study.slsqp import slsqp
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import BAD, NEAR, Epigraph
 from .minimum import Found, Minimum, described, listed
@@ -184,18 +185,6 @@ class _Nearest:
         return self.epigraph.owner >= 0
 
     def _slsqp(self, u: Array, seen: Array) -> Any:
-        from scipy.optimize import minimize
-
-        return minimize(
-            lambda z: 0.5 * float(((z - self.start) ** 2).sum()),
-            u,
-            jac=lambda z: z - self.start,
-            bounds=[(0, 1)] * len(u),
-            constraints={
-                "type": "ineq",
-                "fun": lambda z: -self._excess(z)[seen],
-                "jac": lambda z: -self._slopes(z)[seen],
-            },
-            method="SLSQP",
-            options={"maxiter": STEPS, "ftol": PRECISION},
-        )
+        change = lambda z: 0.5 * float(((z - self.start) ** 2).sum()), lambda z: z - self.start
+        room = lambda z: -self._excess(z)[seen], lambda z: -self._slopes(z)[seen]
+        return slsqp(u, change, room, PRECISION, STEPS)

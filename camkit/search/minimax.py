@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..study.slsqp import slsqp
 from ..study.study import KEPT, Study
 from ..study.weighted import parts_of, points_of
 
@@ -164,8 +165,6 @@ class Epigraph:
         return bool(found.status == 0 and -found.fun <= FLAT * SMALL)
 
     def _slsqp(self, u: np.ndarray, t: np.ndarray, seen: np.ndarray, precision: float) -> Any:
-        from scipy.optimize import minimize
-
         slope = np.concatenate([np.zeros_like(u), np.ones_like(t)])
         by_t = (self.owner[seen, None] == np.arange(len(t))).astype(float)
 
@@ -175,19 +174,11 @@ class Epigraph:
         def room(z: np.ndarray) -> np.ndarray:
             return -self.excess(self.at(z[: len(u)]), z[len(u) :])[seen]
 
-        return minimize(
-            total,
-            np.concatenate([u, t]),
-            jac=lambda z: slope,
-            bounds=[(0, 1)] * len(u) + [(None, None)] * len(t),
-            constraints={
-                "type": "ineq",
-                "fun": room,
-                "jac": lambda z: np.hstack([-self.slopes(z[: len(u)])[seen], by_t]),
-            },
-            method="SLSQP",
-            options={"maxiter": STEPS, "ftol": precision},
-        )
+        def room_slopes(z: np.ndarray) -> np.ndarray:
+            return np.hstack([-self.slopes(z[: len(u)])[seen], by_t])
+
+        whole = np.concatenate([u, t])
+        return slsqp(whole, (total, lambda z: slope), (room, room_slopes), precision, STEPS, unbounded=len(t))
 
 
 def _only_built(c: np.ndarray, *pairs: tuple[np.ndarray, np.ndarray]) -> list[np.ndarray]:

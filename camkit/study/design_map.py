@@ -11,6 +11,7 @@ import numpy as np
 from ..quantities import Measure, counted
 from ..quantities.declaration import Quantity
 from ..quantities.kinds import numbers, refuse_kinds, shown
+from .slsqp import slsqp
 from .study import Evaluation, Study
 
 STEP = 1e-6
@@ -113,20 +114,12 @@ class DesignMap:
         SLSQP, started from the best design of a coarse grid over the bounds; what ends within rounding of a bound
         lies on it.
         """
-        from scipy.optimize import minimize
-
         coarse = np.stack(np.meshgrid(*np.linspace([0, 0], [1, 1], 21, axis=1)), axis=-1).reshape(-1, 2)
         start = coarse[self._first(self._at(coarse))]
         size = abs(self._at(start).f[0, 0])
-        found = minimize(
-            lambda u: self._at(u).f[0, 0] / size,
-            start,
-            jac=lambda u: self._slopes(u)[0] / size,
-            bounds=[(0, 1)] * 2,
-            constraints={"type": "ineq", "fun": lambda u: -self._at(u).g[0], "jac": lambda u: -self._slopes(u)[1]},
-            method="SLSQP",
-            options={"ftol": 1e-12},
-        ).x.round(12) if np.isfinite(size) else start  # fmt: skip
+        objective = lambda u: self._at(u).f[0, 0] / size, lambda u: self._slopes(u)[0] / size
+        room = lambda u: -self._at(u).g[0], lambda u: -self._slopes(u)[1]
+        found = slsqp(start, objective, room, 1e-12).x.round(12) if np.isfinite(size) else start
         both = self._at(np.array([start, found]))
         chosen = self._first(both)
         return both.x[chosen] if both.feasible[chosen] else np.full(2, np.nan)
