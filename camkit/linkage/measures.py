@@ -139,7 +139,7 @@ peak_crank_bearing_moment = Measure(
 )
 peak_hinge_force = Measure("peak force on the rocker's bearing", "N", lambda a: _longest(a.rocker_bearing_force))
 peak_hinge_moment = Measure("peak moment on the rocker's bearing", "N m", lambda a: _longest(a.rocker_bearing_moment))
-largest_ratio = Measure("maximum velocity ratio", "", lambda a: abs(a.ratio).max(-1))
+max_ratio = Measure("maximum velocity ratio", "", lambda a: abs(a.ratio).max(-1))
 
 SWEEP = (
     departure(),
@@ -150,7 +150,7 @@ SWEEP = (
     swing,
     assembly_margin,
     possible_turn,
-    largest_ratio,
+    max_ratio,
     peak_coupler_force,
     peak_crank_torque,
     peak_crank_bearing_force,

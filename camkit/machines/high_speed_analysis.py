@@ -229,7 +229,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return number(self.cam.min_radius)
 
     @cached_property
-    def least_spring_factor(self) -> Array:
+    def min_spring_factor(self) -> Array:
         """``max(-psi''/psi)``: the weakest spring that holds the arm's inertia at the rated speed.
 
         ``inf`` if the arm passes its start.  0/0 where the arm has not moved is left out.
@@ -247,7 +247,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         given = self.cam.spring_factor
         if certain(given > 0):
             return given
-        return np.where(given > 0, given, np.expand_dims(self.least_spring_factor, -1))
+        return np.where(given > 0, given, np.expand_dims(self.min_spring_factor, -1))
 
     @property
     def spring_factor(self) -> Value:

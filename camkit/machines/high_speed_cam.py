@@ -153,7 +153,7 @@ class HighSpeedCam(FreeLawCam):
         ready = super().ready_for(needed)
         if "spring_factor" not in needed or ready.spring_factor:
             return ready
-        weakest = float(ready.analyse().least_spring_factor) * self.speed**2
+        weakest = float(ready.analyse().min_spring_factor) * self.speed**2
         return ready.replace(spring_factor=min(weakest, STRONG))
 
     @property
