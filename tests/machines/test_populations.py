@@ -8,7 +8,9 @@ import pytest
 from every_machine import MACHINES
 from numpy.testing import assert_allclose
 
+from camkit import Dwell, MotionProgram, OscillatingFlatCam, Return, Rise, deg, mm
 from camkit.machines import UniversalJointShaft
+from camkit.motion import ShapedLaw
 from camkit.quantities import measures_of, quantities_of, value_of, with_quantities
 
 ANGLES, STEP = 31, 0.01
@@ -66,6 +68,22 @@ def test_two_numbers_of_load_friction_and_contact_as_columns(design):
     paths = [path for path in quantities_of(design) if {"load", "friction", "contact"} & set(path.split("."))]
     for pair in pairwise(paths):
         check(design, {path: steps(design, path) for path in pair})
+
+
+@pytest.mark.slow
+def test_five_hundred_cams_each_with_a_motion_and_a_spring_of_its_own():
+    """The cam of `tests/test_house.py`, in one call and one by one."""
+    rise, back = Rise(110 * deg, 12 * deg, ShapedLaw()), Return(110 * deg, 12 * deg, ShapedLaw())
+    cam = OscillatingFlatCam(MotionProgram((rise, Dwell(50 * deg), back, Dwell(90 * deg))), face_offset=20 * mm)
+    low, high = np.transpose([(95 * deg, 125 * deg), (-0.2, 0.2), (-0.2, 0.2), (1.0, 5.0)])
+    paths = ("motion.rise.angle", "motion.rise.law.c0", "motion.return.law.c2", "load.spring_rate")
+    x = low + (high - low) * np.random.default_rng(5).random((500, 4))
+    many = with_quantities(cam, dict(zip(paths, x.T[..., None], strict=True))).analyse(ANGLES)
+    single = (with_quantities(cam, dict(zip(paths, values, strict=True))).analyse(ANGLES) for values in x.tolist())
+    alone = np.transpose([[measure(one) for measure in measures_of(cam)] for one in single])
+    assert np.ptp(alone, axis=1).all()  # each measure is that of its cam
+    for measure, values in zip(measures_of(cam), alone, strict=True):
+        assert_allclose(np.broadcast_to(measure(many), 500), values, rtol=1e-12, atol=1e-12, err_msg=measure.name)
 
 
 @every_machine
