@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,7 +10,6 @@ from ..extrema import Extreme
 from ..quantities import unless
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
-from ..study.study import Study
 from ..units import deg, mm
 
 STEPS, HALVINGS = 48, 40
@@ -69,34 +67,3 @@ def min_from_which_on(keeps: Callable[[Array], Value], ample: Array) -> Array:
         good = keeps(middle)
         low, high = np.where(good, low, middle), np.where(good, middle, high)
     return high
-
-
-def feasible(study: Study, n: int = 241) -> np.ndarray:
-    """The intervals ``(k, 2)`` of the one free quantity of ``study`` in which it keeps every limit, SI.
-
-    They are seen if they, and the gaps between them, are wider than the range over ``n``; their ends are then
-    found to rounding.
-
-    >>> from camkit.cam import max_pressure_angle
-    >>> from camkit.cam import TranslatingRollerCam
-    >>> cam, limit = TranslatingRollerCam(), {max_pressure_angle: 20 * deg}
-    >>> study = Study(cam, ["base_radius"], [max_pressure_angle], at_most=limit, angles=721)
-    >>> (feasible(study) / mm).round(2).tolist()
-    [[35.24, 100.0]]
-
-    Raises ``ValueError`` for a study with more than one free quantity.
-    """
-    if len(study.free) != 1:
-        raise ValueError(f"the study frees {', '.join(study.free)}; intervals are found for one free quantity")
-    unconstrained = replace(study, minimise=study.minimise[:1])
-    low, high = study.bounds[:, 0]
-    x = np.linspace(low, high, n)
-    good = np.concatenate([[False], unconstrained.evaluate(x[:, None]).feasible, [False]])
-    starts, ends = np.flatnonzero(~good[:-1] & good[1:]), np.flatnonzero(good[:-1] & ~good[1:])
-    inside = np.concatenate([x[starts], x[ends - 1]])
-    outside = np.concatenate([x[np.maximum(starts - 1, 0)], x[np.minimum(ends, n - 1)]])
-    for _ in range(HALVINGS if len(inside) else 0):
-        middle = (inside + outside) / 2
-        keeps = unconstrained.evaluate(middle[:, None]).feasible
-        inside, outside = np.where(keeps, middle, inside), np.where(keeps, outside, middle)
-    return inside.reshape(2, -1).T

@@ -14,9 +14,8 @@ from camkit import DoorHandleCam, OscillatingRollerCam, Study, views
 from camkit.cam.conjugate import opposite
 from camkit.cam.flat_analysis import FlatAnalysis
 from camkit.cam.loads import ArmLoad, Friction
-from camkit.cam.measures import max_pressure_angle, mean_efficiency, peak_force, work_efficiency
+from camkit.cam.measures import max_pressure_angle, mean_efficiency, work_efficiency
 from camkit.cam.oscillating_flat import OscillatingFlatCam
-from camkit.cam.sizing import feasible
 from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
@@ -514,22 +513,6 @@ def test_sizes_of_a_population():
     assert_allclose(
         flat.base_radius_for(min_radius=1 * mm), [cam.base_radius_for(min_radius=1 * mm) for cam in singles]
     )
-
-
-def test_feasible_start_angles_of_a_rocking_roller():
-    """The base circle of a rocking roller is set by the arm's start angle: two limits leave an interval of it."""
-    limits = {"at_most": {max_pressure_angle: 35 * deg}, "angles": 361}
-    study = Study(FOLLOWERS["rocking roller"].cam, {"start_angle": (10 * deg, 80 * deg)}, [peak_force], **limits)
-    (low, high), *more = feasible(study)
-    assert not more
-    inside, outside = np.array([low, high, (low + high) / 2]), np.array([low - 1e-6, high + 1e-6])
-    assert study.evaluate(inside[:, None]).feasible.all()
-    assert not study.evaluate(outside[:, None]).feasible.any()
-
-
-def test_a_limit_that_nothing_keeps_leaves_no_interval():
-    study = Study(TranslatingRollerCam(), ["base_radius"], [peak_force], at_most={max_pressure_angle: 1 * deg})
-    assert feasible(study).shape == (0, 2)
 
 
 # ---------------------------------------------------------------- forces
@@ -1065,14 +1048,12 @@ REFUSALS = [
      "and the second must stand below it"),
     (lambda: TranslatingFlatCam().conjugate(20 * mm),
      "the faces are 20 mm apart; the first stands 30 mm above the cam axis, and the second must stand below it"),
-    (lambda: feasible(Study(TranslatingRollerCam(), ["offset", "base_radius"], [peak_force])),
-     "the study frees offset, base_radius; intervals are found for one free quantity"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("build", "sentence"), REFUSALS, ids=[sentence[:50] for _, sentence in REFUSALS])
 def test_what_cannot_be_built_is_refused_in_a_sentence(build, sentence):
-    with pytest.raises(ValueError, match=r"must|intervals") as refusal:
+    with pytest.raises(ValueError, match="must") as refusal:
         build()
     assert str(refusal.value) == sentence
 
