@@ -59,15 +59,12 @@ class TranslatingFlatCam(Design):
     contact: ContactPair | NoContact = contact_choice()
 
     name: ClassVar[str] = "sliding face"
+    roller_radius: ClassVar[float] = 0.0
+    """There is no roller."""
 
     def following(self) -> dict[str, str]:
         """No roller, no pin."""
         return {"friction.roller_pin": "a flat face has no roller"}
-
-    @property
-    def roller_radius(self) -> float:
-        """0: there is no roller."""
-        return 0.0
 
     @property
     def start_height(self) -> Value:
