@@ -233,7 +233,7 @@ GOOD = {
     "studies": lambda: {"two": TWO},
     "study": lambda: TWO,
     "target": lambda: 0.01,
-    "least_over_bound.name": lambda: "base_radius",
+    "min_over_bound.name": lambda: "base_radius",
     "designs_on_plane.designs": lambda: {"a tube": camkit.UniversalJointShaft()},
     "tolerances": lambda: camkit.Tolerances(STUDY, {"base_radius": 0.001}, parts=64),
     "torque": lambda: np.ones(31),

@@ -155,13 +155,13 @@ def corrected_valve_study(start: ValveCam | None = None, weights: Sequence[float
     return Study(start or ValveCam(), PAPER_BOX, (objective,), at_least=limit, angles=STUDY_ANGLES)
 
 
-def keeping_least_radius(cam: ValveCam, least: float = PAPER_MIN_RADIUS) -> ValveCam:
+def keeping_min_radius(cam: ValveCam, least: float = PAPER_MIN_RADIUS) -> ValveCam:
     """The same cam on the base circle on which its least convex radius under its follower is ``least``.
 
-    >>> print(f"{keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
+    >>> print(f"{keeping_min_radius(ValveCam(n=20, m=20)).base_radius / mm:.3f} mm")
     24.341 mm
     """
-    refuse_arguments(keeping_least_radius, locals())
+    refuse_arguments(keeping_min_radius, locals())
     return cam.replace(base_radius=float(cam.analyse().base_radius_for(least)))
 
 

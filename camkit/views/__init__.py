@@ -10,7 +10,7 @@ from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_par
 from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
 from .laws import LAW_VIEWS, ShownProgram, ShownVibration, vibration_left
 from .picture import Area, Axes, Band, Circle, Contour, Line, Picture, Points, Polygon, Region, Text, View
-from .progress import candidates, convergence, least_over_bound
+from .progress import candidates, convergence, min_over_bound
 from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
 from .space import linkage_in_space, output_angle, pressure_angles, velocity_ratio
@@ -63,13 +63,13 @@ __all__ = [
     "fronts_overlaid",
     "hertz_pressure",
     "judgement_bars",
-    "least_over_bound",
     "lift",
     "limit_sweep",
     "linkage_in_space",
     "live_pareto",
     "load_over_way",
     "mechanism",
+    "min_over_bound",
     "motion",
     "objective_plane",
     "output_angle",

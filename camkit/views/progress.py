@@ -134,9 +134,9 @@ def _objective(study: Study) -> _Shown:
     return _Shown(measure.name.capitalize(), measure.label, factor(measure.unit))
 
 
-def least_over_bound(name: str) -> View:
+def min_over_bound(name: str) -> View:
     """A view of several results of `minimise`: the least objective over the upper bound that a free quantity had."""
-    refuse_arguments(least_over_bound, locals())
+    refuse_arguments(min_over_bound, locals())
 
     def view(found: Sequence[Any]) -> Picture:
         refuse_empty(found, "results")

@@ -14,7 +14,7 @@ from camkit import mm
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import (
     VALVE_MEASURES,
-    keeping_least_radius,
+    keeping_min_radius,
     valve_study,
 )
 from camkit.machines.valve_train import ROLLER
@@ -71,7 +71,7 @@ def test_buttons_size_the_spring_and_the_base_circle(book: Workbook) -> None:
     book.bench.get_by_role("button", name="Weakest spring").click()
     book.app.shows(START.with_spring(), VALVE_MEASURES)
     book.bench.get_by_role("button", name="Smallest base circle for radius 4.5 mm").click()
-    book.app.shows(keeping_least_radius(START.with_spring()), VALVE_MEASURES)
+    book.app.shows(keeping_min_radius(START.with_spring()), VALVE_MEASURES)
     assert book.value("app.analysis.profile_margin.value") == pytest.approx(4.5 * mm, rel=1e-9)
 
 

@@ -28,7 +28,7 @@ from camkit.machines.valve_measures import (
     corrected_valve_study,
     fullness,
     in_paper_units,
-    keeping_least_radius,
+    keeping_min_radius,
     listed_deceleration,
     min_radius,
     nose_acceleration,
@@ -226,9 +226,9 @@ def test_the_spring_that_is_needed_is_what_the_resistance_lacks():
 
 def test_the_base_circle_that_keeps_the_limit_everywhere():
     for n, m in DESIGNS:
-        cam = keeping_least_radius(ValveCam(n=n, m=m))
+        cam = keeping_min_radius(ValveCam(n=n, m=m))
         assert_allclose(cam.analyse(100_001).profile_radius.min(), PAPER_MIN_RADIUS, rtol=1e-6)
-    assert_allclose(keeping_least_radius(ValveCam(n=20, m=20)).base_radius / mm, 24.341, atol=5e-4)
+    assert_allclose(keeping_min_radius(ValveCam(n=20, m=20)).base_radius / mm, 24.341, atol=5e-4)
 
 
 def test_lift_table():
@@ -282,7 +282,7 @@ def test_radii_under_a_roller_are_those_of_a_fine_table(cam):
 
 @pytest.mark.parametrize("least", [4.5, 30])
 def test_the_base_circle_for_a_least_radius_under_a_roller(least):
-    cam = keeping_least_radius(ValveCam(follower=ROLLER), least * mm)
+    cam = keeping_min_radius(ValveCam(follower=ROLLER), least * mm)
     assert_allclose(cam.analyse(200_001).profile_margin.value, least * mm, rtol=1e-6)
     smaller = cam.replace(base_radius=0.999 * cam.base_radius)
     assert smaller.analyse().profile_margin.value < least * mm

@@ -25,7 +25,7 @@ from camkit.views.intervals import (
     wear,
     wear_over_way,
 )
-from camkit.views.progress import least_over_bound
+from camkit.views.progress import min_over_bound
 from redrawing import drawn, redrawn_in_place, xy
 
 FIRST, PRESS = HighSpeedCam(), CamLever()
@@ -219,7 +219,7 @@ def test_a_load_curve_of_ones_own_is_drawn_and_the_stand_in_is_named():
 
 def test_the_sweep_shows_every_radius_with_its_least_stress():
     found = [minimise(cam_lever_study(max_radius=k * mm, free_laws=False)) for k in (94, 110)]
-    (ax,) = picture(found, least_over_bound("max_radius"), width=5, height=4).axes
+    (ax,) = picture(found, min_over_bound("max_radius"), width=5, height=4).axes
     x, y = xy(ax, "least")
     assert_allclose(x, (94, 110))
     assert_allclose(y, [best.f * cm**0.5 for best in found])
