@@ -20,7 +20,7 @@ from .cam import (
     TranslatingRollerCam,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
-from .files import Session, profile_csv, profile_dxf, read, write
+from .files import Decision, Session, profile_csv, profile_dxf, read, write
 from .linkage import RSSR
 from .machines import (
     DoorHandleCam,
@@ -101,6 +101,7 @@ _LAB = all(map(_installed, _EXTRA))
 __all__ = [
     "ArmLoad",
     "Cycloidal",
+    "Decision",
     "DesignMap",
     "DoorHandleCam",
     "Dwell",

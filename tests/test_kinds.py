@@ -19,8 +19,10 @@ import camkit
 from camkit import (
     RSSR,
     Cycloidal,
+    Decision,
     DesignMap,
     Dwell,
+    Front,
     Judgements,
     Measure,
     MotionProgram,
@@ -140,6 +142,7 @@ GIVEN = {
     Judgements: (("angle", "force"), [3]),
     Judges: ({"Anna": Judgements(("angle", "force"), [3]), "Ben": Judgements(("angle", "force"), [1])}, (1.0, 2.0)),
     Session: (STUDY, TranslatingRollerCam()),
+    Decision: (Front(STUDY, np.array([[0.03]]), np.array([[0.05]])), 0),
 }
 """What the constructors that have no defaults are given."""
 

@@ -278,6 +278,7 @@ GOOD = {
     "group.judgements": lambda: {"Anna": [3, 5, 2], "Ben": [1, 4, 1]},
     "compare_fronts.ways": lambda: {"nsga2": (TWO, partial(nsga2_steps, population=4, generations=1, seed=1))},
     "TolerancePanel.study": lambda: STUDY,
+    "Decision.chosen": lambda: 0,
     "Session.search": dict,
     "Session.judgements": dict,
     "lightest_tube.study": lambda: camkit.shaft_study(space={name: (0.05, 0.2) for name in SHAFT.free}),

@@ -1,10 +1,12 @@
 """Designs, sessions, profiles and tables as files."""
 
+from .decisions import Decision
 from .designs import Read, from_json, read, read_json, to_json, write
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
 
 __all__ = [
+    "Decision",
     "Read",
     "Session",
     "from_json",

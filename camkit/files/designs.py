@@ -18,9 +18,10 @@ from ..quantities.kinds import kind_words, refuse_arguments, shown
 from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
 from .checks import mapping
+from .decisions import Decision
 from .entries import Reading, entry_of
 from .json_file import MOST_BYTES, content_of, digest_remarks, signed, text_of
-from .sessions import Session, entries, front_entry, session_entry, session_of
+from .sessions import Session, decision_entry, decision_of, entries, front_entry, session_entry, session_of
 
 SCHEMA = "camkit/1"
 
@@ -72,10 +73,18 @@ def to_json(thing: Any) -> str:
     """
     text = signed({"schema": SCHEMA, **_content(thing)})
     try:
-        read_json(text, *((Design,) if isinstance(thing, Design) else (Session, thing.study.measures)))
+        read_json(text, *_kind_and_measures(thing))
     except ValueError as refusal:
         raise ValueError(f"this cannot be saved, as it could not be read again: {refusal}") from None
     return text
+
+
+def _kind_and_measures(thing: Any) -> tuple[type, tuple[Measure, ...]]:
+    """What a thing is to be read as, and with which measures."""
+    if isinstance(thing, Design):
+        return Design, ()
+    study = thing.front.study if isinstance(thing, Decision) else thing.study
+    return Decision if isinstance(thing, Decision) else Session, study.measures
 
 
 def _content(thing: object) -> dict[str, object]:
@@ -85,7 +94,9 @@ def _content(thing: object) -> dict[str, object]:
         return {"session": session_entry(thing)}
     if isinstance(thing, Front):
         return {"front": front_entry(thing, thing.study)}
-    raise ValueError(f"this is {shown(thing)}; a design, a front or a Session can be saved")
+    if isinstance(thing, Decision):
+        return {"decision": decision_entry(thing)}
+    raise ValueError(f"this is {shown(thing)}; a design, a front, a Session or a Decision can be saved")
 
 
 def from_json(file: str | bytes, kind: type | None = None, measures: Sequence[Measure] = ()) -> Any:
@@ -115,9 +126,9 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
         raise ValueError(f"the file follows the schema {shown(content['schema'])}; this camkit reads {SCHEMA!r}")
     if "work" in content:  # a session of 0.1.0
         content = {"session" if name == "work" else name: value for name, value in content.items()}
-    held = [name for name in ("design", "session", "front") if name in content]
+    held = [name for name in ("design", "session", "front", "decision") if name in content]
     if len(held) != 1 or len(content) != 2:
-        raise ValueError("the file is damaged: beside its schema it must hold one design, one study or one front")
+        raise ValueError("the file is damaged: beside its schema it must hold one design, one study, front or decision")
     reading = Reading()
     try:
         thing = _thing(held[0], content[held[0]], reading, kind, measures)
@@ -131,6 +142,8 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
 def _thing(held: str, entry: object, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> object:
     if held == "design":
         return reading.thing(mapping(entry, held), kind or object)
+    if held == "decision":
+        return decision_of(entry, reading, measures)
     session = session_of(entries(entry, held, reading), reading, measures)
     return session if held == "session" or kind is Session else session.front
 

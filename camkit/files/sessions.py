@@ -14,10 +14,12 @@ from ..quantities.kinds import refuse_kinds, shown, whole
 from ..search.front import Front, front_of
 from ..search.robust_front import surviving
 from ..study.study import Study
+from ..units import factor
 from .checks import all_numbers, listed, mapping, message, plain
-from .entries import MOST_ROWS, Reading, entry_of, is_number
+from .decisions import Decision
+from .entries import MOST_ROWS, Reading, entry_of, exact_in_unit, is_number
 from .renamed import Renaming
-from .studies import rows, study_entry, study_of, x_of
+from .studies import _key, rows, study_entry, study_of, x_of
 
 SETTINGS: dict[str, type] = {"population": int, "generations": int, "seed": int, "mode": str, "rule": str}
 """What a search is set to: counts, and the entries of its menus."""
@@ -41,7 +43,7 @@ DEFAULTS: dict[str, object] = {
 """What a study is read with where its file says nothing."""
 QUIETLY = {"columns", "sums", "made", "record", "tolerances"}
 """Which of them are no matter for a remark: an earlier camkit wrote none, or there is nothing to say."""
-SESSION = {"design", "judgements", "methods", "search"}
+SESSION = {"design", "judgements", "methods", "search", "decision"}
 """What a front alone does not have."""
 
 
@@ -51,7 +53,8 @@ class Session:
 
     It is what a page shows, what is downloaded from it, and what a file brings back.  ``judgements`` are by what they
     judge, such as ``"importance"`` of the objectives; ``search`` is set to a population, generations, a seed, a mode
-    and a rule (entries of menus).  Without a ``front`` there is none yet.
+    and a rule (entries of menus).  Without a ``front`` there is none yet, nor without a ``decision``, which has a front
+    of its own: that on which it was made.
     """
 
     study: Study
@@ -59,6 +62,7 @@ class Session:
     judgements: Mapping[str, Judgements | Judges] = field(default_factory=dict)
     search: Mapping[str, Any] = field(default_factory=dict)
     front: Front = None  # type: ignore[assignment]
+    decision: Decision | None = None
 
     def __post_init__(self) -> None:
         refuse_kinds(self, ("front",) if self.front is None else ())
@@ -80,6 +84,7 @@ def session_entry(session: Session) -> dict[str, object]:
         "design": entry_of(session.design),
         "judgements": {name: judged_entry(judged) for name, judged in session.judgements.items()},
         "search": {name: entry_of(value) for name, value in session.search.items()},
+        **({"decision": decision_entry(session.decision)} if session.decision else {}),
     }
 
 
@@ -130,7 +135,8 @@ def session_of(entry: Mapping[str, object], reading: Reading, measures: Sequence
         name: _setting(name, value, reading.renaming) for name, value in mapping(entry["search"], "search").items()
     }
     front = _front(study, entry, reading)
-    return Session(study, design, judgements, search, front)
+    decided = decision_of(entry["decision"], reading, measures) if "decision" in entry else None
+    return Session(study, design, judgements, search, front, decided)
 
 
 def _front(study: Study, entry: Mapping[str, object], reading: Reading) -> Front:
@@ -190,6 +196,68 @@ def _said(name: str, entry: object, method: object = None) -> Judgements:
         return Judgements(listed(entry["names"], name), rows or [[1]], entry["method"])
     except ValueError as refusal:
         raise ValueError(f"the file has judgements of {shown(name)} that cannot be: {refusal}") from None
+
+
+DECIDED = {"chosen", "rule", "judgements", "reference", "yields", "date", "version", "values", "ranges"}
+
+
+def decision_entry(decision: Decision) -> dict[str, object]:
+    """A decision as JSON knows it: its front, what was chosen and how; numbers as they were, in their units."""
+    study, objectives = decision.front.study, decision.front.study.minimise
+    judged, wish = decision.judgements, decision.reference
+    ranges = zip(objectives, decision.ranges.T, strict=True)
+    return {
+        **front_entry(decision.front, study),
+        "chosen": rows(study, decision.front.x[[decision.chosen]])[0],
+        "rule": decision.rule,
+        "judgements": None if judged is None else judged_entry(judged),
+        "reference": None if wish is None else _in_units(objectives, wish),
+        "yields": decision.yields,
+        "date": decision.date,
+        "version": decision.version,
+        "values": {_key(m): exact_in_unit(value, m.unit) for m, value in decision.values.items()},
+        "ranges": {_key(m): _in_units((m, m), ends) for m, ends in ranges},
+    }
+
+
+def _in_units(objectives: Sequence[Measure], f: Sequence[float]) -> list[float]:
+    """Objectives, which are all to be small, as they are read, in their units."""
+    return [exact_in_unit(m.sign * value, m.unit) for m, value in zip(objectives, f, strict=True)]
+
+
+def decision_of(entry: object, reading: Reading, measures: Sequence[Measure]) -> Decision:
+    """The decision that `decision_entry` wrote; numbers that follow otherwise today are remarked."""
+    given = mapping(entry, "decision")
+    if lacking := sorted(DECIDED - given.keys()):
+        raise ValueError(f"the file is damaged: it lacks {lacking[0]!r} of the decision")
+    told = entries({k: v for k, v in given.items() if k not in DECIDED}, "front", reading)
+    study = study_of(told, reading, measures)
+    front, objectives = _front(study, told, reading), study.minimise
+    chosen = x_of({**told, "front": [given["chosen"]]}, study, reading)
+    places = np.flatnonzero(np.isclose(front.x, chosen, rtol=1e-9, atol=0).all(-1))
+    if not len(places):
+        raise ValueError("the file is damaged: its chosen design is none of its front")
+    wish = given["reference"]
+    if wish is not None:
+        numbers = all_numbers(wish, "reference", len(objectives))
+        wish = tuple(m.sign * v * factor(m.unit) for m, v in zip(objectives, numbers, strict=True))
+    judged = None if given["judgements"] is None else _judged("objectives", given["judgements"])
+    said = [plain(given[name]) if given[name] != "" else "" for name in ("rule", "yields", "date", "version")]
+    rule, yields, date, version = said
+    decision = Decision(front, int(places[0]), rule, judged, wish, yields, date, version)
+    reading.remarks.extend(_otherwise(decision, mapping(given["values"], "values")))
+    return decision
+
+
+def _otherwise(decision: Decision, recorded: Mapping[str, object]) -> list[str]:
+    """What is computed today otherwise than it was when it was decided."""
+    told = []
+    for measure, value in decision.values.items():
+        before = recorded.get(_key(measure))
+        now, then = measure.text(value), measure.text(before * factor(measure.unit)) if is_number(before) else "unknown"
+        if now != then:
+            told.append(f"the {measure.name} of its chosen design is {now}; it was {then} when it was decided")
+    return told
 
 
 def _record(entry: object) -> dict[str, object]:

@@ -5,11 +5,14 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ..decision import JudgementRange, Judgements
+from ..decision import JudgementRange, Judgements, achievement
+from ..files import Decision, to_json
+from ..files.decisions import BY_HAND, REFERENCE
 from ..quantities import Measure, label
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
@@ -29,8 +32,8 @@ from ..views.parallel import Designs
 from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.drawn import LivePicture
-from .kit.front_picker import costs, objective_texts, place_on
-from .kit.inputs import Menu, Span
+from .kit.front_picker import FrontPanel, costs, objective_texts, place_on
+from .kit.inputs import Download, Menu, Span
 from .kit.parts import Banner, Button, Group, Table, Words, row
 from .kit.quiet import Quiet
 from .kit.reference import ReferencePoint
@@ -73,16 +76,18 @@ class ChoosePanel(Panel):
         self._said: Judgements | None = None
         self._brush_from: tuple[int, float] | None = None
         self._quiet, self._drawing = Quiet(), threading.RLock()  # a search reports from a thread of its own
+        self._by = ""
         self.banner, self.numbers, self._verdict, self.count = Banner(), Table(), Words(), Words(role="status")
         self.picture = LivePicture((brushed_designs,), "Designs of the front")
         self.points = LivePicture((front_winners,), "Winners on the front")
         self.map = LivePicture((winners_by_weight, judgement_bars), "Winners by weight")
         self.picture.on_pointer(self.pointed)
         self.map.on_click(self.map_clicked)
-        self.reference = ReferencePoint(self.points, source.select, self._draw)
+        self.reference = ReferencePoint(self.points, partial(self._take, REFERENCE), self._draw)
         self.picture.pixels = self.points.pixels = self.map.pixels = 240
         hint = Words(value=[HINT], look="hint")
-        loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS), hint)
+        save = Download("Save decision", "decision.json", "application/json", self._json, self.banner.show_message)
+        loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS), save, hint)
         designs = Group(self.points, self.picture, look="beside")
         sure = Group(self.map, self._verdict, look="room", description="Who wins at which weights")
         self._decided = Group(self.numbers, loads, designs, self.reference.box, self._brush(), sure)
@@ -103,7 +108,12 @@ class ChoosePanel(Panel):
         return row(self.count, self.axis, self.band, clear)
 
     def _load_button(self, rule: str) -> Button:
-        return Button(rule, lambda: self.source.select(self.shown.winners[rule]) if self.shown else None)
+        return Button(rule, lambda: self._take(rule, self.shown.winners[rule]) if self.shown else None)
+
+    def _take(self, rule: str, design: int) -> None:
+        """Load what a rule chooses."""
+        self._by = rule
+        self.source.select(design)
 
     def take_up(self) -> None:
         """Show the source's front and the judgements as they are now."""
@@ -165,6 +175,30 @@ class ChoosePanel(Panel):
         self.numbers.put(*self._table())
         self._verdict.say(*self.sureness, *costs(self.source.front, dict.fromkeys(self.shown.winners.values())))
         self._show_band()
+
+    # ------------------------------------------------------------ the decision
+
+    def decide(self) -> Decision:
+        """The decision for the design in the sliders, as it stands now.
+
+        Its rule is the one by which it was loaded, another one that takes it, or none: chosen by hand.
+
+        Raises ``ValueError`` where the design is none of the front's.
+        """
+        if self.shown is None or self.designs.selected is None:
+            raise ValueError("the design in the sliders is none of the front's; load one of these")
+        panel, front, wish = self.source.importance, self.source.front, self.reference.wished
+        judged = panel.given if panel and self._judgements(front) else None
+        wished = {} if wish is None else {REFERENCE: achievement(front, wish)}
+        winners = {**self.shown.winners, **wished}
+        rules = [rule for rule in (self._by, *MARKS, REFERENCE) if winners.get(rule) == self.designs.selected]
+        return Decision(front, self.designs.selected, rules[0] if rules else BY_HAND, judged, wish)
+
+    def _json(self) -> str:
+        decision = self.decide()
+        if isinstance(self.source, FrontPanel):
+            self.source.decision = decision
+        return to_json(decision)
 
     # ------------------------------------------------------------ bands
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..decision import CHOOSERS, Judgements, Judges
 from ..files import Session, designs, sessions
+from ..files.decisions import record_text
 from ..quantities import Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
 from ..search.front import Front
@@ -28,7 +29,7 @@ from .kit.inputs import Download, Input, Menu, Upload, Whole
 from .kit.parts import Button, Group, Part, Words, bold, row
 from .kit.runner import JobPanel, Runner
 from .kit.running import Job
-from .kit.search_job import SessionSearch, progress_text, record_text
+from .kit.search_job import SessionSearch, progress_text
 from .kit.search_page import SearchPage, same_design
 from .kit.sheet import IMPOSSIBLE, reason
 
@@ -249,7 +250,7 @@ class ParetoPanel(JobPanel, FrontPanel):
     def session(self) -> Session:
         """Everything on the page, to be saved."""
         settings = {name: box.value for name, box in self._settings().items()}
-        return Session(self.study, self.explorer.design, self._judgements(), settings, self.front)
+        return Session(self.study, self.explorer.design, self._judgements(), settings, self.front, self.decision)
 
     def _settings(self) -> dict[str, Input]:
         """The boxes and menus of the settings, by name."""
@@ -314,6 +315,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         session.design.analyse()
         self._show_loaded(session)
         self._set_boxes(session)
+        self.decision = session.decision
         self.status.say(f"loaded: {len(self.front)} designs on the front")
 
     def _show_loaded(self, session: Session) -> None:

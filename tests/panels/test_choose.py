@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
-from sheets import do, press
+from sheets import alert, do, downloaded, press
 from try_everything import try_everything
 
 from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore
@@ -446,6 +446,31 @@ def test_a_reference_point_is_typed_where_there_are_more_objectives(source):
     wish[:2] = 30 * mm, -900 * mm**2
     assert source.explorer.design == source.front[achievement(source.front, wish)]
     assert_allclose(wish_of(panel), [30, 900, 1.5])
+
+
+def decided(panel):
+    """The decision in the file that a person saves."""
+    return from_json(downloaded(panel, "Save decision")["text"], measures=(*GOALS[3], round_))
+
+
+def test_the_decision_is_saved_with_its_rule_and_its_judgements(source):
+    panel = choose_panel(source)
+    assert downloaded(panel, "Save decision") == {}
+    assert "Nothing is saved: the design in the sliders is none of the front's; load one of these." in alert(panel)
+    for rule in MARKS:
+        press(panel, rule)
+        decision = decided(panel)
+        assert (decision.rule, decision.chosen) == (rule, panel.shown.winners[rule]) == (rule, decision.taken)
+        assert decision.judgements == source.importance.judgements
+        assert decision.reference is None
+    others = set(range(len(source.front))) - set(panel.shown.winners.values())
+    source.select(min(others))
+    assert (decided(panel).rule, decided(panel).chosen) == ("by hand", min(others))
+    do(panel, panel.points, does="move", view=0, at=[30.0, 900.0], pixel=[0.1, 1.0])
+    decision = decided(panel)
+    assert decision.rule == "reference point"
+    assert decision.design == source.explorer.design == decision.front[decision.taken]
+    assert_allclose(decision.reference[:2], [30 * mm, -900 * mm**2])
 
 
 def test_one_objective_has_no_reference_point():

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...decision import CHOOSERS
+from ...files import Decision
 from ...quantities import Analysable, label, quantities_of, value_of
 from ...quantities.types import Array
 from ...search.front import Front
@@ -181,6 +182,8 @@ class FrontPanel(Panel):
     """A panel around its ``picker``."""
 
     picker: FrontPicker
+    decision: Decision | None = None
+    """What was decided last on its front."""
 
     def _stand_in_tabs(self, title: str, *judged: Sheet | None) -> None:
         """Be a tab of the explorer, and the judgements that there are another."""

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
 from ...decision import achievement
 from ...quantities import Measure
 from ...quantities.types import Array
@@ -28,7 +26,8 @@ class ReferencePoint:
         self._select, self._moved = select, moved
         self._front: Front | None = None
         self._objectives: tuple[Measure, ...] = ()
-        self._wish: np.ndarray | None = None
+        self.wished: list[float] | None = None
+        """The objectives that a person wishes, all to be small, SI; ``None`` until one does."""
         self._quiet = Quiet()
         self.box = Group(look="fold", description="Reference point: what you wish of each objective")
         picture.on_move("reference", self._dragged)
@@ -37,7 +36,7 @@ class ReferencePoint:
         """Stand beside another front; what is wished stays if it has the same objectives."""
         self._front = front
         if front.study.minimise != self._objectives:
-            self._objectives, self._wish = front.study.minimise, None
+            self._objectives, self.wished = front.study.minimise, None
             several = self._objectives[1:] and self._objectives
             self.box.children = tuple(self._row(k, measure) for k, measure in enumerate(several))
         self.box.visible = self.point is not None
@@ -51,7 +50,7 @@ class ReferencePoint:
 
     def _row(self, k: int, measure: Measure) -> Group:
         amount = Amount(unit=measure.unit, description=f"wish for the {measure.name}")
-        self._quiet.hear(amount, lambda value: self._wished({k: value}))
+        self._quiet.hear(amount, lambda value: self._wish({k: value}))
         return row(Words(value=[measure.name]), amount)
 
     @property
@@ -59,19 +58,19 @@ class ReferencePoint:
         """The objectives that are wished, all to be small, SI; ``None`` where there is nothing to choose."""
         if self._front is None or not len(self._front) or len(self._objectives) < 2:
             return None
-        return tuple((self._front.f.min(0) if self._wish is None else self._wish).tolist())
+        return tuple(self.wished or self._front.f.min(0).tolist())
 
     def _dragged(self, view: int, at: Array) -> None:
-        self._wished(dict(enumerate(map(float, at))))
+        self._wish(dict(enumerate(map(float, at))))
 
-    def _wished(self, values: dict[int, float]) -> None:
+    def _wish(self, values: dict[int, float]) -> None:
         """Other values of some objectives, in their units."""
         if self.point is None:
             return
-        self._wish = np.array(self.point)
+        self.wished = list(self.point)
         for k, value in values.items():
-            self._wish[k] = self._objectives[k].sign * value * factor(self._objectives[k].unit)
-        nearest = achievement(self._front, self._wish)
+            self.wished[k] = self._objectives[k].sign * value * factor(self._objectives[k].unit)
+        nearest = achievement(self._front, self.wished)
         self._fill()
         self._moved()
         self._select(nearest)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -51,10 +51,3 @@ def progress_text(step: Step, on_front: int, last: bool) -> str:
         f"generation {step.number} of {step.of}{stopped}: {step.feasible} of {len(step.evaluation.x)} feasible, "
         f"{on_front} on the front"
     )
-
-
-def record_text(record: Mapping[str, object]) -> str:
-    """How a front was found, in one line; all that is known of it is in the saved study."""
-    words_of = {"generations": "{} generations", "designs": "{} designs evaluated", "seed": "seed {}"}
-    known = (text.format(record[name]) for name, text in words_of.items() if name in record)
-    return f"found in {record['seconds']:.3g} s: {', '.join(known)}" if record else ""
