@@ -63,7 +63,7 @@ def entry_of(thing: object, where: str = "value") -> object:
         if isinstance(thing, Segment) and not thing.name:
             values.pop("name", None)
         return {"kind": name} | {
-            key(n, declared.get(n)): _field_entry(v, declared.get(n), f"{words(n)} of the {kind_words(type(thing))}")
+            key(n, declared.get(n)): field_entry(v, declared.get(n), f"{words(n)} of the {kind_words(type(thing))}")
             for n, v in values.items()
         }
     what = (
@@ -89,7 +89,8 @@ def _refuse_namesake(kind: type, read: type, where: str) -> None:
         )
 
 
-def _field_entry(value: Any, declared: object, where: str) -> object:
+def field_entry(value: Any, declared: object, where: str) -> object:
+    """The value of a field as JSON knows it: a number in the unit of its declaration, an option by its name."""
     if isinstance(declared, Quantity):
         if np.ndim(value):
             raise ValueError("this is a population; one design can be saved")
@@ -182,7 +183,7 @@ class Reading:
             found = {key(path, declared): (path, declared) for path, declared in declared_in(thing).items()}
             if k in found:
                 path, declared = found[k]
-                value = self._declared(given, declared)
+                value = self.declared(given, declared)
                 try:
                     thing = with_quantities(thing, {path: value})
                 except ValueError as refusal:
@@ -224,7 +225,7 @@ class Reading:
 
     def _field(self, given: Given, of: Field[object], declared: object, hint: object) -> object:
         if isinstance(declared, (Quantity, Choice)):
-            return self._declared(given, declared)
+            return self.declared(given, declared)
         value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
         if "in_all" in of.metadata and isinstance(given.value, list):
             self._count(len(given.value), *of.metadata["in_all"])
@@ -232,7 +233,8 @@ class Reading:
             raise ValueError(f"the file says {shown(given.value)} for {given.name!r}; {_wanted(hint)} belongs there")
         return value
 
-    def _declared(self, given: Given, declared: Quantity | Choice) -> object:
+    def declared(self, given: Given, declared: Quantity | Choice) -> object:
+        """What a file gives for a quantity (SI) or a choice."""
         if isinstance(declared, Choice):
             return self._choice(given.value, given.name, declared)
         if not is_number(given.value):

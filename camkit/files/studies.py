@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from ..quantities import CurveMeasure, Design, Measure, measures_of, quantities_of
+from ..quantities import CurveMeasure, Design, Measure, Quantity, measures_of
 from ..quantities.kinds import kind_words, one_number, shown, whole
 from ..quantities.types import Array
-from ..study.free import refuse_bounds
+from ..study.free import Menu, declared_with, freed, refuse_bounds
 from ..study.robust import RobustStudy
 from ..study.study import Study
 from ..study.weighted import WeightedSum, weighted
 from ..units import factor
 from .checks import all_numbers, listed, mapping, plain
-from .entries import Reading, entry_of, exact_in_unit, is_number, key
+from .entries import MOST_THINGS, Reading, entry_of, exact_in_unit, field_entry, is_number, key
 from .renamed import Given, Renaming
 from .tolerances import tolerances_entry, under_tolerances
 
@@ -37,7 +38,7 @@ def study_entry(study: Study) -> dict[str, object]:
     known, limits = _declared_measures(study.start), {"at_most": study.at_most, "at_least": study.at_least}
     made = {_key(m): m.made for m in study.measures if m.made and getattr(known.get(_key(m)), "made", ()) != m.made}
     sums = [m for of in limits.values() for m in of or {} if isinstance(m, WeightedSum)]
-    free = {key(path, q): [exact_in_unit(b, q.unit) for b in study.free[path]] for path, q in study.declared.items()}
+    free = dict(_free_entry(study, name, given) for name, given in study.free.items())
     return {
         "start": entry_of(study.start),
         "free": free,
@@ -52,6 +53,23 @@ def study_entry(study: Study) -> dict[str, object]:
         "angles": int(study.angles),
         **({"tolerances": tolerances_entry(study)} if isinstance(study, RobustStudy) else {}),
     }
+
+
+def _free_entry(study: Study, name: str, free: Any) -> tuple[str, object]:
+    """What is free, by its name and as JSON knows it: two bounds, or options with their names."""
+    if not isinstance(free, Menu):
+        declared = study.declared[name]
+        return key(name, declared), [exact_in_unit(bound, declared.unit) for bound in free]
+    places = declared_with(study.start, study.menus, free.paths)
+    options = [
+        [told, *(field_entry(v, d, f"option {told}") for v, d in zip(values, places.values(), strict=True))]
+        for told, values in free.options.items()
+    ]
+    return _menu_key(places), {"options": options}
+
+
+def _menu_key(places: Mapping[str, object]) -> str:
+    return ", ".join(key(path, declared) for path, declared in places.items())
 
 
 def rows(study: Study, x: Array) -> list[list[float]]:
@@ -80,21 +98,63 @@ def study_of(entry: Mapping[str, object], reading: Reading, measures: Sequence[M
         for name in ("at_most", "at_least")
     }
     minimise = tuple(_objective(each, find) for each in listed(entry["minimise"], "minimise"))
-    free = {path: _bounds(start, path, *freed) for path, freed in _free(entry, start, reading).items()}
+    menus = _menus(entry, start, reading)
+    found = _free(entry, start, menus, reading)
+    free = {n: menus[n] if n in menus else _bounds(start, menus, n, *given) for n, given in found.items()}
     angles = whole(entry["angles"], "the file's 'angles'", 2, MOST_ANGLES)
     study: Study = Study(start, free, minimise, at_most=limits["at_most"], at_least=limits["at_least"], angles=angles)
     return under_tolerances(study, entry["tolerances"], reading) if entry["tolerances"] else study
 
 
-def _free(entry: Mapping[str, object], start: object, reading: Reading) -> dict[str, tuple[Given, float]]:
-    """What a file frees, by its path of today, and what the file's numbers are multiplied by to be SI."""
-    declared = {key(path, q): (path, q) for path, q in quantities_of(start).items()}
-    found = {}
-    for k, given in reading.renaming.entries(type(start).__name__, mapping(entry["free"], "free")).items():
-        if k not in declared:
-            mechanism = kind_words(type(start), article=True)
-            raise ValueError(f"the file frees {shown(given.name)}, which {mechanism} does not have")
-        path, quantity = declared[k]
+def _menus(entry: Mapping[str, object], start: object, reading: Reading) -> dict[str, Menu]:
+    """The menus that a file frees, by their names."""
+    menus: dict[str, Menu] = {}
+    told = mapping(entry["free"], "free")
+    for k in (k for k in _order(entry) if isinstance(told[k], dict)):
+        places = _declared(start, menus, k, k)
+        options: dict[str, object] = {}
+        for option in _few(listed(mapping(told[k], k).get("options"), k)):
+            name, *values = option if isinstance(option, list) and option else (None,)
+            if not isinstance(name, str) or len(values) != len(places) or name in options:
+                raise ValueError(f"the file says {shown(option)} for {shown(k)}, where an option belongs")
+            found = tuple(reading.declared(Given(k, v), d) for v, d in zip(values, places.values(), strict=True))
+            options[plain(name)] = found if len(found) > 1 else found[0]
+        try:
+            free = freed(start, {**menus, tuple(places): options})
+        except ValueError as refusal:
+            raise ValueError(f"the file frees {shown(k)}, which cannot be: {refusal}") from None
+        menus |= {name: menu for name, menu in free.items() if isinstance(menu, Menu)}
+    return menus
+
+
+def _few(options: Sequence[object]) -> Sequence[object]:
+    if len(options) > MOST_THINGS:
+        raise ValueError(f"the file has a list of {len(options)} options; there can be at most {MOST_THINGS}")
+    return options
+
+
+def _declared(start: object, menus: Mapping[str, Menu], k: str, name: str) -> dict[str, Any]:
+    """The declarations of what a file frees as ``name``, today ``k``, perhaps several paths, by path."""
+    try:
+        places = declared_with(start, menus.values(), [each.partition(" [")[0] for each in k.split(", ")])
+    except ValueError:
+        places = {}
+    if not places or _menu_key(places) != k:
+        raise ValueError(f"the file frees {shown(name)}, which {kind_words(type(start), article=True)} does not have")
+    return places
+
+
+def _free(
+    entry: Mapping[str, object], start: object, menus: Mapping[str, Menu], reading: Reading
+) -> dict[str, tuple[Given, float]]:
+    """What a file frees, by its name of today, and what the file's numbers are multiplied by to be SI."""
+    keys = {_menu_key(declared_with(start, menus.values(), menu.paths)): menu for menu in menus.values()}
+    found = {menu.name: (Given(k, [0, len(menu.names) - 1]), 1.0) for k, menu in keys.items()}
+    numbers = {k: value for k, value in mapping(entry["free"], "free").items() if k not in keys}
+    for k, given in reading.renaming.entries(type(start).__name__, numbers).items():
+        ((path, quantity),) = _declared(start, menus, k, given.name).items()
+        if not isinstance(quantity, Quantity):
+            raise ValueError(f"the file says {shown(given.value)} for {shown(k)}, where options belong")
         found[path] = given, given.times * quantity.factor
     order = _order(entry)
     return dict(sorted(found.items(), key=lambda item: order.index(item[1][0].name)))
@@ -108,11 +168,11 @@ def _order(entry: Mapping[str, object]) -> list[str]:
     return columns or free
 
 
-def _bounds(start: object, path: str, given: Given, scale: float) -> tuple[float, float]:
+def _bounds(start: object, menus: Mapping[str, Menu], path: str, given: Given, scale: float) -> tuple[float, float]:
     first, second = (b * scale + 0.0 for b in all_numbers(given.value, given.name, 2))
     bounds = (first, second) if scale > 0 else (second, first)
     try:
-        refuse_bounds(quantities_of(start), {path: bounds})
+        refuse_bounds(declared_with(start, menus.values(), (path,)), {path: bounds})
     except ValueError as refusal:
         raise ValueError(f"the file says {shown(given.value)} for {given.name!r}: {refusal}") from None
     return bounds
@@ -127,7 +187,8 @@ def x_of(entry: Mapping[str, object], study: Study, reading: Reading) -> np.ndar
         raise ValueError(
             f"the file has {len(rows)} designs at {study.angles} angles each; there can be {MOST_POINTS} points in all"
         )
-    free = list(_free(entry, study.start, reading).values())
+    menus = {menu.name: menu for menu in study.menus}
+    free = list(_free(entry, study.start, menus, reading).values())
     x = np.array(rows, dtype=float).reshape(-1, n) * [scale for _, scale in free] + 0.0
     for i, j in _outside(x, study)[:1]:
         given = free[j][0]

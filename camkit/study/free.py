@@ -48,14 +48,15 @@ def _check_bounds(name: str, declared: Quantity, low: float, high: float) -> Non
 
 @dataclass(frozen=True)
 class Menu:
-    """A menu that a study frees: ``options`` by name, each a value (SI) or an option for every one of its ``paths``.
+    """A menu that a study frees: options by their ``names``, each a value (SI) or an option for every one of ``paths``.
 
     Among free values it is the place of an option, from 0 in the order of the menu: a number without a unit, whose
     ``text`` is the option's name.
     """
 
     paths: tuple[str, ...]
-    options: Mapping[str, tuple[Any, ...]]
+    names: tuple[str, ...]
+    values: tuple[tuple[Any, ...], ...]
     of_sizes: bool
     """Whether all paths are quantities."""
 
@@ -70,18 +71,23 @@ class Menu:
     symbol = name
 
     @property
+    def options(self) -> dict[str, tuple[Any, ...]]:
+        """The values of the options, by their names."""
+        return dict(zip(self.names, self.values, strict=True))
+
+    @property
     def meaning(self) -> str:
         """Its options."""
-        return f"one of {', '.join(self.options)}"
+        return f"one of {', '.join(self.names)}"
 
     @cached_property
     def sizes(self) -> Array | None:
         """Its values ``(n_options, n_paths)``, SI, of a menu of sizes."""
-        return np.array([*self.options.values()], dtype=float) if self.of_sizes else None
+        return np.array(self.values, dtype=float) if self.of_sizes else None
 
     def text(self, place: Any) -> str:
         """The name of the option at a place."""
-        return [*self.options][int(np.clip(np.rint(float(place)), 0, len(self.options) - 1))]
+        return self.names[int(np.clip(np.rint(float(place)), 0, len(self.names) - 1))]
 
     def nearest(self, values: Array) -> Array:
         """The places of the options that are nearest to ``values`` ``(p, n_paths)`` of their numbers, ``(p,)``."""
@@ -102,7 +108,7 @@ class Menu:
         if self.sizes is not None:
             return int(self.nearest(np.array([here], dtype=float))[0])
         below = [[name.removeprefix(f"{p}.") for name in free if name.startswith(f"{p}.")] for p in self.paths]
-        for place, option in enumerate(self.options.values()):
+        for place, option in enumerate(self.values):
             if all(map(_alike, here, option, below)):
                 return place
         return 0
@@ -147,7 +153,7 @@ def declared_with(start: object, menus: Iterable[Menu], paths: Sequence[str]) ->
     """The declarations of ``paths`` in ``start``, or in what an option of one of the ``menus`` makes of it."""
     found: dict[str, Any] = {path: d for path, d in declared_in(start).items() if path in paths}
     for menu in menus if len(found) < len(paths) else ():
-        for option in menu.options.values():
+        for option in menu.values:
             try:
                 changed = with_quantities(start, dict(zip(menu.paths, option, strict=True)))
             except ValueError:  # an option that this start cannot have
@@ -180,7 +186,8 @@ def _menu(declared: Mapping[str, Any], given: Any) -> Menu:
         if name in options:
             raise ValueError(f"two options of the {told} are called {shown(name)}; give them names: {{name: option}}")
         options[name] = option
-    return Menu(paths, options, all(isinstance(d, Quantity) for d in declared.values()))
+    of_sizes = all(isinstance(d, Quantity) for d in declared.values())
+    return Menu(paths, tuple(options), tuple(options.values()), of_sizes)
 
 
 def _option(declared: Mapping[str, Any], given: Any) -> tuple[Any, ...]:

@@ -6,7 +6,7 @@ as a coefficient of another law, is no variable then: its column holds the middl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
-from ..quantities import Analysable, D, Design, declared_in, value_of, with_quantities
+from ..quantities import Analysable, D, Design, Measure, declared_in, value_of, with_quantities
 from ..quantities.types import Array
 from .free import Menu
 
@@ -75,11 +75,11 @@ class Options(Generic[S]):
     @property
     def count(self) -> int:
         """How many combinations of options there are."""
-        return prod(len(menu.options) for menu in self.menus.values())
+        return prod(len(menu.names) for menu in self.menus.values())
 
     def each(self) -> Iterator[Plain[S]]:
         """The study of each combination of options; one where some make no difference."""
-        for places in product(*(range(len(menu.options)) for menu in self.menus.values())):
+        for places in product(*(range(len(menu.names)) for menu in self.menus.values())):
             made = self.plain(places)
             if all(place == made.row[i] for place, i in zip(places, self.menus, strict=True)):
                 yield made
@@ -105,7 +105,7 @@ class Options(Generic[S]):
                 if place is None:
                     open_.append((i, menu))
                 else:
-                    name, option = [*menu.options.items()][place]
+                    name, option = menu.names[place], menu.values[place]
                     row[i], names[menu.name] = place, name
                     design = with_quantities(design, dict(zip(menu.paths, option, strict=True)))
             design = ready(design, study.free)
@@ -137,7 +137,7 @@ class Options(Generic[S]):
         """``x`` ``(p, n_free)`` with every place whole and within its menu, and with nothing of what is no variable."""
         rows = x.copy()
         for i, menu in self.menus.items():
-            rows[:, i] = np.clip(np.rint(np.nan_to_num(x[:, i])), 0, len(menu.options) - 1)
+            rows[:, i] = np.clip(np.rint(np.nan_to_num(x[:, i])), 0, len(menu.names) - 1)
         for at, made in self.groups(rows):
             kept = [*made.columns, *(i for i, _ in made.open)]
             settled = np.tile(made.row, (len(at), 1))
@@ -183,6 +183,15 @@ class Options(Generic[S]):
             elif name in known:
                 x[i] = value_of(design, name)
         return self.settled(x[None])[0]
+
+
+def measured(study: Study, measures: Sequence[Measure], x: Array) -> Array:
+    """What measures say of ``p`` designs ``(p, n_free)``, ``(p, n_measures)``, SI; ``nan`` of what is no design."""
+    if study.menus:
+        return study.options.table(study.rows(x), len(measures), lambda made, x: measured(made, measures, x), np.nan)
+    analysis = study.analysis(x) if len(measures) else None
+    values = [np.broadcast_to(np.asarray(m(analysis), dtype=float), len(x)) for m in measures]
+    return np.stack(values, axis=-1) if values else np.zeros((len(x), 0))
 
 
 def ready(design: D, free: Iterable[Any]) -> D:

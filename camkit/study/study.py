@@ -213,7 +213,7 @@ class Study(Generic[D]):
     @property
     def bounds(self) -> np.ndarray:
         """Lower and upper bounds, ``(2, n_free)``, SI; of a menu its first and its last place."""
-        bounds = [(0, len(b.options) - 1) if isinstance(b, Menu) else b for b in self.free.values()]
+        bounds = [(0, len(b.names) - 1) if isinstance(b, Menu) else b for b in self.free.values()]
         return np.array(bounds, dtype=float).reshape(-1, 2).T
 
     @property

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..decision import CHOOSERS, WEIGHING, JudgementRange, Judgements, WinnerMap, judgement_ranges, winner_map
 from ..quantities import Measure, label
+from ..study.options import measured
 from ..units import factor
 from .front import Judged, wished
 from .parallel import Column, Designs, parallel_coordinates
@@ -95,15 +96,15 @@ def decision(
 
 def _numbers(front: Judged, measures: Sequence[Measure] | None) -> tuple[tuple[Column, ...], np.ndarray]:
     """Every number of the front's designs that is shown, in its unit, ``(p, n)``."""
-    study, p = front.study, len(front)
+    study = front.study
     goals = [(Column(m.name, m.unit, m.sign), m.sign * f) for m, f in zip(study.minimise, front.f.T, strict=True)]
     free = [(Column(label(n, q), q.unit), x) for (n, q), x in zip(study.declared.items(), front.x.T, strict=True)]
     limited = {m: sense for m, _, sense in study.limits}
     further = [
         m for m in (limited if measures is None else measures) if m not in study.minimise and -m not in study.minimise
     ]
-    analysis = study.analysis(front.x) if further else None
-    told = [(Column(m.name, m.unit, limited.get(m, 0)), np.broadcast_to(m(analysis), p)) for m in further]
+    values = measured(study, further, front.x).T
+    told = [(Column(m.name, m.unit, limited.get(m, 0)), v) for m, v in zip(further, values, strict=True)]
     shown = [*goals, *free, *told]
     return tuple(c for c, _ in shown), np.column_stack([v / factor(c.unit) for c, v in shown])
 
