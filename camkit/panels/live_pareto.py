@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Analysable, with_quantities
+from ..quantities import Analysable
 from ..quantities.kinds import refuse_arguments
 from ..search.fast_front import quick_front
 from ..search.front import Front
@@ -74,9 +74,8 @@ class LiveParetoPanel(FrontPanel):
 
     def _with_free(self, index: int) -> Analysable:
         """A design of the front; what is not free stays as it is in the sliders."""
-        front = self.front
-        free = dict(zip(front.study.free, map(float, front.x[index]), strict=True))
-        return with_quantities(self.explorer.design, free)
+        study = self.front.study.nominal.around(self.explorer.design)
+        return study.design(self.front.x[index])
 
     def _body(self) -> Part:
         menus = [self.menu] if len(self.studies) > 1 else []

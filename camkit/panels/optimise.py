@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure
+from ..quantities import Measure, words
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.types import Array
 from ..search.minimise import METHODS
@@ -19,7 +19,7 @@ from ..views.progress import ShownLooks, best_so_far
 from .instrument import Instrument
 from .kit.drawn import LivePicture
 from .kit.inputs import Menu, Whole
-from .kit.parts import Button, Part, Words, bold
+from .kit.parts import Button, Part, Table, Words, bold
 from .kit.runner import JobPanel, Runner
 
 
@@ -47,7 +47,7 @@ class OptimisePanel(JobPanel):
         self.minimum: Minimum | None = None
         self.before: Any = None
         self.back = Button("Undo", lambda: self.explorer.load(self.before), disabled=True)
-        self.verdict = Words()
+        self.verdict, self.options = Words(), Table()
         self._lines: tuple[str, ...] = ()
         self._seen: list[Evaluated] = []
         self.picture = LivePicture((best_so_far,), "The search", width=6.6, height=3.9)
@@ -58,7 +58,15 @@ class OptimisePanel(JobPanel):
     def _questions(self) -> list[Part]:
         runner = self.runner
         asked = [menu for menu in (self.problem, self.method) if len(menu.options) > 1]
-        return [*asked, self.starts, runner.buttons(self.back), runner.status, runner.banner, self.verdict]
+        return [
+            *asked,
+            self.starts,
+            runner.buttons(self.back),
+            runner.status,
+            runner.banner,
+            self.verdict,
+            self.options,
+        ]
 
     def _fit_starts(self) -> None:
         """Other methods than SLSQP have no use for several starts."""
@@ -98,6 +106,9 @@ class OptimisePanel(JobPanel):
         result, reached = self._lines
         rates = self.minimum.rates if self.minimum and self.minimum.feasible else {}
         self.verdict.say(bold(result), reached, *told_of_limits(self.study, rates))
+        options = sorted(self.minimum.options, key=lambda each: (not each.feasible, each.f)) if self.minimum else []
+        head = (words(", ".join(options[0].options)), self._measure.name) if options else ()
+        self.options.put(head, [(each.name, each.text) for each in options])
 
     @property
     def _measure(self) -> Measure:

@@ -16,12 +16,12 @@ from ..quantities import Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
 from ..search.front import Front
 from ..search.protocol import Step
-from ..study.free import refuse_bounds
+from ..study.free import Free, freed
 from ..study.study import Study, named_studies
 from ..views.front import ShownFront, pareto
 from .ahp import AhpPanel
 from .instrument import Instrument
-from .kit.bounds import Bounds
+from .kit.bounds import rows_of
 from .kit.design_files import remarked
 from .kit.drawn import LivePicture
 from .kit.front_picker import FrontPanel, FrontPicker
@@ -59,8 +59,8 @@ class ParetoPanel(JobPanel, FrontPanel):
         self,
         explorer: Instrument,
         studies: Study | Mapping[str, Study],
-        space: Mapping[str, tuple[float, float]] | None = None,
-        free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,
+        space: Free | None = None,
+        free: Sequence[str] | Free | None = None,
         criteria: AhpPanel | None = None,
         importance: AhpPanel | None = None,
         population: int = 100,
@@ -73,12 +73,12 @@ class ParetoPanel(JobPanel, FrontPanel):
         if space is None:
             space = {path: bounds for each in (first, *others) for path, bounds in each.items()} | dict(first)
         free = first if free is None else free
-        declared = Paths(explorer.design, dict.fromkeys((*space, *free)), Quantity).declared
-        refuse_bounds(declared, space)
+        space = freed(explorer.design, space)
+        Paths(explorer.design, [name for name in free if name not in space], Quantity)  # refuses what there is not
         self.page = self._page(studies, space)
         self.runner = Runner("Optimise", self._asked, self._show_step, self.page.kind, ended=self._offer_resume)
         self._make_parts()
-        self.bounds = {n: Bounds(n, declared[n], b, n in free, self._refuse) for n, b in space.items()}
+        self.bounds = rows_of(explorer.design, space, free, self._refuse)
         self.mode = Menu(list(studies), "problem")
         self.population, self.generations, self.seed = map(self._count, COUNTS, (population, generations, 1))
         self.study = self.asked_study()
@@ -358,8 +358,8 @@ class ParetoPanel(JobPanel, FrontPanel):
 def pareto_panel(
     explorer: Instrument,
     studies: Study | Mapping[str, Study],
-    space: Mapping[str, tuple[float, float]] | None = None,
-    free: Sequence[str] | Mapping[str, tuple[float, float]] | None = None,
+    space: Free | None = None,
+    free: Sequence[str] | Free | None = None,
     **options: Any,
 ) -> ParetoPanel:
     """A panel that searches around the design in ``explorer`` and helps to choose from the front."""

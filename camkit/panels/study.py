@@ -22,7 +22,7 @@ from .kit.inputs import Amount, Check, Download, Upload
 from .kit.parts import Banner, Button, Group, Message, Words, row
 from .kit.runner import JobPanel
 from .kit.sheet import IMPOSSIBLE, Panel, reason
-from .kit.space import FreeQuantities
+from .kit.space import Space
 from .kit.wishes import Wishes
 from .kit.yields import YIELD
 from .live_pareto import live_pareto_panel
@@ -53,7 +53,7 @@ class StudyPanel(Panel):
         refuse_arguments(StudyPanel.__init__, locals())
         self.explorer, self._given = explorer, study
         self._tabs: dict[str, tuple[Panel, list[Callable[..., object]]]] = {}
-        self.banner, self.space = Banner(), FreeQuantities(self._refuse)
+        self.banner, self.space = Banner(), Space(self._refuse)
         self.wishes = Wishes((*explorer.measures, *measures_of(explorer.design), *measures))
         find = Button("Find", self.find, primary=True, tooltip="look for the design, or the front, that this asks for")
         parts = Button("Tolerances", self.open_tolerances, tooltip="what the workshop makes of the design")

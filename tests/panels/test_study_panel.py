@@ -27,6 +27,7 @@ from camkit.units import MPa, N, rpm
 
 PATIENCE = 60
 ROLLER = with_quantities(TranslatingRollerCam(contact=ContactPair()), {"load.speed": 1200 * rpm})
+LAWS = "motion.rise.law, motion.return.law"
 SPRING = ("load.spring_rate", "load.preload")
 
 
@@ -72,7 +73,7 @@ def test_a_study_that_is_given_is_asked_for_as_it_is(study):
     first = [-m if -m in known else m for m in study.minimise]
     assert list(panel.wishes.rows)[: len(first)] == first
     assert set(panel.wishes.rows) >= {*known}
-    assert list(panel.space.rows) == list(quantities_of(asked.start))
+    assert [*panel.space.rows][: len(quantities_of(asked.start))] == [*quantities_of(asked.start)]
 
 
 def test_it_begins_with_the_limits_of_the_instrument():
@@ -120,19 +121,83 @@ def test_a_measure_of_ones_own_is_one_line():
 # --- what is found ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("law", "pressure"), [(Cycloidal(), 306), (ModifiedSine(), 276)])
-def test_the_least_contact_pressure_of_a_spring(law, pressure):
-    app = explore(with_quantities(ROLLER, {"motion.rise.law": law, "motion.return.law": law}))
+def test_the_least_contact_pressure_of_a_spring():
+    app = explore(ROLLER)
     panel = study_panel(app)
     gentle_roller(panel)
     press(panel, "Find")
     optimise = opened(panel, "Optimise")
     optimise.wait(PATIENCE)
     assert app.opened == "Optimise"
-    assert peak_pressure.one(app.analysis) / MPa == pytest.approx(pressure, abs=0.6)
+    assert peak_pressure.one(app.analysis) / MPa == pytest.approx(305.6, abs=0.1)
     assert min_force.one(app.analysis) == pytest.approx(10, rel=1e-5)
-    assert "At their limits: the minimum contact force 10 N" in optimise.summary()
+    assert "the minimum contact force 10 N" in optimise.summary()
+    assert optimise.options.rows == []
     assert panel.wishes.rows[min_force].now.text == "10 N"
+
+
+def try_laws(panel, *names):
+    """Free the laws of rise and return together, with these options."""
+    free(panel, LAWS)
+    laws = panel.space.rows[LAWS]
+    do(panel, laws.all, value=False)
+    for name in names:
+        do(panel, laws.options[name], value=True)
+
+
+def test_the_best_of_several_laws():
+    app = explore(ROLLER)
+    panel = study_panel(app)
+    gentle_roller(panel)
+    try_laws(panel)
+    press(panel, "Find")
+    said = "no option of the motion rise law, motion return law is to be tried; tick one or more"
+    assert alert(panel) == f"This cannot be searched: {said}."
+    try_laws(panel, "cycloidal", "modified sine", "4-5-6-7 polynomial")
+    assert panel.summary().endswith("alike, one of cycloidal, modified sine, 4-5-6-7 polynomial")
+    press(panel, "Find")
+    optimise = opened(panel, "Optimise")
+    optimise.wait(PATIENCE)
+    laws = [segment.law for segment in app.design.motion.segments if hasattr(segment, "law")]
+    assert laws == [ModifiedSine(), ModifiedSine()]
+    assert optimise.options.text.split("\n") == [
+        "motion rise law, motion return law  peak contact pressure",
+        "modified sine  275.9 MPa",
+        "cycloidal  305.6 MPa",
+        "4-5-6-7 polynomial  334.1 MPa",
+    ]
+
+
+def test_a_front_of_several_laws_loads_designs_of_each():
+    app = explore(ROLLER)
+    panel = study_panel(app)
+    want(panel, max_pressure_angle, "small")
+    want(panel, peak_force, "small")
+    free(panel, "base_radius")
+    try_laws(panel, "cycloidal", "simple harmonic")
+    press(panel, "Find")
+    live, front = opened(panel, "Live front"), opened(panel, "Front")
+    assert len(live.front)
+    assert front.asked_study() == panel.study
+    for place in range(len(live.front)):
+        live.select(place)
+        assert app.design == live.front[place]
+    live.settle()
+    assert app.opened == "Live front"
+
+
+def test_menus_that_a_study_frees_are_asked_for_as_they_are():
+    asked = {
+        "roller_radius": {6 * mm, 8 * mm},
+        "motion.rise.law": (Cycloidal(), ModifiedSine()),
+        "offset": (0.0, 9 * mm),
+    }
+    study = Study(ROLLER, asked, (max_pressure_angle,))
+    panel = study_panel(explore(ROLLER), study)
+    assert panel.study.free.keys() == study.free.keys()
+    assert all(panel.study.free[name] == free for name, free in study.free.items())
+    do(panel, panel.space.rows["roller_radius, sizes"].free, value=False)
+    assert panel.study.free.keys() == {"motion.rise.law", "offset"}
 
 
 def test_a_yield_is_wanted_too():

@@ -59,9 +59,11 @@ def designs_on(front: Front, design: Callable[[int], Any], now: Any) -> tuple[Ar
     """Points of a front as they are read ``(p, 2)``, and the values of all quantities there ``(p, q)``.
 
     The quantities are those of the design ``now`` in the sliders, in their order; ``design(0)`` has those that are not
-    free.
+    free.  Where menus are free there are none: designs with other options have other quantities.
     """
     paths = list(quantities_of(now))
+    if front.study.menus:
+        return np.zeros((0, 2)), np.zeros((0, len(paths)))
     picked = design(0) if len(front) else now
     of = {path: picked if path in quantities_of(picked) else now for path in paths}
     values = np.tile([float(value_of(there, path)) for path, there in of.items()], (len(front), 1))

@@ -13,6 +13,7 @@ from ...files import Session, designs, sessions
 from ...quantities import Analysable, Measure
 from ...quantities.kinds import kind_words
 from ...search.checkpoint import fingerprint, resume, why
+from ...study.free import Free
 from ...study.study import Study
 from ...study.weighted import WeightedSum
 from .search_files import Kept, keep, pending
@@ -46,7 +47,7 @@ class SearchPage:
         self,
         mode: str,
         design: object,
-        space: Mapping[str, tuple[float, float]],
+        space: Free,
         judgements: Mapping[str, Judgements | Judges],
     ) -> Study:
         """One of its problems around a design, with the weights that the judgements of the criteria give."""
