@@ -61,8 +61,8 @@ class StudyPanel(Panel):
         buttons = row(find, parts, save, Upload("Load study", self.load_json))
         free = Group(Words(value=["what may change, and its bounds"], look="hint"), self.space.part)
         self.told, self._kept = Words(look="hint"), ""
-        self.robust = Check(description="when it is made within tolerances, with a yield of at least", tooltip=ROBUST)
-        self.share = Amount(unit="%", description="yield of at least")
+        self.robust = Check(description="made within tolerances, yield at least", tooltip=ROBUST)
+        self.share = Amount(unit="%", description="yield at least")
         made = row(self.robust, self.share)
         super().__init__(Group(buttons, self.banner, self.told, look="stays"), self.wishes.part, made, free)
         self._ask(study)
