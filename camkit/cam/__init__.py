@@ -22,15 +22,20 @@ from .force_closure import (
 )
 from .loads import ArmLoad, Contact, Friction
 from .measures import (
+    arm_acceleration,
+    arm_travel,
     base_radius,
     groove_gap,
     max_pressure_angle,
     mean_efficiency,
     min_concave_radius,
     min_convex_radius,
+    peak_acceleration,
     peak_force,
     peak_torque,
+    peak_wear,
     published_mean_efficiency,
+    travel,
     undercut_margin,
     work_efficiency,
 )
@@ -38,6 +43,7 @@ from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
 from .pair import ConjugatePair, ConjugatePairAnalysis
 from .roller_analysis import RollerAnalysis
+from .shaking import vibration_at
 from .slide import SlideFriction, SlideLoad
 from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
 from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
@@ -64,6 +70,8 @@ __all__ = [
     "TranslatingFlatCam",
     "TranslatingRollerAnalysis",
     "TranslatingRollerCam",
+    "arm_acceleration",
+    "arm_travel",
     "base_radius",
     "contact_along",
     "face_width",
@@ -78,12 +86,16 @@ __all__ = [
     "min_convex_radius",
     "min_force",
     "min_profile_radius",
+    "peak_acceleration",
     "peak_force",
     "peak_pressure",
     "peak_torque",
+    "peak_wear",
     "preload_needed",
     "published_mean_efficiency",
     "torque_balance",
+    "travel",
     "undercut_margin",
+    "vibration_at",
     "work_efficiency",
 ]

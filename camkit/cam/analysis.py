@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
-from ..extrema import Extreme, raised
+from ..extrema import Extreme, crests
 from ..geometry import Body, rotated
 from ..motion import Kinematics, Law, MotionProgram
 from ..motion.closing import TURN
@@ -139,7 +139,7 @@ class CamAnalysis(ABC):
     @property
     @abstractmethod
     def profile_radii(self) -> Array:
-        """Radii of curvature of the profile at `seen_at`, the least as `profile_margin` has it, m."""
+        """Radii of curvature of the profile at `seen_at`, m."""
 
     @property
     @abstractmethod
@@ -352,15 +352,10 @@ class CamAnalysis(ABC):
         return {}
 
     def seen(self, f: Callable[[Self], Value], way: int = 1) -> Array:
-        """``f(analysis)`` at `seen_at`, each peak raised to its top, the largest as `highest` has it.
-
-        ``way`` = -1: each valley, the least as `lowest` has it.
-        """
+        """``f(analysis)`` at `seen_at`: the largest around each (see `crests`), the least if ``way`` is -1."""
         shown = self.resolved
-        values = raised(way * f(shown) + 0.0 * shown.cam_angle, self.resolution.inner)
-        most = way * np.expand_dims(self._extreme(f, way).value, -1)
-        top = values >= values.max(-1, keepdims=True)
-        return way * np.minimum(np.where(top, np.inf, values), most)
+        values = way * crests(way * f(shown) + 0.0 * shown.cam_angle, self.resolution.inner)
+        return np.where(self.buildable, values, np.nan)
 
     @property
     def seen_at(self) -> Array:

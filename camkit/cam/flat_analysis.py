@@ -72,10 +72,8 @@ class FlatAnalysis(CamAnalysis):
 
     @property
     def profile_radii(self) -> Array:
-        """Radii of curvature of the profile at `seen_at`, the least as `profile_margin` has it, m."""
-        values = self.seen(_radius, -1)
-        least = np.expand_dims(self.profile_margin.value, -1)
-        return np.where(values <= values.min(-1, keepdims=True), least, values)
+        """Radii of curvature of the profile at `seen_at`, m; ``-inf`` throughout where the follower's speed drops."""
+        return np.where(np.expand_dims(self.corner(-1).value > 0, -1), -np.inf, self.seen(_radius, -1))
 
     groove: ClassVar[bool] = False
     curvature_limit: ClassVar[str] = ""

@@ -161,9 +161,12 @@ MOTION = (
     over_cam("peak jerk", "1/rad^2", lambda a: abs(a.jerk)),
 )
 """Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
-SLIDING = over_cam("travel", "mm", _travel), over_cam("peak acceleration", "mm/rad^2", _acceleration), peak_wear
-ROCKING = over_cam("travel", "deg", _travel), MOTION[1], peak_wear
-"""What a law can make small, or has to keep at some cam angles, beside what the tables show; travel from level 0."""
+travel, arm_travel = (over_cam("travel", unit, _travel) for unit in ("mm", "deg"))
+"""From the motion's level 0, of a sliding follower and of an arm."""
+peak_acceleration, arm_acceleration = over_cam("peak acceleration", "mm/rad^2", _acceleration), MOTION[1]
+"""By the cam angle, of a sliding follower and of an arm."""
+SLIDING, ROCKING = (travel, peak_acceleration, peak_wear), (arm_travel, arm_acceleration, peak_wear)
+"""What a law can make small, or has to keep at some cam angles, beside what the tables show."""
 
 CURVE = (
     max_pressure_angle,

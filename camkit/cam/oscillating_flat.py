@@ -36,6 +36,7 @@ from .followers import RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
 from .measures import ROCKING
+from .shaking import MAKERS
 from .sizing import if_possible, refuse_radius
 
 
@@ -247,3 +248,4 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
 
 
 OscillatingFlatCam.measures = (*FLAT_CURVE, jump_margin, *ROCKING)
+OscillatingFlatCam.makers = MAKERS

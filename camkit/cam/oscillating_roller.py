@@ -32,6 +32,7 @@ from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE, ROCKING
 from .roller_analysis import RollerAnalysis
+from .shaking import MAKERS
 
 
 @dataclass(frozen=True)
@@ -212,3 +213,4 @@ class OscillatingRollerAnalysis(RockingAnalysis, RollerAnalysis):
 
 
 OscillatingRollerCam.measures = (*ARM_CURVE, *ROCKING)
+OscillatingRollerCam.makers = MAKERS

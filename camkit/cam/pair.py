@@ -26,6 +26,7 @@ from .loads import ArmLoad
 from .measures import base_radius, max_pressure_angle, mean_efficiency, peak_force, peak_torque
 from .oscillating_flat import OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerCam
+from .shaking import MAKERS
 from .slide import SlideLoad
 from .translating_flat import TranslatingFlatCam
 from .translating_roller import TranslatingRollerCam
@@ -264,3 +265,4 @@ ConjugatePair.measures = (
     peak_torque,
     mean_efficiency,
 )
+ConjugatePair.makers = MAKERS

@@ -72,14 +72,13 @@ class RollerAnalysis(CamAnalysis):
         return Extreme(value, angle)
 
     def bends(self, side: int) -> Array:
-        """The convex (``side`` = 1) or hollow (-1) curvature at `seen_at`, its largest as `sharpest` has it, 1/m."""
-        values = self.seen(_convex if side > 0 else _concave)
-        most = np.expand_dims(self.sharpest(side).value, -1)
-        return np.where(values >= values.max(-1, keepdims=True), most, values)
+        """The convex (``side`` = 1) or hollow (-1) curvature at `seen_at`, 1/m; ``inf`` throughout with a corner."""
+        corner = np.expand_dims(self.corner(-side).value > 0, -1)
+        return np.where(corner, np.inf, self.seen(_convex if side > 0 else _concave))
 
     @property
     def profile_radii(self) -> Array:
-        """Radii of curvature of the inner flank at `seen_at`, the least as `profile_margin` has it, m."""
+        """Radii of curvature of the inner flank at `seen_at`, m."""
         return radius_of(self.bends(1)) - self.cam.roller_radius
 
     def _margin(self, flank: int) -> Extreme:

@@ -31,6 +31,7 @@ from .follower_measures import FLAT_CURVE, jump_margin
 from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import SLIDING
+from .shaking import MAKERS
 from .sizing import if_possible, refuse_radius
 from .slide import SlideFriction, SlideLoad
 
@@ -176,3 +177,4 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
 
 
 TranslatingFlatCam.measures = (*FLAT_CURVE, jump_margin, *SLIDING)
+TranslatingFlatCam.makers = MAKERS

@@ -32,6 +32,7 @@ from .followers import SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import SLIDING, number
 from .roller_analysis import RollerAnalysis
+from .shaking import MAKERS
 from .sizing import if_possible, min_from_which_on, refuse_pressure_angle, refuse_radius
 from .slide import SlideFriction, SlideLoad
 
@@ -235,3 +236,4 @@ class TranslatingRollerAnalysis(SlidingAnalysis, RollerAnalysis):
 
 
 TranslatingRollerCam.measures = (*ROLLER_CURVE, jump_margin, *SLIDING)
+TranslatingRollerCam.makers = MAKERS

@@ -32,6 +32,9 @@ from .program import MotionProgram
 GAUSS = np.polynomial.legendre.leggauss(5)
 LARGEST = 1e4
 """A rise of more natural periods is not followed: it takes many steps, and leaves nothing to see."""
+LARGEST_ALONE = 500.0
+"""The same where every design of a population has a ratio of its own."""
+PHASES = np.exp(2j * np.pi * np.arange(32) / 32)
 LEAST, PER_PERIOD = 24, 48
 """Panels of the integration: at least in each smooth piece of the law, and in a natural period."""
 
@@ -110,6 +113,30 @@ def residual_vibration(law: Law | MotionProgram, tau: Value, damping: float = 0.
     after = _ringing((W**2 + 2 * damping * W * m) * end, m)
     parts = _ringing(end, m), abs(z).max(-1), np.maximum(pull, after)
     return Vibration(*(part if np.ndim(tau) else part[..., 0] for part in parts))
+
+
+def left_swinging(program: MotionProgram, tau: Value, damping: float = 0.0) -> Array:
+    """How a mass swings on after a motion that was run once from rest, at 32 phases: ``(32,)`` or ``(p, 32)``.
+
+    Their largest is the ``residual`` of `residual_vibration`, in the follower's unit (m or rad).  Each of ``p`` designs
+    may have a ``tau`` of its own, ``(p, 1)``; ``nan`` where it is not above 0 or beyond `LARGEST_ALONE`.
+
+    >>> from camkit.motion import Cycloidal, Rise
+    >>> rise = MotionProgram((Rise(2.0, 0.02, Cycloidal()),))
+    >>> round(float(left_swinging(rise, 3.5).max()), 8)
+    0.00016168
+    """
+    motion, ratio = _Whole(program), np.atleast_1d(tau)
+    ratio = np.where((ratio > 0) & (ratio <= LARGEST_ALONE), ratio, np.nan)
+    m, (x, weight) = _root(2 * np.pi * ratio, damping), GAUSS
+    panels = _panels(motion, float(np.nanmax(ratio, initial=0.0)))
+    width = np.diff(panels, axis=-1)[..., None]
+    at = panels[..., :-1, None] + width * (x + 1) / 2
+    v = motion(at.reshape(*at.shape[:-2], -1)).v.reshape(at.shape)
+    y = (weight / 2 * width * v * np.exp(m[..., None] * (1 - at))).sum((-2, -1))
+    end = -(1 + 1j * damping / np.sqrt(1 - damping**2)) * np.expand_dims(y, -1)
+    most, phases = np.expand_dims(_ringing(end, m), -1), (end * PHASES).real
+    return np.minimum(np.where(phases >= phases.max(-1, keepdims=True), np.inf, phases), most)
 
 
 def _ratios(tau: object) -> np.ndarray:

@@ -163,6 +163,8 @@ class CurveMeasure(Measure):
     def _cam_angle(self, angle: object) -> float:
         if self.whole:
             raise ValueError(f"the {self.name} is seen at some cam angles alone already")
+        if self.angle is None:
+            raise ValueError(f"the {self.name} does not say at which cam angles its points stand; give it an angle=...")
         must = "be from -360 to 360 deg; for 30 degrees write 30 * deg"
         return one_number(angle, f"the cam angle (rad) of the {self.name}", must, lambda a: abs(a) <= 2 * np.pi)
 

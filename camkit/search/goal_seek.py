@@ -16,7 +16,8 @@ from ..quantities.types import Array
 from ..study.slsqp import slsqp
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import BAD, NEAR, Epigraph
-from .minimum import Found, Minimum, described, listed
+from .minimise import TRIES
+from .minimum import SAME, Found, Minimum, described, listed
 
 REACHED = 1e-6
 """A wanted value is reached to within this share of itself."""
@@ -88,7 +89,7 @@ class _Nearest:
         self.epigraph = Epigraph(study, self.size, KEPT / 2)
         self.start = self.epigraph.u(self.start)
         self.down = not now < value
-        self.evaluations = 0
+        self.evaluations, self.off = 0, 0.0
 
     def judged(self, u: Array) -> Evaluation:
         return self.study.evaluate(self.epigraph.x(u))
@@ -135,17 +136,36 @@ class _Nearest:
         """How far the objective comes from ``u`` towards the value within the limits."""
         there = self.study if self.down else self.study.replace(minimise=(-self.study.minimise[0],))
         descent = Epigraph(there, self.size, 2 * ROUGH)
-        end = descent.descend(u, ROUGH).u if (descent.at(u) != BAD).any() else u
+        for _ in range(TRIES if (descent.at(u) != BAD).any() else 0):
+            u = descent.descend(u, ROUGH).u
+            missed = self.judged(u).missed[0]
+            if not missed.any() or missed.max() > SAME:
+                break
+            descent.tighten(1.1 * missed)
         self.evaluations += descent.evaluations
-        return end
+        return u
 
     def solve(self, u: Array, exactly: bool = False) -> Array:
         """The least change, sought from ``u``, with the objective at the value or beyond it, or ``exactly`` there."""
         if (self.epigraph.at(u) == BAD).all():
             return u
         self.below, self.above = self.down or exactly, exactly or not self.down
-        ends = [self._solved(u, hill) for hill in self._hills(u)]
-        return min(ends, key=lambda end: (not self.reached(end), ((end - self.start) ** 2).sum()))
+        for _ in range(TRIES):
+            ends = [self._solved(u, hill) for hill in self._hills(u)]
+            u = min(ends, key=lambda end: (not self.reached(end), ((end - self.start) ** 2).sum()))
+            if self.reached(u) or not self._corrected(u):
+                break
+        return u
+
+    def _corrected(self, u: Array) -> bool:
+        """Whether a design misses by a hair, by which value and limits are moved: points of a curve are not exact."""
+        there, top = self.judged(u), self.epigraph.at(u)[self._head].max()
+        missed, off = there.missed[0], there.f[0, 0] / self.size - top
+        if not (missed.max(initial=0.0) < SAME and abs(off) < SAME):
+            return False
+        self.off = float(off)
+        self.epigraph.tighten(1.1 * missed)
+        return True
 
     def _hills(self, u: Array) -> Array:
         """Which of the objective's points can be the largest: the highest of its hills where it has to grow."""
@@ -170,7 +190,7 @@ class _Nearest:
         c, head = self.epigraph.at(u), self._head
         if (c == BAD).all():
             return np.full(len(c) + 1, BAD)
-        above = c[head] - self.value / self.size
+        above = c[head] + self.off - self.value / self.size
         top = -(above.max() if self.below else above[self.hill])
         return np.concatenate([above if self.below else -np.ones_like(above), c[~head], [top if self.above else -1]])
 

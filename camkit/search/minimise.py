@@ -130,9 +130,10 @@ def _slsqp(study: Study, judge: Study, seed: int, starts: int, designs: int) -> 
         ends.append(end)
         merits.append(_merit(study.evaluate(end)))
         evaluations += used
-        if len(ends) >= starts and min(merits)[0] == 0:
+        if len(ends) >= starts and min(merits)[0] < SAME:
             break
-    best, used, finished = _tightened(study, judge, _better(judge, *ends))
+    nearly = [(broken if broken >= SAME else 0.0, f) for broken, f in merits]
+    best, used, finished = _tightened(study, judge, ends[nearly.index(min(nearly))])
     stopped = "Converged: no small change lowers it further" if finished else "Stopped: no step made the design better"
     f = tuple(f if broken < SAME else np.inf for broken, f in merits)
     return Found(best, evaluations + used, f, stopped)

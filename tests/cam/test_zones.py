@@ -15,10 +15,13 @@ from camkit.cam import (
     TranslatingRollerCam,
     max_pressure_angle,
     min_force,
+    peak_acceleration,
     peak_pressure,
     peak_torque,
+    travel,
+    undercut_margin,
 )
-from camkit.cam.measures import MOTION, SLIDING, undercut_margin
+from camkit.cam.measures import MOTION
 from camkit.cam.pair import CAMS
 from camkit.files import from_json, to_json
 from camkit.machines import DoorHandleCam, HighSpeedCam
@@ -28,7 +31,6 @@ from camkit.search.front import Front
 from camkit.search.minimax import Epigraph
 from camkit.units import deg, mm
 
-TRAVEL, ACCELERATION, WEAR = SLIDING
 FOLLOWERS = {
     "groove": TranslatingRollerCam(),
     "plate": TranslatingRollerCam(groove=False, offset=5 * mm, contact=ContactPair()),
@@ -60,7 +62,8 @@ def test_a_zone_holds_the_extreme_of_many_angles(cam, zone):
         dense = max(np.where(on, abs(getattr(c, curve)), 0).max() for c, on in zip(curves, pushed, strict=True))
         found = seen.one(analysis)
         assert -1e-9 * dense <= found - dense <= 2e-5 * dense, "many angles pass a joint by half a step"
-        assert seen.curve(analysis).max() == pytest.approx(found, rel=1e-12)
+        near = 1e-2 if len(curves) > 1 else 1e-5  # where the other cam takes over between two points
+        assert seen.curve(analysis).max() == pytest.approx(found, rel=near)
 
 
 @pytest.mark.parametrize("cam", [FOLLOWERS[n] for n in ("plate", "sliding flat", "rocking flat")], ids=lambda c: c.name)
@@ -82,23 +85,23 @@ def test_a_checkpoint_is_the_curve_there():
     at, analysis = np.array([40.0, 120.0, 200.0]) * deg, cam.analyse()
     there = analysis.at(at)
     for i, angle in enumerate(at):
-        assert TRAVEL.at(angle).one(analysis) == pytest.approx(there.motion.s[i], abs=1e-15)
-        assert ACCELERATION.at(angle).one(analysis) == pytest.approx(abs(there.acceleration[i]), abs=1e-15)
+        assert travel.at(angle).one(analysis) == pytest.approx(there.motion.s[i], abs=1e-15)
+        assert peak_acceleration.at(angle).one(analysis) == pytest.approx(abs(there.acceleration[i]), abs=1e-15)
         assert min_force.at(angle).one(analysis) == pytest.approx(there.contact_force[i], rel=1e-12)
-    assert (-TRAVEL).at(at[0]).one(analysis) == -there.motion.s[0]
-    assert TRAVEL.at(-320 * deg).one(analysis) == pytest.approx(TRAVEL.at(40 * deg).one(analysis))
+    assert (-travel).at(at[0]).one(analysis) == -there.motion.s[0]
+    assert travel.at(-320 * deg).one(analysis) == pytest.approx(travel.at(40 * deg).one(analysis))
 
 
 def test_names_say_the_zone():
     assert max_pressure_angle.between(350 * deg, 10 * deg).label == "maximum pressure angle, 350 to 10 deg  [deg]"
-    assert TRAVEL.at(40 * deg).label == "travel at 40 deg  [mm]"
+    assert travel.at(40 * deg).label == "travel at 40 deg  [mm]"
     assert max_pressure_angle.between(0, 1) != max_pressure_angle.between(0, 2)
 
 
 def test_a_population_has_the_zones_of_its_members():
     """Also where the joints of the motion, and so its pieces, lie elsewhere in each."""
     cam = TranslatingRollerCam()
-    zone, spot = max_pressure_angle.between(100 * deg, 200 * deg), TRAVEL.at(110 * deg)
+    zone, spot = max_pressure_angle.between(100 * deg, 200 * deg), travel.at(110 * deg)
     study = Study(cam, {"motion.rise.angle": (1.5, 2.6), "base_radius": (0.03, 0.04)}, (zone,), at_least={spot: 1 * mm})
     x = np.array([[1.6, 0.03], [2.0, 0.035], [2.5, 0.04]])
     together = study.evaluate(x)
@@ -107,7 +110,7 @@ def test_a_population_has_the_zones_of_its_members():
         assert together.f[i, 0] == pytest.approx(zone.one(analysis), rel=1e-9)
         assert together.g[i, 0] == pytest.approx(-(spot.one(analysis) / mm - 1), rel=1e-9)
     columns = Epigraph(study).columns((x - study.bounds[0]) / np.ptp(study.bounds, axis=0))
-    assert columns[:, :-1].max(-1) == pytest.approx(together.f[:, 0], rel=1e-9)
+    assert columns[:, :-1].max(-1) == pytest.approx(together.f[:, 0], rel=1e-6)
 
 
 @pytest.mark.parametrize("zone", [(20, 40), (0, 30), (45, 80), (300, 30)], ids=str)
@@ -142,9 +145,9 @@ def test_limits_of_zones_are_kept_and_named():
     """The law's own way is found by brute force over its two coefficients."""
     free = {f"motion.rise.law.c{i}": (-0.2, 0.2) for i in range(2)}
     start = TranslatingRollerCam().ready_for(free)
-    early, late = TRAVEL.at(30 * deg), max_pressure_angle.between(80 * deg, 110 * deg)
+    early, late = travel.at(30 * deg), max_pressure_angle.between(80 * deg, 110 * deg)
     study = Study(
-        start, free, (ACCELERATION.between(0, 120 * deg),), at_most={early: 1.5 * mm, late: 19 * deg}, angles=91
+        start, free, (peak_acceleration.between(0, 120 * deg),), at_most={early: 1.5 * mm, late: 19 * deg}, angles=91
     )
     best = minimise(study)
     assert best.feasible
@@ -158,8 +161,8 @@ def test_limits_of_zones_are_kept_and_named():
 
 
 def test_zones_are_read_from_files():
-    zones = (max_pressure_angle.between(30 * deg, 60 * deg), -TRAVEL.at(40 * deg))
-    own = PeakMeasure("own", "", lambda a: a.motion.s / a.motion.s.max())
+    zones = (max_pressure_angle.between(30 * deg, 60 * deg), -travel.at(40 * deg))
+    own = PeakMeasure("own", "", lambda a: a.motion.s / a.motion.s.max(), angle=lambda a: a.cam_angle)
     limits = {peak_pressure.between(350 * deg, 10 * deg): 4e8, own.between(0, 1): 1.0}
     study = Study(TranslatingRollerCam(contact=ContactPair()), ["base_radius"], zones, at_most=limits)
     front = Front(study, np.array([[0.03]]), study.evaluate([[0.03]]).f)
@@ -187,9 +190,10 @@ def test_zones_are_read_from_files():
             "the peak contact pressure does not apply to the start of the study: the contact is not",
         ),
         (
-            lambda: PeakMeasure("height", "mm", lambda a: a["height"]).at(1.0).one({"height": np.ones(3)}),
+            lambda: PeakMeasure("height", "mm", np.asarray, angle=np.asarray).at(1.0).one(np.ones(3)),
             "the height at 57.2958 deg does not apply to",
         ),
+        (lambda: PeakMeasure("height", "mm", np.asarray).at(1.0), "does not say at which cam angles its points stand"),
     ],
 )
 def test_what_is_no_zone_is_refused_in_a_sentence(ask, sentence):
@@ -220,3 +224,13 @@ def test_motion_measures_are_those_of_the_law():
     lift, angle = arm.motion.segments[0].lift, arm.motion.segments[0].angle
     assert MOTION[1].one(arm.analyse()) == pytest.approx(2 * np.pi * lift / angle**2, rel=1e-9)
     assert isinstance(MOTION[1].at(1.0), Measure)
+
+
+@pytest.mark.parametrize("cam", [*FOLLOWERS.values(), DoorHandleCam()], ids=[*FOLLOWERS, "door handle"])
+def test_every_point_of_a_curve_has_its_angle(cam):
+    analysis, near = cam.analyse(), 1e-2 if isinstance(cam, ConjugatePair) else 1e-4
+    for measure in measures_of(cam):
+        if isinstance(measure, CurveMeasure) and measure.angle:
+            curve = np.broadcast_to(measure.curve(analysis), np.shape(measure.angle(analysis)))
+            value = measure.way * np.max(measure.way * curve)
+            assert value == pytest.approx(measure.one(analysis), rel=near, nan_ok=True)
