@@ -132,10 +132,12 @@ def left_swinging(program: MotionProgram, tau: Value, damping: float = 0.0) -> A
     panels = _panels(motion, float(np.nanmax(ratio, initial=0.0)))
     width = np.diff(panels, axis=-1)[..., None]
     at = panels[..., :-1, None] + width * (x + 1) / 2
-    v = motion(at.reshape(*at.shape[:-2], -1)).v.reshape(at.shape)
+    v = motion(at.reshape(*at.shape[:-2], -1)).v
+    v = v.reshape(*v.shape[:-1], *at.shape[-2:])
     y = (weight / 2 * width * v * np.exp(m[..., None] * (1 - at))).sum((-2, -1))
     end = -(1 + 1j * damping / np.sqrt(1 - damping**2)) * np.expand_dims(y, -1)
-    most, phases = np.expand_dims(_ringing(end, m), -1), (end * PHASES).real
+    with np.errstate(invalid="ignore"):  # a ratio that is none
+        most, phases = np.expand_dims(_ringing(end, m), -1), (end * PHASES).real
     return np.minimum(np.where(phases >= phases.max(-1, keepdims=True), np.inf, phases), most)
 
 
