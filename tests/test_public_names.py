@@ -189,6 +189,7 @@ GOOD = {
     "first": lambda: TRIALS[0],
     "free": lambda: ("base_radius",),
     "found": lambda: [camkit.minimise(LEVER())],
+    "frequency": lambda: 20.0,
     "front": lambda: FRONT,
     "fronts": lambda: {"one": FRONT},
     "generations": lambda: 1,
