@@ -1,5 +1,6 @@
 """Disk cams with a follower on a straight guide or an arm, with a roller or a flat face; their loads and measures."""
 
+from ..data.track_rollers import track_rollers
 from .analysis import CamAnalysis
 from .flat_analysis import FlatAnalysis
 from .follower_measures import (
@@ -94,6 +95,7 @@ __all__ = [
     "preload_needed",
     "published_mean_efficiency",
     "torque_balance",
+    "track_rollers",
     "travel",
     "undercut_margin",
     "vibration_at",

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..quantities import quantities_of, words
+from ..quantities import Quantity, quantities_of, words
 from ..quantities.kinds import kind_words, shown, whole
+from ..study.free import brought_by
 from ..study.robust import RobustStudy
 from ..study.spread import STANDARDS, Source, Tolerance
 from ..study.study import Study
@@ -23,8 +24,8 @@ Today = Callable[[object], tuple[str, float]]
 
 def tolerances_entry(study: RobustStudy) -> dict[str, object]:
     """The tolerances of a study as JSON knows them; a `Source` stands in SI, a path in its unit."""
-    keys, place = {path: key(path, q) for path, q in quantities_of(study.start).items()}, study.names.index
-    units = {path: q.unit for path, q in quantities_of(study.start).items()}
+    place, known = study.names.index, _quantities(study)
+    keys, units = {path: key(path, q) for path, q in known.items()}, {path: q.unit for path, q in known.items()}
 
     def one(of: str | Source, tolerance: Tolerance) -> dict[str, object]:
         unit, told = (units[of], keys[of]) if isinstance(of, str) else ("", _source_entry(of, keys))
@@ -38,6 +39,12 @@ def tolerances_entry(study: RobustStudy) -> dict[str, object]:
         "objective": study.objective,
         "correlation": [[place(a), place(b), r] for (a, b), r in study.correlation.items()],
     }
+
+
+def _quantities(study: Study) -> dict[str, Quantity]:
+    """The quantities of a study's start, and those that options of its menus bring."""
+    brought = brought_by(study.start, study.menus)
+    return {path: q for path, q in brought.items() if isinstance(q, Quantity)} | quantities_of(study.start)
 
 
 def _source_entry(source: Source, keys: Mapping[str, str]) -> dict[str, object]:
@@ -63,7 +70,7 @@ def under_tolerances(study: Study, entry: object, reading: Reading) -> Study:
     given = mapping(entry, "tolerances")
     if given.keys() != FIELDS or not is_number(given["yield_at_least"]) or not isinstance(given["worst_case"], bool):
         raise ValueError("the file is damaged: its tolerances are not as camkit writes them")
-    declared = {key(path, q): (path, q.factor) for path, q in quantities_of(study.start).items()}
+    declared = {key(path, q): (path, q.factor) for path, q in _quantities(study).items()}
 
     def today(told: object) -> tuple[str, float]:
         named = {told: None} if isinstance(told, str) else {}

@@ -6,6 +6,7 @@ A menu is at one path, or at several that move together; each of its options has
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -151,18 +152,23 @@ def freed(start: object, given: Free | Sequence[Any]) -> dict[str, tuple[float, 
 
 def declared_with(start: object, menus: Iterable[Menu], paths: Sequence[str]) -> dict[str, Any]:
     """The declarations of ``paths`` in ``start``, or in what an option of one of the ``menus`` makes of it."""
-    found: dict[str, Any] = {path: d for path, d in declared_in(start).items() if path in paths}
-    for menu in menus if len(found) < len(paths) else ():
-        for option in menu.values:
-            try:
-                changed = with_quantities(start, dict(zip(menu.paths, option, strict=True)))
-            except ValueError:  # an option that this start cannot have
-                continue
-            found |= {path: d for path, d in declared_in(changed).items() if path in paths and path not in found}
+    found = declared_in(start)
+    if not found.keys() >= {*paths}:
+        found = {**brought_by(start, menus), **found}
     for path in paths:
         if path not in found:
             Paths(start, (path,), Quantity)  # refuses it
     return {path: found[path] for path in paths}
+
+
+def brought_by(start: object, menus: Iterable[Menu]) -> dict[str, Any]:
+    """The declarations of what options of ``menus`` make of ``start``, by path."""
+    found: dict[str, Any] = {}
+    for menu in menus:
+        for option in () if menu.of_sizes else menu.values:
+            with suppress(ValueError):  # an option that this start cannot have
+                found |= declared_in(with_quantities(start, dict(zip(menu.paths, option, strict=True))))
+    return found
 
 
 def _menu(declared: Mapping[str, Any], given: Any) -> Menu:

@@ -36,6 +36,11 @@ def test_a_menu_of_a_path_that_had_another_meaning_comes_back():
     assert from_json(to_json(Session(study, study.start))).study == study
 
 
+def test_tolerances_of_what_an_option_brings_come_back(front):
+    robust = front.study.under({"motion.rise.law.c2": 0.001, "roller_radius": 0.02 * mm}, yield_at_least=0.95)
+    assert from_json(to_json(Session(robust, robust.start))).study == robust
+
+
 @pytest.mark.parametrize(
     ("path", "value", "sentence"),
     [

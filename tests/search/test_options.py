@@ -20,7 +20,15 @@ from camkit import (
     rpm,
     shaft_study,
 )
-from camkit.cam import ContactPair, base_radius, max_pressure_angle, min_force, peak_pressure, peak_torque
+from camkit.cam import (
+    ContactPair,
+    base_radius,
+    max_pressure_angle,
+    min_force,
+    peak_pressure,
+    peak_torque,
+    track_rollers,
+)
 from camkit.machines import standard_tubes
 from camkit.machines.shaft import tubes_that_hold
 from camkit.motion import Poly4567, ShapedLaw
@@ -137,6 +145,17 @@ def test_the_lightest_standard_tube_is_found_by_every_way():
         best = minimise(study, method, designs=2000)
         assert (best.design.outer_diameter, best.design.inner_diameter) == tuple(lightest)
     assert sum(r.feasible for r in minimise(study).options) == len(hold)
+
+
+def test_a_track_roller_is_chosen_from_its_series():
+    rollers = track_rollers()
+    assert {name: round(2 * r / mm) for name, (r, _) in rollers.items()} == {n: int(n[3:]) for n in rollers}
+    study = cheap(free={("roller_radius", "contact.width"): rollers}, minimise=(peak_pressure,))
+    every = [study.start.replace(roller_radius=r).replace(contact=ContactPair(width=b)) for r, b in rollers.values()]
+    f = [float(peak_pressure(cam.analyse(181))) for cam in every]
+    best = minimise(study)
+    assert [r.f[0] for r in best.options] == pytest.approx(f)
+    assert (best.design.roller_radius, best.design.contact.width) == rollers[[*rollers][int(np.argmin(f))]]
 
 
 def test_an_option_that_cannot_be_built_is_told_and_leaves_the_others():
