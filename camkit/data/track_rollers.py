@@ -9,8 +9,8 @@ from . import load
 def track_rollers() -> dict[str, tuple[float, float]]:
     """Radius and width (m) of the outer ring of stud-type track rollers of the series KR, by name.
 
-    The data file beside this says where the sizes come from.  The width is that of the whole ring, whose face is crowned
-    unless the name ends in X: a line contact is as long as that at most.
+    The data file beside this says where the sizes come from.  The width is that of the whole ring, whose face is
+    crowned unless a maker says otherwise: a line contact is as long as that at most.
 
     >>> from camkit import Study, TranslatingRollerCam
     >>> from camkit.cam import ContactPair, peak_pressure

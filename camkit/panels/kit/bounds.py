@@ -122,7 +122,7 @@ class Options:
         options = {name: self.menu.options[name] for name, box in self.options.items() if box.value}
         if not options:
             raise ValueError(f"no option of the {words(self.name)} is to be tried; tick one or more")
-        return replace(self.menu, options=options)
+        return replace(self.menu, names=tuple(options), values=tuple(options.values()))
 
     @property
     def words(self) -> str:
