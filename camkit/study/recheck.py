@@ -131,36 +131,49 @@ def _rows(model: ThreePoint, rows: Array) -> ThreePoint:
 
 def largest(study: RobustStudy, parts: Array) -> Array:
     """The largest ``g`` of each of ``parts`` ``(p, m, n_paths)``, ``(p, m)``; ``inf`` for what cannot be built."""
-    found = study.judged(parts.reshape(-1, parts.shape[-1]))
-    worst = found.g.max(-1, initial=DEEP)
-    return np.where(np.isfinite(found.f).all(-1), worst, np.inf).reshape(parts.shape[:2])
+    return np.asarray(_limits(study, parts).max(-1))
+
+
+def _limits(study: RobustStudy, parts: Array, objectives: bool = True) -> Array:
+    """Each ``g`` of parts, ``(p, m, n_limits)`` (without limits one that is kept); ``inf`` for what cannot be built.
+
+    Without ``objectives`` these are taken to be finite.
+    """
+    rows = parts.reshape(-1, parts.shape[-1])
+    if objectives:
+        found = study.judged(rows)
+        g = found.g if study.limits else np.full((len(rows), 1), DEEP)
+        g = np.where(np.isfinite(found.f).all(-1, keepdims=True), g, np.inf)
+    else:
+        g = study.limits_of(study.analysis_of_parts(rows), len(rows))
+    return g.reshape(*parts.shape[:2], g.shape[-1])
 
 
 def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int) -> tuple[Array, int]:
     """How many of ``number`` parts of each design miss a limit, ``(p,)``, and how many were judged for it.
 
-    The worst by the model are judged, until the next lies well within its limits by the largest error seen.
+    The worst by the models are judged, until all others lie well within each limit by the largest error seen of it.
     """
-    z = study.shares(number, SEED)
-    g = np.full((len(x), number), DEEP)
-    for rows in np.array_split(np.arange(number), max(1, number // 1024)):
-        for model in models:
-            g[:, rows] = np.maximum(g[:, rows], model.at(z[rows]))
-    order = np.argsort(-g, axis=1, kind="stable")
-    missed, at, judged = np.zeros(len(x), dtype=int), 0, 0
-    error = np.full(len(x), 0.0 if study.limits else np.inf)
-    open_, batch = np.arange(len(x)), BATCH
-    while at < number and len(open_):
-        tried = order[open_, at : at + batch]
-        found = largest(study, study.made(x[open_], z[tried]))
-        guess = np.take_along_axis(g[open_], tried, 1)
-        missed[open_] += (found > KEPT).sum(1)
-        off = np.minimum(abs(found - guess), abs(bounded(found) - guess))  # seen by itself or by its reciprocal
-        error[open_] = np.maximum(error[open_], np.minimum(off, 1.0).max(1))
-        at, judged = at + tried.shape[1], judged + tried.size
-        batch = min(2 * batch, 256)
-        if at < number:
-            open_ = open_[g[open_, order[open_, at]] >= -SURE * error[open_] - KEPT]
+    z, p, judged, batch = study.shares(number, SEED), len(x), 0, BATCH
+    guess = np.concatenate(
+        [np.stack([model.at(rows) for model in models], axis=-1) for rows in np.array_split(z, max(1, number // 1024))],
+        axis=1,
+    )
+    objectives = not (study.limits and study.has_objectives(x))
+    missed, error = np.zeros(p, dtype=int), np.full((p, guess.shape[-1]), 0.0 if study.limits else -DEEP)
+    left, open_ = guess.max(-1), np.arange(p)
+    while len(open_):
+        tried = np.argpartition(-left[open_], min(batch, number) - 1, axis=1)[:, :batch]
+        here = open_[:, None], tried
+        found = _limits(study, study.made(x[open_], z[tried]), objectives)
+        new = left[here] > -np.inf
+        missed[open_] += ((found.max(-1) > KEPT) & new).sum(1)
+        off = np.minimum(abs(found - guess[here]), abs(bounded(found) - guess[here]))  # by itself or its reciprocal
+        error[open_] = np.maximum(error[open_], np.where(new[..., None], np.minimum(off, 1.0), 0.0).max(1))
+        judged, batch = judged + tried.size, min(2 * batch, 256)
+        guess[here] = -np.inf
+        left[open_] = (guess[open_] + SURE * error[open_, None]).max(-1)
+        open_ = open_[left[open_].max(1) >= -KEPT]
     return missed, judged
 
 

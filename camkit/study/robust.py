@@ -173,6 +173,12 @@ class RobustStudy(Study[D]):
         """What the nominal study says of parts ``(q, n_paths)``."""
         return self.judge(parts, self.analysis_of_parts(parts))
 
+    def has_objectives(self, x: Array) -> bool:
+        """Whether the objectives of designs ``(p, n_free)`` are finite in the middle and at the ends of tolerances."""
+        parts = self.made(x, star(len(self.tolerances))).reshape(-1, len(self._parts.declared))
+        analysis = self.analysis_of_parts(parts)
+        return all(bool(np.isfinite(m.of(analysis, len(parts))).all()) for m in self.minimise)
+
     def shares(self, parts: int = PARTS, seed: int = 0) -> Array:
         """Scrambled Sobol points as shares of the half widths, ``(parts, k)``."""
         from scipy.stats import qmc

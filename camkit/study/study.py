@@ -312,9 +312,13 @@ class Study(Generic[D]):
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
         f = self._columns([measure.of(analysis, len(x)) for measure in self.minimise], len(x))
-        limits = [(m.of(analysis, len(x)), v, sense) for m, v, sense in self.limits]
-        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
-        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
+        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), self.limits_of(analysis, len(x)))
+
+    def limits_of(self, analysis: object, p: int) -> np.ndarray:
+        """The limits alone of ``p`` designs, as `Evaluation.g` has them, ``(p, n_limits)``."""
+        limits = [(m.of(analysis, p), v, sense) for m, v, sense in self.limits]
+        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], p)
+        return np.where(np.isnan(g), np.inf, g)
 
     @staticmethod
     def _columns(values: list[Array], p: int) -> np.ndarray:
