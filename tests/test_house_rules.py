@@ -49,6 +49,27 @@ def test_what_shows_a_design_names_no_quantity_of_one(path: Path) -> None:
     assert "roller_radius" not in path.read_text(encoding="utf-8")
 
 
+OF_PYTHON = {"_fields", "_instances", "_execution_data", "_repr_html_", "_repr_mimebundle_", "_repr_png_"}
+"""Of Python, IPython and Jupyter, for which there is no other name."""
+
+
+def hidden(source: str) -> set[str]:
+    """What assertions ask of others' private members, in expressions for the kernel too."""
+    asserted = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Assert)]
+    nodes = [node for each in asserted for node in ast.walk(each)]
+    asked = {node.attr for node in nodes if isinstance(node, ast.Attribute) and ast.unparse(node.value) != "self"}
+    texts = " ".join(node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str))
+    names = asked | set(re.findall(r"\w\.(_\w+)", texts))
+    return {name for name in names if re.match("_[a-z]", name)} - OF_PYTHON
+
+
+def test_nothing_is_asserted_of_private_members() -> None:
+    sources = {path.name: path.read_text(encoding="utf-8") for path in Path(__file__).parent.rglob("*.py")}
+    assert {name: found for name, source in sources.items() if (found := hidden(source))} == {}
+    example = "assert app._{}.named or kernel_value(page, 'app._{}')".format("keeper", "page")
+    assert hidden(example) == {"_keeper", "_page"}
+
+
 def test_a_name_would_be_found() -> None:
     assert {"valvecam", "highspeedcam", "door_handle", "universaljointshaft"} <= machines()
     source = 'from camkit.machines.valve_cam import ValveCam\nprint("a roller_radius here", ValveCam().max_lift)\n'

@@ -77,7 +77,7 @@ class ChoosePanel(Panel):
         self._brush_from: tuple[int, float] | None = None
         self._quiet, self._drawing = Quiet(), threading.RLock()  # a search reports from a thread of its own
         self._by = ""
-        self.banner, self.numbers, self._verdict, self.count = Banner(), Table(), Words(), Words(role="status")
+        self.banner, self.numbers, self.verdict, self.count = Banner(), Table(), Words(), Words(role="status")
         self.picture = LivePicture((brushed_designs,), "Designs of the front")
         self.points = LivePicture((front_winners,), "Winners on the front")
         self.map = LivePicture((winners_by_weight, judgement_bars), "Winners by weight")
@@ -89,7 +89,7 @@ class ChoosePanel(Panel):
         save = Download("Save decision", "decision.json", "application/json", self._json, self.banner.show_message)
         loads = row(Words(value=["load the winner by"]), *map(self._load_button, MARKS), save, hint)
         designs = Group(self.points, self.picture, look="beside")
-        sure = Group(self.map, self._verdict, look="room", description="Who wins at which weights")
+        sure = Group(self.map, self.verdict, look="room", description="Who wins at which weights")
         self._decided = Group(self.numbers, loads, designs, self.reference.box, self._brush(), sure)
         super().__init__(self.banner, self._decided)
         self.take_up()
@@ -173,7 +173,7 @@ class ChoosePanel(Panel):
         self._draw()
         self.map.show(self.shown)
         self.numbers.put(*self._table())
-        self._verdict.say(*self.sureness, *costs(self.source.front, dict.fromkeys(self.shown.winners.values())))
+        self.verdict.say(*self.sureness, *costs(self.source.front, dict.fromkeys(self.shown.winners.values())))
         self._show_band()
 
     # ------------------------------------------------------------ the decision

@@ -100,13 +100,13 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         position = {"turn": turn, "azimuth": azimuth, "elevation": elevation}
         self._position = {name: value for name, value in position.items() if value is not None}
         self.followers: list[Callable[..., object]] = []
-        self._makes = Makes()
+        self.makes = Makes()
         self._now: list[float] = []
         self._overtaken: dict[object, float] = {}
         super().__init__(design=design, tolerances=tolerances)
         self._first = self._now
-        self._keeper = Keeper(self)
-        self.observe(lambda _: self._keeper.keep(), "page")
+        self.keeper = Keeper(self)
+        self.observe(lambda _: self.keeper.keep(), "page")
         self._send_structure()
         self.observe(self._settled, "values")
         self.observe(self._shown, "design")
@@ -153,8 +153,8 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         self._refuse_other(design)
         analysis = design.analyse()
         now = [measure.one(analysis) for measure in self.measures]
-        if not self._makes.find(design):
-            self._makes.add(self._recorded(design, analysis))
+        if not self.makes.find(design):
+            self.makes.add(self._recorded(design, analysis))
         self.analysis, self._now = analysis, now
         return design
 
@@ -173,21 +173,21 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
             self._send_structure()
         if still := [p["name"] for p in self.structure["pictures"] if p["still"]]:
             try:
-                self._answer(self._page.show_still(self.design), {"still": still, "values": self.values})
+                self._answer(self.living.show_still(self.design), {"still": still, "values": self.values})
             except IMPOSSIBLE as error:
                 self.message = f"Not everything can be drawn: {reason(error)}."
         self._tell_followers()
 
     @property
-    def _page(self) -> Living:
+    def living(self) -> Living:
         """What the page shows, and the program that it runs."""
-        return self._makes.last[1]
+        return self.makes.last[1]
 
     def _send_structure(self) -> None:
         with self.hold_sync():
             first = {m.name: float(n) for m, n in zip(self.measures, self._first, strict=True) if np.isfinite(n)}
-            more = {"files": files_of(self.analysis), "first": first, "make": self._makes.last[0]}
-            self.structure, self.program = {**self._page.structure, **more}, self._page.packed
+            more = {"files": files_of(self.analysis), "first": first, "make": self.makes.last[0]}
+            self.structure, self.program = {**self.living.structure, **more}, self.living.packed
             self._push()
 
     def _push(self) -> None:
@@ -256,7 +256,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
                 Paths(self.design, [path], Choice)
                 self.design = changed(self.design, {path: option})
             elif "back" in message:
-                self.load(self._makes.design(*message["back"]))
+                self.load(self.makes.design(*message["back"]))
             elif "pin" in message:
                 self._show_pinned(*message["pin"])
             elif "reset" in message:
@@ -266,7 +266,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
             elif "open" in message:
                 self.load_json(message["open"])
             elif "session" in message:
-                self._keeper.answer(message["session"])
+                self.keeper.answer(message["session"])
             elif "seek" in message:
                 pull(self, *message["seek"])
             elif "study" in message:
@@ -287,7 +287,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     @property
     def _old(self) -> bool:
         """Whether what the page said last is of a design that was left since."""
-        here, before = self._makes.last[0], self._overtaken.get(self.said.get("view"), -np.inf)
+        here, before = self.makes.last[0], self._overtaken.get(self.said.get("view"), -np.inf)
         return bool(self.said.get("at", np.inf) <= before or self.said.get("make", here) != here)
 
     def _open_study(self) -> None:
@@ -299,14 +299,14 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         count = len(self.structure["quantities"])
         values, names = message["compute"], (p["name"] for p in self.structure["positions"])
         try:
-            shown = self._page.show(self._of(values[:count]), **dict(zip(names, values[count:], strict=True)))
+            shown = self.living.show(self._of(values[:count]), **dict(zip(names, values[count:], strict=True)))
         except Exception as error:  # whatever somebody's own mechanism raises
             shown = {"sentence": reason(error), "arrays": []}
         self._answer(shown, {"answer": message["number"]})
 
     def _show_pinned(self, make: object, values: Sequence[float], position: Sequence[float]) -> None:
         """The pictures and measures of a design of another make, for a page that has pinned it."""
-        design, living = self._makes.design(make, values), self._makes.living(make)
+        design, living = self.makes.design(make, values), self.makes.living(make)
         seen = living.show(design, **dict(zip(living.first, position, strict=True)))
         self._answer(seen, {"pinned": {"make": make, "values": values}})
 
@@ -339,7 +339,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     def html(self) -> str:
         """The page of the design as it is now, as one file."""
         docks = [{"title": tab["title"], "sheets": [sheet.stored() for sheet in tab["sheets"]]} for tab in self.tabs]
-        return replace(self._page, design=self.design).html(docks, self._keeper.alike)
+        return replace(self.living, design=self.design).html(docks, self.keeper.alike)
 
     def rows(self) -> list[tuple[Measure, float, float]]:
         """Every measure with its value now and at the start, SI; one that is infinite is left out: there is none."""

@@ -47,7 +47,7 @@ def test_names_outlive_a_reload_and_a_kernel(page, notebook):
     page.keyboard.press("Escape")
     head = page.locator(".camkit-names summary")
     expect(head).to_have_text("Designs (2)")
-    eventually(lambda: kernel_value(page, "list(app._keeper.named)") == [EVIL, "thick"])
+    eventually(lambda: kernel_value(page, "list(app.keeper.named)") == [EVIL, "thick"])
     page.evaluate(SAVE)
     load_notebook(page, notebook)  # the kernel is the same
     page.wait_for_selector(".camkit-page canvas")
@@ -65,7 +65,7 @@ def test_names_outlive_a_reload_and_a_kernel(page, notebook):
     settled(page)
     assert arm(page) == before
     press(page, "Forget thick")
-    eventually(lambda: kernel_value(page, "list(app._keeper.named)") == [EVIL])
+    eventually(lambda: kernel_value(page, "list(app.keeper.named)") == [EVIL])
     assert not page.evaluate("window.ran")
 
 
@@ -89,7 +89,7 @@ def test_names_live_in_a_file(browser, tmp_path, monkeypatch):
     """Those of the notebook, and those that whoever opened it gives; what cannot be built gets none."""
     monkeypatch.chdir(tmp_path)
     app = explore(DoorHandleCam())
-    keeper: Keeper = app._keeper
+    keeper: Keeper = app.keeper
     keeper.named = {EVIL: app.design.replace(lift_arm=48 * mm)}
     (tmp_path / "cam.html").write_text(app.html(), encoding="utf-8")
     page = browser.new_page(viewport={"width": 934, "height": 612})

@@ -72,7 +72,7 @@ def test_a_reload_brings_back_the_page_as_it_was(page, notebook):
     page.wait_for_function(f"() => {PAGE}?.ghost")
     settled(page)
     assert page.evaluate(STAND) == before
-    assert kernel_value(page, "app._keeper._live") is True  # and before that it has answered what the page asked
+    assert kernel_value(page, "app.keeper.live") is True  # and before that it has answered what the page asked
     expect(page.locator(".camkit-offer:visible")).to_have_count(0)  # it is there already
     step(page, 1)
     eventually(lambda: kernel_value(page, "app.design.lift_arm") == page.evaluate(f"{PAGE}.values[0]"))

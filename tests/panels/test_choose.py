@@ -398,13 +398,13 @@ def test_what_a_wish_costs_the_other_is_told_for_each_winner():
     """Evenly spaced, the parabola through three points has the slope of the chord between the outer two."""
     front = a_front(2)
     panel = choose_panel(Source(front, ahp_panel(Judgements(["width", "area"], [1]))))
-    told = [line for line in panel._verdict.value if "costs" in line]
+    told = [line for line in panel.verdict.value if "costs" in line]
     (width, area_), inner = (front.f / (mm, -(mm**2))).T, [i for i in panel.shown.index if 0 < i < len(front) - 1]
     chords = {i: (area_[i + 1] - area_[i - 1]) / (width[i + 1] - width[i - 1]) for i in inner}
     said = [re.fullmatch(r"At design (\d+): 1 mm less width costs (.*) mm\^2 less area\.", line) for line in told]
     assert {int(each[1]): float(each[2]) for each in said} == {i: pytest.approx(c, rel=5e-4) for i, c in chords.items()}
     assert told
-    assert not [line for line in choose_panel(Source(a_front(3)))._verdict.value if "costs" in line]
+    assert not [line for line in choose_panel(Source(a_front(3))).verdict.value if "costs" in line]
 
 
 # --- a reference point ------------------------------------------------------------------------------------------------

@@ -68,13 +68,13 @@ def test_pictures_wait_while_a_person_moves_something(monkeypatch):
     async def moves():
         later.add(Place("a", "run"), lambda: made.append("picture"))
         events.trigger("post_run_cell", None)
-        before = later._timer
+        before = later.timer
         app._handle_msg({"content": {"data": {"method": "update", "state": {"values": app.values}}}, "buffers": []})
         assert before.cancelled()
-        assert later._timer.when() > before.when()
+        assert later.timer.when() > before.when()
         events.trigger("pre_run_cell", None)
         app._handle_msg({"content": {"data": {"method": "request_state"}}, "buffers": []})
-        assert later._timer is None  # the end of the cell begins anew
+        assert later.timer is None  # the end of the cell begins anew
 
     asyncio.run(moves())
     assert not made

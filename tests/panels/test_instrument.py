@@ -467,9 +467,9 @@ def test_the_page_comes_back_to_a_make(app, sent):
     ask(app, back=[make, values])
     assert app.structure["make"] == make
     assert numbers_of(app.design) == pytest.approx(dict(zip(quantities_of(first), values, strict=True)))
-    assert app._makes.living(make) is app._page  # recorded once
+    assert app.makes.living(make) is app.living  # recorded once
     ask(app, back=["never", values])
     assert app.message == "No design of the make 'never' is remembered here."
-    ask(app, pin=[other, [*numbers_of(app._makes.living(other).design).values()], [1.0]])
+    ask(app, pin=[other, [*numbers_of(app.makes.living(other).design).values()], [1.0]])
     assert sent[-1][0]["pinned"]["make"] == other
     assert sent[-1][0]["measures"][0]["name"] == max_pressure_angle.name

@@ -118,7 +118,7 @@ def test_a_design_that_cannot_be_shown_any_more_stays_kept(run, monkeypatch):
     leave(again, 51 * mm)
     last = run()
     offered(last)
-    assert last._keeper._offers[-1][1].base_radius == 48 * mm
+    assert last.keeper.offers[-1][1].base_radius == 48 * mm
 
 
 def test_the_page_hears_which_names_there_are_when_one_is_refused(run):
@@ -179,7 +179,7 @@ def test_each_cell_each_notebook_and_each_panel_has_its_own(run, monkeypatch):
     place = running.Place("cell", uuid4().hex)
     monkeypatch.setattr("camkit.panels.kit.keeper.here", lambda: place)
     pair = [explore(first.start, mechanism, measures=[]) for _ in range(2)]
-    assert pair[0]._keeper._file == first._keeper._file != pair[1]._keeper._file
+    assert pair[0].keeper.file == first.keeper.file != pair[1].keeper.file
     monkeypatch.setenv("JPY_SESSION_NAME", "/somewhere/other.ipynb")
     assert offered(run()) == ""
 
@@ -197,7 +197,7 @@ def test_a_design_has_a_name_until_it_is_removed(run):
     say(again, show="flat")
     assert again.design.base_radius == 48 * mm
     say(again, rename=["flat", "low"])
-    assert json.loads(files()[0].read_text())["named"].keys() == {"low"} == again._keeper.named.keys()
+    assert json.loads(files()[0].read_text())["named"].keys() == {"low"} == again.keeper.named.keys()
     say(again, forget="low")
     assert json.loads(files()[0].read_text())["named"] == {}
     wrongs = ({"show": "flat"}, {"keep": ["", again.values]}, {"keep": 5}, {"keep": ["a", [0.1]]}, {"forget": []})
@@ -212,12 +212,12 @@ def test_a_name_keeps_what_the_page_shows_and_what_can_be_built(run):
     offered(app)
     wide, cannot = (dict(numbers_of(app.design), base_radius=radius) for radius in (52 * mm, -1.0))
     say(app, keep=["wide", list(wide.values())])  # the page's last move is still on its way
-    assert app._keeper.named["wide"].base_radius == 52 * mm != app.design.base_radius
+    assert app.keeper.named["wide"].base_radius == 52 * mm != app.design.base_radius
     say(app, keep=["other", app.values])
     say(app, keep=["never", list(cannot.values())])
     say(app, rename=["wide", "other"])
     assert app.message == "Another design is called 'other' already."
-    assert app._keeper.named.keys() == {"wide", "other"}
+    assert app.keeper.named.keys() == {"wide", "other"}
     page = app.html()
     assert '"named":[["wide",' in page
     path, choice = next(iter(choices_of(app.design).items()))
@@ -327,7 +327,7 @@ def test_there_is_room_for_so_many_names(run):
     app = run()
     offered(app)
     for k in range(kept_designs.MOST_NAMED):
-        app._keeper.named[f"design {k}"] = app.design
+        app.keeper.named[f"design {k}"] = app.design
     say(app, keep=["one more", app.values])
     assert app.message == "50 designs have a name, and no more can be kept; remove one first."
     many = {str(k): "" for k in range(kept_designs.MOST_NAMED + 1)}

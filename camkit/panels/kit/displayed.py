@@ -86,7 +86,7 @@ class Later:
 
     def __init__(self) -> None:
         self._acts: list[tuple[Place, Callable[[], None]]] = []
-        self._timer: asyncio.TimerHandle | None = None
+        self.timer: asyncio.TimerHandle | None = None
         self._hears = False
 
     def add(self, place: Place, act: Callable[[], None]) -> None:
@@ -101,18 +101,18 @@ class Later:
 
     def postpone(self) -> None:
         """Begin to rest anew."""
-        if self._timer:
+        if self.timer:
             self._rest(REST)
 
     def _wait(self, *_: object) -> None:
-        if self._timer:
-            self._timer.cancel()
-            self._timer = None
+        if self.timer:
+            self.timer.cancel()
+            self.timer = None
 
     def _rest(self, seconds: float) -> None:
         self._wait()
         if self._acts:
-            self._timer = asyncio.get_running_loop().call_later(seconds, self._next)
+            self.timer = asyncio.get_running_loop().call_later(seconds, self._next)
 
     def _next(self) -> None:
         (_, act), *self._acts = self._acts

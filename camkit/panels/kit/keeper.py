@@ -47,9 +47,9 @@ class Keeper:
     """What a person did last in ``panel``, and the designs they named, kept from the first time its page speaks."""
 
     def __init__(self, panel: Kept) -> None:
-        self._panel, self._id, self._live = panel, uuid.uuid4().hex, False
-        self._file = _file_for(type(panel.start))
-        self._offers: list[tuple[Last, Any]] = []
+        self._panel, self._id, self.live = panel, uuid.uuid4().hex, False
+        self.file = _file_for(type(panel.start))
+        self.offers: list[tuple[Last, Any]] = []
         self._answered: set[str] = set()
         self.named: dict[str, Any] = {}
         """Designs by name."""
@@ -89,8 +89,8 @@ class Keeper:
         return tuple(last for last in others if last.panel not in self._answered)
 
     def _update(self, change: Callable[[KeptDesigns], KeptDesigns]) -> None:
-        if self._live:
-            self._safely(lambda: update(self._file, change))
+        if self.live:
+            self._safely(lambda: update(self.file, change))
 
     def _safely(self, act: Callable[[], object]) -> None:
         """What goes wrong with a file is said once, and stops nothing."""
@@ -109,15 +109,15 @@ class Keeper:
 
     def _hello(self) -> None:
         """The first page finds what was kept; every page hears of it."""
-        if not self._live and not published():
-            self._live = True
+        if not self.live and not published():
+            self.live = True
             self._safely(self._find)
 
     def _find(self) -> None:
-        kept, panel = read(self._file), self._panel
+        kept, panel = read(self.file), self._panel
         self.named = {name: found for name, text in kept.named.items() if (found := self._read(text))} | self.named
         known = ((last, self._read(last.design)) for last in kept.last)
-        self._offers = [(last, found) for last, found in known if found is not None and found != panel.start]
+        self.offers = [(last, found) for last, found in known if found is not None and found != panel.start]
 
     def _read(self, text: str) -> Any:
         """The design of a file, or nothing where it is damaged or of another kind."""
@@ -127,7 +127,7 @@ class Keeper:
             self._say(f"A design that was kept here cannot be used: {refusal}.")
 
     def _tell(self) -> None:
-        offer = f"Continue with your last design, {self._differs(self._offers[0][1])}?" if self._offers else ""
+        offer = f"Continue with your last design, {self._differs(self.offers[0][1])}?" if self.offers else ""
         self._panel.send({"offer": offer, "named": self._known_here})
 
     @property
@@ -153,20 +153,20 @@ class Keeper:
 
     def _continue(self, yes: object) -> None:
         """Go on with what is offered, or refuse it for good; what cannot be shown stays offered."""
-        if not self._offers:
+        if not self.offers:
             return
-        last, design = self._offers[0]
+        last, design = self.offers[0]
         if yes:
             self._panel.load(design)
             if self._panel.design != design:
                 return
         self._answered.add(last.panel)
         if yes:
-            self._offers.clear()
+            self.offers.clear()
             self._panel.page = dict(last.page)
             self._panel.send({"stand": last.page})
         else:
-            self._offers.pop(0)
+            self.offers.pop(0)
             self._update(lambda kept: replace(kept, last=self._unanswered(kept.last)))
 
     def _known(self, name: object) -> Any:
