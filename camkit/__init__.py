@@ -20,7 +20,7 @@ from .cam import (
     TranslatingRollerCam,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
-from .files import Decision, Session, profile_csv, profile_dxf, read, write
+from .files import Decision, Session, profile_csv, profile_dxf, read, read_motion, write
 from .linkage import RSSR
 from .machines import (
     DoorHandleCam,
@@ -158,6 +158,7 @@ __all__ = [
     "quick_front",
     "rad",
     "read",
+    "read_motion",
     "rpm",
     "rssr_study",
     "shaft_study",

@@ -148,7 +148,7 @@ GIVEN = {
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
 NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "Recheck", "SideBySide"}
-NOT_MADE_BY_HAND |= {"TorqueBalance", "WeightedSum", "WinnerMap"}
+NOT_MADE_BY_HAND |= {"TableMotion", "TorqueBalance", "WeightedSum", "WinnerMap"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]
 NAMES = {name: wing for wing in WINGS for name in wing.__all__ if name not in NOT_MADE_BY_HAND}

@@ -289,6 +289,9 @@ GOOD = {
     "cams_beside.shown": lambda: Beside({"one": camkit.HighSpeedCam().analyse()}, slope),
     "curves_beside.shown": lambda: Beside({"one": CAM.analyse(31)}, slope),
     "motion_in.make": lambda: lambda: CAM.motion,
+    "motion_from_table.angle": lambda: np.linspace(0.0, 2.0, 9),
+    "motion_from_table.level": lambda: np.linspace(0.0, 2.0, 9) ** 2,
+    "read_motion.path": lambda: b"0;1\n60;3\n120;4\n180;3\n240;2\n300;2\n",
     "departure.target": lambda: 0.5,
 }
 """Right values by the name of an argument, or of a function and its argument."""

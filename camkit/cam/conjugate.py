@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..motion import MotionProgram, Return, Rise, Segment
 from ..motion.segments import Move
+from ..motion.table import Table
 
 
 def opposite(program: MotionProgram) -> MotionProgram:
@@ -18,6 +19,8 @@ def opposite(program: MotionProgram) -> MotionProgram:
 
 
 def _opposite(segment: Segment) -> Segment:
+    if isinstance(segment, Table):
+        return segment.opposite
     if not isinstance(segment, Move):
         return segment
     other = Return if isinstance(segment, Rise) else Rise

@@ -23,8 +23,9 @@ def rise_and_return(lift: float) -> MotionProgram:
 
 
 def top_level(motion: MotionProgram) -> Array:
-    """The highest level at which a segment of ``motion`` begins or ends, m."""
-    return reduce(np.maximum, motion.levels)
+    """The highest level at which a segment of ``motion`` begins or ends, m; of a table its highest one."""
+    tops = (level + segment.reach[1] for level, segment in zip(motion.levels, motion.segments, strict=False))
+    return reduce(np.maximum, tops)
 
 
 class SlidingAnalysis(CamAnalysis):

@@ -2,6 +2,7 @@
 
 from .decisions import Decision
 from .designs import Read, from_json, read, read_json, to_json, write
+from .motions import read_motion
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
 
@@ -14,6 +15,7 @@ __all__ = [
     "profile_dxf",
     "read",
     "read_json",
+    "read_motion",
     "table_csv",
     "to_json",
     "write",

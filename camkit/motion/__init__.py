@@ -14,6 +14,7 @@ from .form import FormedProgram, FormError
 from .law import Kinematics, Law, Peaks
 from .program import MotionProgram, motion_in
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
+from .table import TableMotion, motion_from_table
 from .transitions import ProgramPeaks, Transition
 from .vibration import residual_vibration
 
@@ -53,7 +54,9 @@ __all__ = [
     "Skewed",
     "SplineLaw",
     "TableLaw",
+    "TableMotion",
     "Transition",
+    "motion_from_table",
     "motion_in",
     "residual_vibration",
 ]

@@ -199,7 +199,7 @@ class MotionProgram(Declared):
     @property
     def closes(self) -> bool | Array:
         """Whether the last level is the first one, or need not be."""
-        size = sum(np.abs(segment.change) for segment in self.segments)
+        size = sum(segment.reach[1] - segment.reach[0] for segment in self.segments)
         return (np.abs(self.levels[-1] - self.start) <= SAME_LEVEL * size) | np.logical_not(self.periodic)
 
     @cached_property

@@ -55,6 +55,11 @@ class Segment(Kinked, Declared, ABC):
     def still(self) -> bool:
         """Whether the follower rests."""
 
+    @property
+    def reach(self) -> tuple[Value, Value]:
+        """How far the segment goes below and above its first level."""
+        return np.minimum(self.change, 0.0), np.maximum(self.change, 0.0)
+
     @abstractmethod
     def motion(self, u: Array) -> Kinematics:
         """``s`` from the segment's first level and its derivatives per rad^k, at the share ``u`` of it."""

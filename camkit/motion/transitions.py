@@ -127,7 +127,7 @@ def _side(program: MotionProgram, i: int, u: Value) -> Kinematics:
 
 def _scales(program: MotionProgram) -> list[Value]:
     """A size for each of ``s, v, a, j``: lift / angle^k of the steepest segment."""
-    moves = [(np.abs(segment.change), segment.angle) for segment in program.segments]
+    moves = [(segment.reach[1] - segment.reach[0], segment.angle) for segment in program.segments]
     return [np.max(np.stack(np.broadcast_arrays(*(h / beta**k for h, beta in moves))), axis=0) for k in range(4)]
 
 
