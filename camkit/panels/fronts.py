@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from ..quantities.types import Array
 from ..search.epsilon_constraint import dominated_shares
 from ..search.front import Front
 from ..search.protocol import Step
+from ..study.robust import RobustStudy
 from ..study.study import Study
 from ..views.front import ShownFronts, fronts_overlaid, shown_objectives
 from .instrument import Instrument
@@ -22,6 +24,7 @@ from .kit.front_picker import FrontChoice, designs_on, objective_texts
 from .kit.inputs import Menu, Whole
 from .kit.parts import Part, Table, Words
 from .kit.quiet import Quiet
+from .kit.robust_fronts import checked, price_text
 from .kit.runner import JobPanel, Runner, time_left
 
 Search = Callable[[Study], Iterator[Step]]
@@ -40,6 +43,7 @@ class FrontsPanel(JobPanel):
     ``ways`` maps names to searches (see `Way`); ``given`` are fronts that are there already.  The searches run one
     after the other in a thread: the page stays alive, Stop takes effect before the next design and keeps the fronts
     so far.  A click, or menu and slider, loads a design into the explorer; a cross shows where its design stands.
+    Beside a front of designs that survive being made stand the yields of all, and what it lacks of the others.
 
     Raises ``ValueError`` if neither a way nor a front is there, or fronts have other objectives than two.
     """
@@ -54,6 +58,7 @@ class FrontsPanel(JobPanel):
         self._refuse_other_objectives()
         self.start = self._objectives(explorer.start.analyse())
         self.seconds: dict[str, float] = {}
+        self._known: dict[int, tuple[Front, str]] = {}
         self._quiet, self._drawing = Quiet(), threading.RLock()
         self._make_parts()
         self.picture = LivePicture((fronts_overlaid,), "Fronts laid over each other", width=8.6, height=5.4)
@@ -127,8 +132,9 @@ class FrontsPanel(JobPanel):
     def _show(self) -> None:
         with self.held():
             self._fit_slider()
-            self.table.put(("front", "designs", "dominates", "time"), self._rows())
-            self.note.say(NOT_COMPARED if np.isnan(list(self.shares().values())).any() else "")
+            heads = ("front", "designs", "dominates", "time", *(["yields"] if self._robust else []))
+            self.table.put(heads, self._rows())
+            self.note.say(NOT_COMPARED if np.isnan(list(self.shares().values())).any() else "", *self._prices())
             self._show_here()
 
     def _show_here(self) -> None:
@@ -155,8 +161,33 @@ class FrontsPanel(JobPanel):
         for k, (name, share) in enumerate(self.shares().items()):
             time_told = f"{self.seconds[name]:.1f} s" if name in self.seconds else ""
             dominates = "" if np.isnan(share) else f"{100 * share:.1f} %"
-            rows.append(({"words": name, "series": k}, len(self.fronts[name]), dominates, time_told))
+            yields = [self._yields(self.fronts[name])] if self._robust else []
+            rows.append(({"words": name, "series": k}, len(self.fronts[name]), dominates, time_told, *yields))
         return rows
+
+    @property
+    def _robust(self) -> Front | None:
+        """The first front of designs that survive being made, if there is one."""
+        return next((front for front in self.fronts.values() if isinstance(front.study, RobustStudy)), None)
+
+    def _yields(self, front: Front) -> str:
+        """From the least to the largest yield of a front, within the tolerances that there are."""
+        robust: Any = (self._robust or front).study
+        if not len(front) or not isinstance(robust, RobustStudy) or list(front.study.free) != list(robust.free):
+            return ""
+        if (known := self._known.get(id(front))) is None or known[0] is not front:
+            found = checked(front)
+            shares = robust.modelled_yield(front.x) if found is None else found.share
+            known = self._known[id(front)] = front, f"{100 * shares.min():.1f} to {100 * shares.max():.1f} %"
+        return known[1]
+
+    def _prices(self) -> list[str]:
+        """What a robust front lacks of each nominal one."""
+        robust, named = self._robust, self.fronts.items()
+        if robust is None or not len(robust):
+            return []
+        nominal = [(name, front) for name, front in named if not isinstance(front.study, RobustStudy) and len(front)]
+        return [f"beside {name}, {price_text(robust, front)}" for name, front in nominal]
 
     def select(self, name: str, index: int) -> None:
         """Load a design of one of the fronts into the sliders."""

@@ -11,11 +11,14 @@ import numpy as np
 
 from ..quantities import Analysable
 from ..quantities.kinds import refuse_arguments
-from ..search.fast_front import quick_front
+from ..search.fast_front import modelled_front, quick_front
 from ..search.front import Front
 from ..search.protocol import search
+from ..search.robust_front import surviving
+from ..study.robust import RobustStudy
 from ..study.study import Study, named_studies
 from ..views.front import LiveFront, live_pareto
+from ..views.robust_front import robust_pareto
 from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.drawn import LivePicture
@@ -23,6 +26,7 @@ from .kit.front_picker import FrontPanel, FrontPicker, objective_texts
 from .kit.inputs import Menu
 from .kit.latest_only import LatestOnly
 from .kit.parts import Banner, Group, Line, Part, Words, bold, row
+from .kit.robust_fronts import Robustness, judged_how
 from .kit.sheet import IMPOSSIBLE, reason
 
 
@@ -53,13 +57,16 @@ class LiveParetoPanel(FrontPanel):
         self.criteria, self.importance = criteria, importance
         self._showing = threading.RLock()
         self._worker = LatestOnly(self._compute)
+        self.banner = Banner()
+        self.robust = Robustness(explorer, self._changed, self.banner.show_message)
         self.menu = Menu(list(self.studies), "problem")
         self.menu.observe(lambda _: self._changed(), "value")
-        self.status, self.numbers, self.banner = Words(look="status"), Words(), Banner()
+        self.status, self.numbers = Words(look="status"), Words()
         self._wanted = self.menu.value, self._asked()
         began = time.monotonic()
         self._mode, first = self.menu.value, quick_front(self._wanted[1])
         self._first = {self._mode: first}
+        self.robust.compare(first, first.study)
         self.picture = LivePicture((live_pareto,), "Pareto front that follows the sliders", width=7.6, height=6.0)
         self.picker = FrontPicker(explorer, first, importance, self.picture, self._judged, self._with_free)
         super().__init__(self._body())
@@ -80,10 +87,9 @@ class LiveParetoPanel(FrontPanel):
     def _body(self) -> Part:
         menus = [self.menu] if len(self.studies) > 1 else []
         picker = self.picker
-        left = Group(
-            *menus, picker.rule, picker.pick, row(picker.take), picker.reference.box, self.status, self.numbers
-        )
-        return Group(left, Group(self.banner, self.picture), look="beside")
+        asked = self.robust.asked, picker.reference.box
+        left = Group(*menus, picker.rule, picker.pick, row(picker.take), *asked, self.status, self.numbers)
+        return Group(left, Group(self.banner, self.picture, self.robust.words), look="beside")
 
     # ------------------------------------------------------------ the front
 
@@ -91,7 +97,7 @@ class LiveParetoPanel(FrontPanel):
         """The problem of the menu around the design in the sliders; its free quantities do not count."""
         first = self.studies[self.menu.value]
         study = first.around(self.explorer.design, first.x0)
-        return study.with_weights(self.criteria.weights) if self.criteria else study
+        return self.robust.within(study.with_weights(self.criteria.weights) if self.criteria else study)
 
     def _changed(self) -> None:
         """Ask for another front, unless only free quantities have moved."""
@@ -104,8 +110,9 @@ class LiveParetoPanel(FrontPanel):
         if (mode, study) == self._wanted:
             self._show(self.front)
             return
-        if mode == self._mode and study.start == self.front.study.start:
-            self._take(mode, self.front.judged_by(study))  # the same designs weighed anew are there at once
+        if mode == self._mode and study.start == self.robust.nominal.study.start and not isinstance(study, RobustStudy):
+            nominal = self.robust.nominal.judged_by(study)
+            self._take(mode, nominal, nominal)  # the same designs weighed anew are there at once
         self._wanted = mode, study
         self._worker.ask(self._wanted)
 
@@ -119,24 +126,37 @@ class LiveParetoPanel(FrontPanel):
             self._refuse(f"the search ended early: {reason(error)}")
 
     def _compute_from_front(self, mode: str, study: Study) -> None:
+        if not len(self.robust.nominal):
+            return
         began = time.monotonic()
-        front = quick_front(study, start=self.front) if len(self.front) else self.front
-        if len(front):
-            self._take(mode, front, time.monotonic() - began)
+        front = nominal = modelled_front(study.nominal, start=self.robust.nominal)
+        if isinstance(study, RobustStudy):
+            front = modelled_front(study, start=self.front if len(self.front) else nominal)
+        if len(nominal):
+            self._take(mode, front, nominal, time.monotonic() - began)
 
     def _compute_from_nothing(self, mode: str, study: Study) -> None:
-        """Broken off for something newer, as long as there is a front to look at."""
+        """Broken off for something newer, as long as there is a front to look at; exact parts judge what is robust."""
         began = time.monotonic()
-        for step in search(study, "fast_front"):
-            if self._worker.stale and len(self.front):
-                return
-            if step.number == step.of:
-                self._first.setdefault(mode, step.front)
-                self._take(mode, step.front, time.monotonic() - began)
+        fronts = []
+        for each in (study.nominal, study) if isinstance(study, RobustStudy) else (study,):
+            for step in search(each, "fast_front"):
+                if self._worker.stale and len(self.robust.nominal):
+                    return
+                if step.number == step.of:
+                    fronts.append(step.front if each.menus else surviving(step.front))
+        self._first.setdefault(mode, fronts[0])
+        self._take(mode, fronts[-1], fronts[0], time.monotonic() - began)
+        said = self.robust.told(fronts[-1])
+        with self._showing:
+            if fronts[-1] is self.front:
+                self.robust.words.say(*said)
 
-    def _take(self, mode: str, front: Front, seconds: float | None = None) -> None:
+    def _take(self, mode: str, front: Front, nominal: Front, seconds: float | None = None) -> None:
         with self._showing, self.held():
+            self.robust.compare(nominal, front.study)
             self._mode = mode
+            self.robust.words.say()
             self._show(front)
             if seconds is not None:
                 self._tell_time(seconds)
@@ -144,7 +164,7 @@ class LiveParetoPanel(FrontPanel):
 
     def _tell_time(self, seconds: float) -> None:
         self.status.say(
-            f"{self.picker.choice.count} on the front, found in {1000 * seconds:.0f} ms, "
+            f"{self.picker.choice.count} on the front, found in {1000 * seconds:.0f} ms, {judged_how(self.front)}"
             f"each judged on {self.front.study.angles} angles"
         )
 
@@ -162,17 +182,24 @@ class LiveParetoPanel(FrontPanel):
     def _show(self, front: Front) -> None:
         with self._showing, self.held():
             self.picker.show(front)
-            if not len(front):
+            robust = isinstance(front.study, RobustStudy)
+            if not len(self.robust.nominal if robust else front):
                 self._refuse(front.message)
                 return
             self.refuse_picture("")
             here = self._here()
             self.numbers.say(*self.picker.verdict(), self._in_sliders(here))
             self.picture.offer(*self.picker.offered)
-            self.picture.show(LiveFront(front, self._before(), here, self.winner, self.picker.reference.point))
+            reference = self.picker.reference.point
+            if robust:
+                shown: object = self.robust.beside(front, here, self.winner, reference)
+            else:
+                shown = LiveFront(front, self._before(), here, self.winner, reference)
+            self.picture.show(shown, (robust_pareto if robust else live_pareto,))
 
     def _refuse(self, sentence: str) -> None:
         """The sentence in place of the picture."""
+        self.robust.words.say()
         self.refuse_picture(f"There is no front: {sentence}.")
 
     def _here(self) -> np.ndarray:

@@ -12,13 +12,16 @@ import numpy as np
 from ..decision import CHOOSERS, Judgements, Judges
 from ..files import Session, designs, sessions
 from ..files.decisions import record_text
-from ..quantities import Paths, Quantity, words
+from ..quantities import Analysable, Paths, Quantity, words
 from ..quantities.kinds import refuse_arguments, whole
 from ..search.front import Front
 from ..search.protocol import Step
+from ..search.robust_front import surviving
 from ..study.free import Free, freed
+from ..study.robust import RobustStudy
 from ..study.study import Study, named_studies
 from ..views.front import ShownFront, pareto
+from ..views.robust_front import robust_pareto
 from .ahp import AhpPanel
 from .instrument import Instrument
 from .kit.bounds import rows_of
@@ -27,6 +30,7 @@ from .kit.drawn import LivePicture
 from .kit.front_picker import FrontPanel, FrontPicker
 from .kit.inputs import Download, Input, Menu, Upload, Whole
 from .kit.parts import Button, Group, Part, Words, bold, row
+from .kit.robust_fronts import Robustness
 from .kit.runner import JobPanel, Runner
 from .kit.running import Job
 from .kit.search_job import SessionSearch, progress_text
@@ -83,6 +87,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.population, self.generations, self.seed = map(self._count, COUNTS, (population, generations, 1))
         self.study = self.asked_study()
         self.found = sessions.empty_front(self.study)
+        self.robust.compare(self.found, self.study)
         self.search: SessionSearch | None = None
         self._went_back = ""
         self._showing = RLock()  # a search shows its steps from its own thread
@@ -114,6 +119,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         self.resume_button = Button("Resume", self.resume, tooltip=last)
         self._offer_resume()
         self.record, self.verdict = Words(), Words()
+        self.robust = Robustness(self.explorer, refused=self._refuse)
 
     def _count(self, name: str, value: int) -> Whole:
         low, high = COUNTS[name][0], COUNTS[name][-1]
@@ -127,6 +133,7 @@ class ParetoPanel(JobPanel, FrontPanel):
             self.mode,
             Words(value=[bold("free quantities and their bounds")], look="hint"),
             Group(*(part for bounds in self.bounds.values() for part in bounds.parts), look="bounds"),
+            self.robust.asked,
             row(self.population, self.generations, self.seed),
             self.runner.buttons(self.resume_button),
             self.status,
@@ -135,7 +142,8 @@ class ParetoPanel(JobPanel, FrontPanel):
             self.banner,
             row(save, Upload("Load study", self.load_json)),
         )
-        right = Group(self.picture, picker.pick, row(picker.rule, picker.take), picker.reference.box, self.verdict)
+        chosen = picker.pick, row(picker.rule, picker.take), picker.reference.box
+        right = Group(self.picture, *chosen, self.verdict, self.robust.words)
         return Group(left, right, look="beside")
 
     # ------------------------------------------------------------ the search
@@ -145,7 +153,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         space = {name: bounds.value for name, bounds in self.bounds.items() if bounds.free.value}
         if not space:
             raise ValueError("no quantity is free; tick one or more")
-        return self.page.study(self.mode.value, self.explorer.design, space, self._judgements())
+        return self.robust.within(self.page.study(self.mode.value, self.explorer.design, space, self._judgements()))
 
     def _asked(self) -> SessionSearch:
         """The search that the page asks for."""
@@ -190,13 +198,18 @@ class ParetoPanel(JobPanel, FrontPanel):
 
     def _show_step(self, step: Step, last: bool) -> None:
         assert self.search
-        self.found = step.front
-        front = step.front if self.study is step.study else step.front.judged_by(self.study)
+        study = self.study if isinstance(step.study, RobustStudy) else self.study.nominal
+        front = self.found = step.front if step.study.menus or not last else surviving(step.front)
+        if study != step.study:
+            front = front.judged_by(study)
+        if self.search.nominal and self.robust.nominal is not self.search.nominal:
+            self.robust.compare(self.search.nominal, study)
         if last or not (self.runner.job and self.runner.job.stopping):  # else it says "stopping"
             self.status.say(progress_text(step, len(front), last))
             self.details.say(f"hypervolume {front.hypervolume(self.search.reference):.6g}")
-        self._say(front.message if last else "")
+        self._say("" if len(front) or not last else front.message)
         self._show_front(front)
+        self.robust.words.say(*self.robust.told(front) if last else ())
 
     def _refuse(self, sentence: str) -> None:
         """Why what was typed cannot be; empty where it can."""
@@ -218,20 +231,29 @@ class ParetoPanel(JobPanel, FrontPanel):
         """Weigh the same designs anew."""
         if self.criteria:
             self.study = self.study.with_weights(self.criteria.weights)
+        if isinstance(self.found.study, RobustStudy):
+            self.robust.compare(self.robust.nominal.judged_by(self.study.nominal), self.study)
         self._show_front(self.found.judged_by(self.study))
 
     def _show_front(self, front: Front) -> None:
         """Nothing is told of a front that cannot be drawn."""
         with self._showing, self.held():
             self.picker.show(front)
-            analysis = self.explorer.start.analyse(self.study.angles)
-            start = np.array([measure(analysis) for measure in self.study.minimise])
+            start, here = map(self._objectives, (self.explorer.start, self.explorer.design))
             self.picture.offer(*self.picker.offered)
             reference = self.picker.reference.point
-            self.picture.show(ShownFront(front, self.picker.selected, self.winner, start, reference=reference))
+            if isinstance(front.study, RobustStudy):
+                self.picture.show(self.robust.beside(front, here, self.winner, reference), (robust_pareto,))
+            else:
+                shown = ShownFront(front, self.picker.selected, self.winner, start, reference=reference)
+                self.picture.show(shown, (pareto,))
             self.verdict.say(*self.picker.verdict())
             self.record.say(record_text(front.record))
         self._tell_followers()
+
+    def _objectives(self, design: Analysable) -> np.ndarray:
+        analysis = design.analyse(self.study.angles)
+        return np.array([measure.one(analysis) for measure in self.study.minimise])
 
     def _show_again(self) -> None:
         """The front that is shown, under another rule or with another design in the sliders."""
@@ -301,6 +323,7 @@ class ParetoPanel(JobPanel, FrontPanel):
         """Bounds and settings of a session."""
         for name, bounds in self.bounds.items():
             bounds.set(session.study.free.get(name))
+        self.robust.tick.value = isinstance(session.study, RobustStudy)
         boxes = self._settings()
         for name, value in session.search.items():
             boxes[name].value = value
@@ -341,6 +364,8 @@ class ParetoPanel(JobPanel, FrontPanel):
         """Another study, front and judgements, not shown yet."""
         with self.picker.quiet:
             self.study, self.found = session.study, found
+            if isinstance(session.study, RobustStudy):
+                self.robust.compare(sessions.empty_front(session.study.nominal), session.study)
             self.picker.rule.value = session.search.get("rule", self.picker.rule.value)
             self._judge(session.judgements)
 

@@ -19,6 +19,8 @@ from .front import Front
 
 FITTED, RAISED = 32, 16
 """So many designs are looked at for a fit, and to raise it at the end."""
+TRIED, FEW, ROUNDS, NEAR, LAST = 1024, 32, 5, 0.1, 2
+"""Of so many designs all over the bounds a few are modelled, then as many near the best, at first so far; the last."""
 
 
 class Room:
@@ -77,6 +79,29 @@ def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
     by = np.where(np.isfinite(by), by, 0.0)
     models = [m._replace(centre=m.centre + by[:, i : i + 1]) for i, m in enumerate(rough.models(x)[: by.shape[1]])]
     return Evaluation(x, found.f, study.held(x, models))
+
+
+def most_tolerant(study: RobustStudy) -> tuple[np.ndarray, float]:
+    """The design ``(n_free,)`` found that allows the largest factor on all tolerances, and that factor.
+
+    Of designs all over the bounds those that keep their limits by most, then others near the best of them.
+    """
+    from scipy.stats import qmc
+
+    low, high = study.bounds
+    draw, step = np.random.default_rng(0), NEAR
+    tried = low + (high - low) * qmc.Sobol(len(low), rng=0).random(TRIED)
+    found = study.nominal.evaluate(tried)
+    worst = np.where(np.isfinite(found.f).all(-1), found.g.max(-1, initial=-1.0), np.inf)
+    x = tried[np.argsort(worst, kind="stable")[:FEW]]
+    growth = study.modelled_growth(x)
+    for _ in range(ROUNDS):
+        near = x[growth.argmax()] + step * (high - low) * draw.standard_normal((FEW, len(low)))
+        x = np.concatenate([x, np.clip(near, low, high)])
+        growth, step = np.concatenate([growth, study.modelled_growth(x[-FEW:])]), step / 2
+    best = x[np.argsort(-growth, kind="stable")[:LAST]]
+    factors = study.tolerance_factor(best)
+    return best[factors.argmax()], float(factors.max())
 
 
 def surviving(front: Front[D]) -> Front[D]:

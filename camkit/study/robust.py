@@ -341,6 +341,13 @@ class RobustStudy(Study[D]):
         endless = MOST_GROWTH ** (FACTOR_ROUNDS - 1)
         return np.where(more == 0, 0.0, np.where(growth >= endless, np.inf, growth))
 
+    def modelled_growth(self, x: ArrayLike) -> Array:
+        """About the `tolerance_factor` of designs, by models of the limits at these tolerances alone, ``(p,)``."""
+        rows = self.rows(x)
+        models, one = self.models(rows), np.ones(len(rows))
+        z = corners(self, models) if self.worst_case else self._shares
+        return self._growth(rows, one, models, z, exact=False) if models else np.full(len(rows), np.inf)
+
     def _growth(self, x: Array, growth: Array, models: list[ThreePoint], z: Array, exact: bool) -> Array:
         """By which factor the tolerances, times ``growth``, can still grow, ``(p,)``; ``exact``: by Newton's step."""
         room = np.min([model.room(z) for model in models], axis=0)

@@ -83,12 +83,13 @@ def _read(objectives: Sequence[Measure], f: Iterable[ArrayLike]) -> np.ndarray:
     return np.array([*rows, 0 * rows[0]])[:2]
 
 
-def _one(objectives: Sequence[Measure], f: ArrayLike | None) -> np.ndarray:
+def one_design(objectives: Sequence[Measure], f: ArrayLike | None) -> np.ndarray:
     """A single design's first two objectives as they are read, ``(2, 1)``; ``(2, 0)`` of none."""
     return np.zeros((2, 0)) if f is None else _read(objectives, np.reshape(f, (-1, 1)))
 
 
-def _axes(title: str, objectives: Sequence[Measure]) -> Axes:
+def axes_of(title: str, objectives: Sequence[Measure]) -> Axes:
+    """The axes of the first two objectives."""
     x, y = ([f"{m.label}\n({'larger' if m.sign < 0 else 'smaller'} is better)" for m in objectives] + [""])[:2]
     return Axes(title=title, xlabel=x, ylabel=y)
 
@@ -98,7 +99,7 @@ def pareto(shown: ShownFront) -> Picture:
     known = np.zeros((2, 0)) if shown.known is None else shown.known
     label = "" if shown.known is None else "known points"
     return Picture.of(
-        _axes("Pareto front", shown.front.study.minimise),
+        axes_of("Pareto front", shown.front.study.minimise),
         _front(shown),
         Points("known", *known, role="allowed", mark="diamond", size=9, fill="none", label=label),
         wished(shown.front, shown.reference),
@@ -108,7 +109,7 @@ def pareto(shown: ShownFront) -> Picture:
 def wished(front: Judged, reference: ArrayLike | None) -> Points:
     """The reference point among the first two objectives, if there is one: what a person wishes of them."""
     label = "" if reference is None else "reference point"
-    at = _one(front.study.minimise, reference)
+    at = one_design(front.study.minimise, reference)
     return Points("reference", *at, mark="plus", size=13, label=label)
 
 
@@ -117,7 +118,9 @@ def _front(shown: ShownFront) -> list[Mark]:
     here, winner = (slice(0, 0) if i is None else slice(i, i + 1) for i in (shown.selected, shown.winner))
     return [
         Points("front", x, y, role="position", size=6, opacity=0.75, label="front"),
-        Points("start", *_one(shown.front.study.minimise, shown.start), role="guide", mark="square", label="start"),
+        Points(
+            "start", *one_design(shown.front.study.minimise, shown.start), role="guide", mark="square", label="start"
+        ),
         Points("in the sliders", x[here], y[here], size=14, fill="none", label="in the sliders"),
         Points("winner", x[winner], y[winner], role="limit", mark="star", size=19, fill="none", label="winner"),
     ]
@@ -151,13 +154,15 @@ def fronts_overlaid(shown: ShownFronts) -> Picture:
         Points(f"front {name}", *shown_objectives(front), role="series", index=i, size=size, fill=fill, label=name)
         for i, ((name, front), (size, fill)) in enumerate(zip(shown.fronts.items(), cycle(FORMS), strict=False))
     ]
-    start, here = (_one(objectives, None if f is None else f[: len(objectives)]) for f in (shown.start, shown.here))
+    start, here = (
+        one_design(objectives, None if f is None else f[: len(objectives)]) for f in (shown.start, shown.here)
+    )
     named = ["" if f is None else "shown" for f in (shown.start, shown.here)]
     marks += [
         Points("start", *start, role="guide", mark="square", label=named[0] and "start"),
         Points("in the sliders", *here, size=11, fill="paper", label=named[1] and "in the sliders"),
     ]
-    return Picture.of(_axes("What one objective costs the other", objectives), marks)
+    return Picture.of(axes_of("What one objective costs the other", objectives), marks)
 
 
 @dataclass(frozen=True)
@@ -179,7 +184,7 @@ def live_pareto(shown: LiveFront) -> Picture:
     before = shown_objectives(shown.before)
     here = [m.sign * v / factor(m.unit) for m, v in zip(objectives, shown.here, strict=False)]
     return Picture.of(
-        _axes("What is possible", objectives),
+        axes_of("What is possible", objectives),
         Points("before", *before, role="ghost", size=6, label="before"),
         front["front"],
         Points("in the sliders", *np.reshape(here, (-1, 1)), size=14, fill="none", label="in the sliders"),

@@ -187,6 +187,8 @@ class Points(Mark):
     """Its diameter on the page, points (1/72 inch)."""
     fill: str = field(kw_only=True, default="full")
     """Inside: "full", "paper" or "none"."""
+    names: tuple[str, ...] | None = field(kw_only=True, default=None)
+    """What is said of each of them under the pointer, if something is."""
 
 
 @dataclass(frozen=True)

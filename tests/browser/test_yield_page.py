@@ -14,13 +14,17 @@ CAM = DoorHandleCam(
     lift_arm=45 * mm, lift_start_angle=27 * deg, relief_cam_angle=45 * deg, lift_load=ArmLoad(torque=10)
 )
 CELL = """
-from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore, mm, tolerance_panel
+from camkit import ArmLoad, DoorHandleCam, deg, door_handle_study, explore, live_pareto_panel, mm, tolerance_panel
 cam = DoorHandleCam(
     lift_arm=45 * mm, lift_start_angle=27 * deg, relief_cam_angle=45 * deg, lift_load=ArmLoad(torque=10)
 )
 study = door_handle_study(cam)
 app = explore(cam, at_most=study.at_most, at_least=study.at_least)
 app"""
+MIDDLE = f"""() => {{ const parts = [...{PAGE}.sheets.at(-1).parts.values()];
+    const [chart] = parts.flatMap(({{ part }}) => part.charts ?? []), [x, y] = chart.offered, k = x.length >> 1;
+    const box = chart.canvas.getBoundingClientRect();
+    return [box.left + chart.x(x[k]), box.top + chart.y(y[k])]; }}"""
 PALE = re.compile("camkit-older")
 
 
@@ -74,6 +78,23 @@ def test_the_yield_follows_a_slider_and_then_is_sure(page):
     expect(page.locator(".camkit-why")).to_contain_text("more than any other")
 
 
+def the_robust_front_stands_beside_the_nominal_one(page):
+    kernel_value(page, "globals().update(live=live_pareto_panel(app, study))")
+    page.get_by_role("tab", name="Live front").click()
+    sheet = page.locator(".camkit-sheet").filter(has_text="choose by")
+    sheet.get_by_role("checkbox", name="made within tolerances").check()
+    expect(sheet).to_contain_text("by exact parts", timeout=60_000)
+    expect(sheet).to_contain_text("the price: ")
+    marks = page.evaluate(f"() => {PAGE}.sheets.at(-1).shown().pictures[0].marks.map((m) => [m.key, m.x.length])")
+    drawn = dict(marks)
+    assert drawn["robust"] + drawn["open"] == kernel_value(page, "len(live.front)")
+    assert sum(drawn[f"yield {k}"] for k in range(4)) == kernel_value(page, "len(live.robust.nominal)")
+    sheet.locator("canvas").first.scroll_into_view_if_needed()
+    at = page.evaluate(MIDDLE)
+    page.mouse.move(*at)
+    expect(sheet.locator(".camkit-tip")).to_contain_text(re.compile(r"yield [\d.]+ % \(.* to .*\)"))
+
+
 def test_its_tolerances_are_those_of_the_panel_in_the_tab_that_a_click_opens(page):
     kernel_value(page, "tolerance_panel(app, study, {'lift_arm': 1 * mm}) and None")
     kernel_value(page, "app.load(cam.replace(lift_arm=46.4 * mm))")
@@ -83,6 +104,7 @@ def test_its_tolerances_are_those_of_the_panel_in_the_tab_that_a_click_opens(pag
     expect(chip(page)).to_have_class("camkit-chip camkit-bad")
     chip(page).click()
     expect(page.get_by_role("tab", name="Tolerances")).to_have_attribute("aria-selected", "true")
+    the_robust_front_stands_beside_the_nominal_one(page)
     page.evaluate(f"() => {{ {PAGE}.left = true; }}")  # as when the kernel has ended: nobody tells it any more
     slider(page).press("ArrowRight")
     expect(page.locator(".camkit-chips")).not_to_contain_text("yield")

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...files import Session
-from ...search.front import reference_point
+from ...search.front import Front, reference_point
 from ...search.protocol import Step, search
+from ...study.robust import RobustStudy
 from .search_files import Kept
 
 SIZE = ("population", "generations", "seed")
@@ -25,6 +26,8 @@ class SessionSearch:
         self.session, self.unkept, self._kept = session, unkept, kept
         self.reference: np.ndarray | None = None
         """The point up to which its hypervolumes count, known when it runs."""
+        self.nominal: Front | None = None
+        """The nominal front of a study within tolerances, known when it is found."""
 
     def __iter__(self) -> Iterator[Step]:
         ended = False
@@ -40,8 +43,12 @@ class SessionSearch:
 
     def _steps(self) -> Iterator[Step]:
         size = {name: self.session.search[name] for name in SIZE}
-        checkpoint = self._kept.checkpoint if self._kept else None
-        return search(self.session.study, "nsga2", checkpoint=checkpoint, **size)
+        checkpoint, study = self._kept.checkpoint if self._kept else None, self.session.study
+        if isinstance(study, RobustStudy):  # beside the nominal front, which is found first
+            for step in search(study.nominal, "nsga2", **size):
+                yield step
+            self.nominal = step.front
+        yield from search(study, "nsga2", checkpoint=checkpoint, **size)
 
 
 def progress_text(step: Step, on_front: int, last: bool) -> str:

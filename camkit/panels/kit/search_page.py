@@ -14,6 +14,7 @@ from ...quantities import Analysable, Measure
 from ...quantities.kinds import kind_words
 from ...search.checkpoint import fingerprint, resume, why
 from ...study.free import Free
+from ...study.robust import RobustStudy
 from ...study.study import Study
 from ...study.weighted import WeightedSum
 from .search_files import Kept, keep, pending
@@ -120,6 +121,8 @@ class SearchPage:
 
     def search(self, session: Session) -> SessionSearch:
         """The search of a session, as its file says it to the last bit; without files, and why, where none can be."""
+        if isinstance(session.study, RobustStudy):  # its margins are fitted on the way, and nobody can go on with them
+            return SessionSearch(session)
         try:
             text = designs.to_json(session)
             return SessionSearch(self._read(text, session), keep(f"{self.kind}-{_short(text)}", text))

@@ -103,20 +103,20 @@ function onCurves(chart, px) {
 /** Both numbers of a place with the names of the axes: of a point that is near, else of the pixel.
  * @param {import("./picture.js").Chart} chart @param {number} px @param {number} py */
 function atPoint(chart, px, py) {
-  /** @type {{far: number, x: number, y: number, head: string[]}} */
-  let best = { far: NEAR, x: chart.x.back(px), y: chart.y.back(py), head: [] };
+  /** @type {{far: number, x: number, y: number, head: string[], more: string[]}} */
+  let best = { far: NEAR, x: chart.x.back(px), y: chart.y.back(py), head: [], more: [] };
   for (const mark of chart.picture.axes.equal ? [] : chart.picture.marks) {
     if (mark.kind !== "points") continue;
     const [xs, ys] = [many(mark.x, chart.outputs), many(mark.y, chart.outputs)], name = chart.how.words(mark.label);
     for (let i = 0; i < xs.length; i++) {
       const far = Math.hypot(chart.x(xs[i]) - px, chart.y(ys[i]) - py), which = xs.length > 1 ? ` ${i + 1} of ${xs.length}` : "";
-      if (far < best.far) best = { far, x: xs[i], y: ys[i], head: name || which ? [`${name || "point"}${which}`] : [] };
+      if (far < best.far) best = { far, x: xs[i], y: ys[i], head: name || which ? [`${name || "point"}${which}`] : [], more: mark.names?.slice?.(i, i + 1) ?? [] };
     }
   }
   const named = (/** @type {"x"|"y"} */ name) =>
     `${chart.axes[`${name}label`].replace(UNIT, "").trim() || name} ${measured(chart, name, best[name])}`;
   if (chart.offered && best.head.length) best.head = offeredAt(chart, best) ?? best.head;
-  return chart.picture.axes.equal ? [`${named("x")}, ${named("y")}`] : [...best.head, named("x"), named("y")];
+  return chart.picture.axes.equal ? [`${named("x")}, ${named("y")}`] : [...best.head, ...best.more, named("x"), named("y")];
 }
 
 /** The name of the design that is offered at a point, counted as the front counts.
