@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 from numpy.testing import assert_allclose
-from sheets import alert, do, downloaded, press
+from sheets import alert, do, downloaded, press, upload
 from try_everything import try_everything
 
-from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore
+from camkit import DoorHandleCam, Judgements, Measure, Study, ahp, ahp_panel, door_handle_study, explore, pareto_panel
 from camkit.decision import CHOOSERS, WEIGHING, achievement, judgement_ranges, topsis, weighted_sum, winner_map
 from camkit.files import Session, from_json, to_json
 from camkit.panels.choose import choose_panel
@@ -471,6 +471,22 @@ def test_the_decision_is_saved_with_its_rule_and_its_judgements(source):
     assert decision.rule == "reference point"
     assert decision.design == source.explorer.design == decision.front[decision.taken]
     assert_allclose(decision.reference[:2], [30 * mm, -900 * mm**2])
+
+
+def test_a_page_of_searches_keeps_the_decision(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook
+    front = a_front(2)
+    finder = pareto_panel(explore(Plate(), lambda analysis: Picture.of(Axes())), front.study)
+    finder.load(Session(front.study, front[3], front=front))
+    panel = choose_panel(finder)
+    assert finder.session().decision is None
+    told = decided(panel).lines()
+    assert finder.session().decision.lines() == told
+    saved = downloaded(finder, "Save study")["text"]
+    finder.load(Session(front.study, front[1], front=front))
+    assert finder.session().decision is None
+    upload(finder, "Load study", saved)
+    assert finder.session().decision.lines() == told
 
 
 def test_one_objective_has_no_reference_point():

@@ -110,3 +110,18 @@ def test_twelve_criteria_show_the_pairs_of_one():
     few = ahp_panel(Judgements(names[:5], w[:5, None] / w[:5]))
     assert not few.of.visible
     assert all(box.visible for box in few.boxes.values())
+
+
+def test_fifteen_criteria_go_to_a_file_and_back_and_into_a_panel():
+    names = [f"wish {k}" for k in range(15)]
+    said = np.random.default_rng(1).integers(1, 10, 105).tolist()
+    said[7] = None
+    judged = Judgements(names, said)
+    session = Session(door_handle_study(), DoorHandleCam(), {"importance": judged, "group": group([judged, judged])})
+    again = from_json(to_json(session)).judgements
+    assert again == session.judgements
+    panel = ahp_panel(again["group"])
+    panel.of.value = 14
+    panel.boxes[3, 14].value = "1/4"
+    assert panel.said.array[3, 14] == 1 / 4
+    assert panel.judgements.array[3, 14] == pytest.approx((judged.array[3, 14] / 4) ** 0.5)
