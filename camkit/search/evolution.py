@@ -18,7 +18,7 @@ from ..quantities.applied import applied
 from ..study.free import Menu
 from ..study.study import Study
 from .checkpoint import WORST
-from .protocol import on_grid
+from .protocol import looked_at, on_grid
 
 
 class StudyProblem(Problem):
@@ -34,7 +34,7 @@ class StudyProblem(Problem):
         self.study = study
 
     def _evaluate(self, x: np.ndarray, out: dict[str, object], *args: object, **kwargs: object) -> None:
-        evaluation = self.study.evaluate(x)
+        evaluation = looked_at(self.study, x)
         out["F"] = np.minimum(evaluation.f, WORST)
         out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
 

@@ -24,7 +24,7 @@ from ..study.study import Evaluation, Study
 from .checkpoint import versions
 from .front import Front, dominated
 from .options import alone, fronts_of_options, refuse_many
-from .protocol import Step, on_grid
+from .protocol import Step, looked_at, on_grid
 from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
 
 MOST_FREE = 4
@@ -179,7 +179,7 @@ def _everywhere(n: int, count: int) -> np.ndarray:
 def _judged(study: Study, u: np.ndarray) -> Archive:
     """What the study says of shares, moved into the bounds and onto the grid, each once."""
     u = np.unique(on_grid(np.clip(u, 0, 1)), axis=0)
-    evaluation = study.evaluate(_x(study, u))
+    evaluation = looked_at(study, _x(study, u))
     built = np.isfinite(evaluation.f).all(-1)
     mantissa, exponent = np.frexp(evaluation.f)
     f = np.ldexp(np.round(mantissa * DIGITS) / DIGITS, exponent)

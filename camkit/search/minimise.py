@@ -20,7 +20,8 @@ from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
 from .minimum import SAME, Found, Minimum, described
 from .options import best_of_options
-from .protocol import Step, plain, stepwise
+from .parts import Arrays
+from .protocol import Step, ended, looked_at, plain, stepwise
 
 ROUGH, EXACT = 1e-6, 1e-10
 """Precision of SLSQP from each start, and from the best of their ends."""
@@ -95,7 +96,8 @@ def minimise_steps(
 ) -> Iterator[Step]:
     """`minimise` one evaluation at a time."""
     work = partial(minimise, method=method, seed=seed, starts=starts, designs=designs, recheck=recheck)
-    return stepwise(study, work, 0 if method == "slsqp" else designs)
+    descents = (counted(starts, "starts", 1) + 1) * (study.options.count if study.menus else 1)
+    return stepwise(study, work, 0 if method == "slsqp" else designs, descents)
 
 
 def _broken(evaluation: Evaluation) -> np.ndarray:
@@ -153,12 +155,17 @@ def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts
         found = _slsqp(tight.replace(start=study.design(ends[-1])), exact, seed, 1 if number else starts, designs)
         ends.append(found.x)
         used, finished = used + found.evaluations, found.why
-        before, margins = margins, np.maximum(judge.exact_margins(found.x), 0)
+        (needed,) = ended(judge, found.x, partial(_exact_margins, judge, found.x), lambda known: 0)
+        before, margins = margins, np.maximum(needed, 0)
         missed = plain(judge).evaluate(found.x).missed[0]
         if (abs(margins - before) < SETTLED).all() and not missed.any():
             break
         margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.where(np.isfinite(missed), missed, 1), 0))
     return Found(_better(plain(judge), *ends), used, (), finished)
+
+
+def _exact_margins(judge: RobustStudy, x: np.ndarray) -> Arrays:
+    return (judge.exact_margins(x),)
 
 
 def _constant(margins: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -170,12 +177,18 @@ def _descent(
     study: Study, x: np.ndarray, precision: float, margins: float | np.ndarray = 0.0
 ) -> tuple[np.ndarray, int, bool]:
     """The end of a descent from ``x``, the designs it took and whether it came to an end."""
-    size = float(abs(study.evaluate(x).f[0, 0]))
-    if not np.isfinite(size):
-        return x, 1, False
-    problem = Epigraph(study, size or 1.0, margins)
-    descent = problem.descend(problem.u(x), precision)
-    return problem.x(descent.u), problem.evaluations + 1, descent.finished
+
+    def work() -> Arrays:
+        size = float(abs(study.evaluate(x).f[0, 0]))
+        if not np.isfinite(size):
+            return x, np.array([1, 0])
+        problem = Epigraph(study, size or 1.0, margins)
+        descent = problem.descend(problem.u(x), precision)
+        return problem.x(descent.u), np.array([problem.evaluations + 1, descent.finished])
+
+    asked = np.concatenate([x, [precision], np.ravel(margins)])
+    end, (used, finished) = ended(study, asked, work, lambda found: int(found[1][0]))
+    return end, int(used), bool(finished)
 
 
 def _tightened(study: Study, judge: Study, x: np.ndarray) -> tuple[np.ndarray, int, bool]:
@@ -232,7 +245,7 @@ def _de(study: Study, judge: Study, seed: int, starts: int, designs: int) -> Fou
 
     def told(x: np.ndarray) -> np.ndarray:
         nonlocal looked
-        evaluation = study.evaluate(x.T)
+        evaluation = looked_at(study, x.T)
         looked += len(evaluation.x)
         f, missed = evaluation.f[:, 0], 1 - 1 / (1 + _broken(evaluation))
         return np.where(evaluation.feasible, f, WORST * (1 + np.where(np.isfinite(f), missed, 1)))

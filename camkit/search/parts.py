@@ -36,13 +36,13 @@ class Parts:
 
     def __init__(self, path: str | Path | None = None, about: Mapping[str, object] | None = None) -> None:
         self.number, self.skipped, self.unkept = 0, 0, ""
-        self._path, self._begun = None if path is None else Path(path), time.monotonic()
+        self.path, self._begun = None if path is None else Path(path), time.monotonic()
         self._lines: list[dict[str, Any]] = []
         self._digest = ""
-        if self._path is None:
+        if self.path is None:
             return
         told = json.loads(json.dumps(about))
-        if self._path.exists():
+        if self.path.exists():
             self._read(told)
         if not self._digest:
             self._write({"schema": SCHEMA, **told}, "w")
@@ -58,7 +58,7 @@ class Parts:
         found = self._next(asked)
         if found is None:
             found = list(work())
-            if self._path and not self.unkept:
+            if self.path and not self.unkept:
                 arrays = [_entry(array) for array in (asked, *found)]
                 self._write({"seconds": self.seconds, "arrays": arrays}, "a")
         else:
@@ -79,14 +79,14 @@ class Parts:
 
     @property
     def _name(self) -> str:
-        return self._path.name if self._path else ""
+        return self.path.name if self.path else ""
 
     def _write(self, entry: Mapping[str, object], mode: str) -> None:
         """Put a line into the file; from the first that cannot be written on the search is not kept."""
         text = json.dumps(entry)
         digest = _chained(self._digest, text)
         try:
-            with open(str(self._path), f"{mode}b", opener=_open_no_link) as file:
+            with open(str(self.path), f"{mode}b", opener=_open_no_link) as file:
                 if file.tell() + len(text) > LARGEST:
                     raise OSError("the file would be too long")
                 file.write(f"{text}\t{digest}\n".encode())
@@ -98,7 +98,7 @@ class Parts:
     def _read(self, told: Mapping[str, object]) -> None:
         damaged = ValueError(f"the checkpoint {self._name} is damaged; delete it to begin anew")
         try:
-            with open(str(self._path), "rb", opener=_open_no_link) as file:
+            with open(str(self.path), "rb", opener=_open_no_link) as file:
                 about = os.fstat(file.fileno())
                 if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
                     raise damaged
@@ -113,8 +113,8 @@ class Parts:
         for what in told if head is not None else ():
             if head.get(what) != told[what]:
                 raise ValueError(_other(self._name, what, head.get(what), told[what]))
-        if torn and self._path:
-            os.truncate(self._path, sum(len(line) + 1 for line in lines))
+        if torn and self.path:
+            os.truncate(self.path, sum(len(line) + 1 for line in lines))
 
     def _checked(self, line: bytes) -> Any:
         text, _, digest = line.decode().rpartition("\t")

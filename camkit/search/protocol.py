@@ -8,7 +8,7 @@ objectives, and a `Minimum` where there is one.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextvars import copy_context
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -27,6 +27,7 @@ from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
 from .front import Front, front_of
 from .minimum import Minimum, Reached
+from .parts import Arrays, Parts, parts_of
 
 ONE = "minimise", "minimise_steps"
 METHODS = {
@@ -73,6 +74,10 @@ class Step:
     """How it was found: size, seed, seconds, versions."""
     options: tuple[Reached, ...] = ()
     """What was reached with each combination of options, at the end of a search that went through them."""
+    seconds: float = np.nan
+    """How long the search has taken, without its breaks."""
+    unkept: str = ""
+    """Why it goes on without its checkpoint; empty where it does not."""
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -92,7 +97,7 @@ class Step:
     @property
     def seconds_left(self) -> float:
         """How long the search still takes, if it goes on as it did; ``nan`` where that cannot be known."""
-        seconds = self.record.get("seconds", np.nan)
+        seconds = self.record.get("seconds", self.seconds)
         known = self.of and self.number
         return float(seconds / self.number * (self.of - self.number)) if known else np.nan
 
@@ -117,6 +122,10 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
       `camkit.minimise`.  A step is one evaluation, and a stop takes effect before the next.
     - ``"cycle_time"``: ``limit``, ``shortest``, ``longest``, ``intervals``; see `camkit.shortest_interval`.
 
+    All take a ``checkpoint``, the name of a file in which what has ended of the search is kept: the same call goes on
+    from it after a stop or the end of the process, to the same result as without the break.  It goes on without the
+    file where it cannot be written, and says why in ``step.unkept``, ``"nsga2"`` in ``step.message``.
+
     >>> from camkit.machines import door_handle_study
     >>> for step in search(door_handle_study(), "nsga2", population=20, generations=9, seed=1):
     ...     if step.number == 3:
@@ -124,7 +133,8 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
     >>> step.number, step.of, step.evaluated, len(step.front) > 0
     (3, 9, 60, True)
 
-    Raises ``ValueError`` for a method that there is not, and an option that it does not take.
+    Raises ``ValueError`` for a method that there is not, and an option that it does not take; for a checkpoint that is
+    damaged, or of another study, method, options or versions.
     """
     refuse_arguments(search, locals())
     method = method or ("slsqp" if len(study.minimise) == 1 else "nsga2")
@@ -133,11 +143,26 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
     module, name = METHODS[method]
     steps = getattr(import_module(f".{module}", __package__), name)
     chosen = {"method": method} if METHODS[method] == ONE else {}
+    checkpoint = None if method == "nsga2" else options.pop("checkpoint", None)
     try:
         signature(steps).bind(study, **chosen, **options)
     except TypeError as unfit:
         raise ValueError(f"the method {method!r} cannot search like this: {unfit}") from None
-    return steps(study, **chosen, **options)
+    if checkpoint is None:
+        return _timed(steps(study, **chosen, **options), Parts())
+    parts = parts_of(checkpoint, study, method, options)
+    return _timed(steps(_followed(study, _nobody, parts), **chosen, **options), parts)
+
+
+def _timed(steps: Iterator[Step], parts: Parts) -> Iterator[Step]:
+    """The steps of a search, with how long they took."""
+    try:
+        for step in steps:
+            known: dict[str, Any] = {"study": plain(step.study), "seconds": parts.seconds, "unkept": parts.unkept}
+            yield step if "seconds" in step.record and not parts.path else replace(step, **known)
+    finally:
+        if isinstance(steps, Generator):
+            steps.close()
 
 
 # ---------------------------------------------------------------- searches that do not know of steps
@@ -149,9 +174,10 @@ class SearchStopped(Exception):
 
 @dataclass(frozen=True)
 class _FollowedStudy(TightenedStudy):
-    """A study that hands every analysis of designs on."""
+    """A study that hands every analysis of designs on, to a search whose ended ``parts`` are counted and kept."""
 
     follow: Callable[[Evaluation], None] | None = None
+    parts: Parts | None = None
 
     def as_plain(self, start: Any, free: Any, of: Plain[Self]) -> Self:
         """The same study with some options, followed as designs of this one."""
@@ -170,6 +196,7 @@ class _FollowedRobustStudy(RobustStudy):
     """A study under tolerances that hands every evaluation of designs on, and those of itself as it is tightened."""
 
     follow: Callable[[Evaluation], None] | None = None
+    parts: Parts | None = None
 
     def as_plain(self, start: Any, free: Any, of: Plain[Self]) -> Self:
         """The same study with some options, followed as designs of this one."""
@@ -185,7 +212,7 @@ class _FollowedRobustStudy(RobustStudy):
 
     def tightened(self, margins: Callable[[np.ndarray], np.ndarray]) -> TightenedStudy:
         """The nominal study with limits tightened by ``margins``."""
-        return _FollowedStudy(**_fields(self, Study), margins=margins, follow=self.follow)
+        return _FollowedStudy(**_fields(self, Study), margins=margins, follow=self.follow, parts=self.parts)
 
 
 def _followed_too(study: F, of: Plain[F]) -> F:
@@ -206,31 +233,67 @@ def plain(study: Study) -> Study:
     return Study(**_fields(study, Study)) if isinstance(study, _FollowedStudy) else study
 
 
-def _followed(study: Study, follow: Callable[[Evaluation], None]) -> Study:
+def _followed(study: Study, follow: Callable[[Evaluation], None], parts: Parts) -> Study:
     if isinstance(study, RobustStudy):
-        return _FollowedRobustStudy(**_fields(study, RobustStudy), follow=follow)
-    return _FollowedStudy(**_fields(study, Study), follow=follow)
+        return _FollowedRobustStudy(**_fields(study, RobustStudy), follow=follow, parts=parts)
+    return _FollowedStudy(**_fields(study, Study), follow=follow, parts=parts)
 
 
-def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0) -> Iterator[Step]:
-    """A step for each evaluation of ``work(study)``, and a last one with its result, whose message is not empty."""
+def _nobody(evaluation: Evaluation) -> None:
+    """Who is told of designs where the steps of a search are not made of them."""
+
+
+def ended(study: Study, asked: ArrayLike, work: Callable[[], Arrays], designs: Callable[[Arrays], int]) -> Arrays:
+    """What ``work()`` gives, a part of a search that follows from ``asked``; or what its checkpoint has of it.
+
+    So many ``designs`` were then looked at for it.
+    """
+    parts: Parts | None = getattr(study, "parts", None)
+    return parts.part(np.asarray(asked), work, designs) if parts else work()
+
+
+def looked_at(study: Study, x: np.ndarray) -> Evaluation:
+    """What a study says of designs of which a search looks at many together: a part of it."""
+    new: list[Evaluation] = []
+
+    def work() -> Arrays:
+        new.append(study.evaluate(x))
+        return new[0].x, new[0].f, new[0].g
+
+    known = Evaluation(*ended(study, x, work, lambda found: 0))
+    if not new:
+        study.follow(known)  # type: ignore[attr-defined]
+    return new[0] if new else known
+
+
+def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0, planned: int = 1) -> Iterator[Step]:
+    """A step for each evaluation of ``work(study)``, and a last one with its result, whose message is not empty.
+
+    It stands at so many designs ``of`` those that will be looked at, or where that is 0 at so many parts of those that
+    are ``planned``.
+    """
+    parts: Parts = getattr(study, "parts", None) or Parts()
+    begun, study = (parts.number, parts.skipped), plain(study)
 
     def follow(give: Callable[[Step], None]) -> None:
-        best, count = None, 0
+        best, looked = None, 0
 
         def note(evaluation: Evaluation) -> None:
-            nonlocal best, count
-            count += len(evaluation.x)
-            step = Step(count, max(of, count) if of else 0, study, evaluation, count)
+            nonlocal best, looked
+            looked += len(evaluation.x)
+            count, done = looked + parts.skipped - begun[1], parts.number - begun[0]
+            number, whole = (count, max(of, count)) if of else (done, max(planned, done + 1))
+            step = Step(number, whole, study, evaluation, count)
             i = int(np.lexsort((evaluation.f[:, 0], ~evaluation.feasible))[0])
             better = step.summary.feasible and (best is None or step.summary.f < best.f)
             if better and (study.nominal is study or study.evaluate(evaluation.x[i]).feasible[0]):
                 best = Minimum(study, evaluation.x[i].copy(), step.summary.f, True, count)
             give(replace(step, best=best))
 
-        found = work(_followed(study, note))
-        end = partial(found.study.evaluate, found.x)
-        give(Step(count, count, study, end, count, found, found.message))
+        found = work(_followed(study, note, parts))
+        end, count = partial(found.study.evaluate, found.x), looked + parts.skipped - begun[1]
+        number = count if of else max(parts.number - begun[0], 1)
+        give(Step(number, number, study, end, count, found, found.message))
 
     return relayed(follow)
 
