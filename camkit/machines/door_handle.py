@@ -288,12 +288,7 @@ def door_handle_study(
     )
 
 
-def door_handle_paper_study(
-    start: DoorHandleCam | None = None,
-    *,
-    reference: DoorHandleCam | None = None,
-    weights: object = (5 / 7, 1 / 7, 1 / 7),
-) -> Study:
+def door_handle_paper_study(start: DoorHandleCam | None = None) -> Study:
     """The whole cam in the paper's box: lift arm, start angle and relief arm, as far as the paper lets them go.
 
     Only 1 in 10 000 random designs keeps the limits, and the front is an edge of the box rather than a surface in it:
@@ -305,7 +300,7 @@ def door_handle_paper_study(
     >>> study.evaluate([[0.045, 0.46, 0.080], study.x0]).feasible.tolist()
     [True, False]
     """
-    return door_handle_study(start, space=PAPER_SPACE, reference=reference, weights=weights)
+    return door_handle_study(start, space=PAPER_SPACE)
 
 
 def lift_curve_study(

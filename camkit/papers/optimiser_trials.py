@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..data import load
-from ..quantities.kinds import listed, one_number, refuse_arguments, refuse_empty
+from ..quantities.kinds import refuse_arguments, refuse_empty
 from .published import Table
+
+TARGETS = (0.01, 0.001)
+"""How near to the optimum, as shares of it, pictures and tables ask for."""
 
 
 @dataclass(frozen=True)
@@ -105,19 +108,17 @@ def _numbers(rows: Sequence[Sequence[float | None]]) -> np.ndarray:
     return np.array([[np.inf if n is None else n for n in row] for row in rows], dtype=float)
 
 
-def trial_table(trials: Sequence[Trials], targets: Sequence[float] = (0.01, 0.001)) -> Table:
+def trial_table(trials: Sequence[Trials]) -> Table:
     """Trials of several methods on one problem, a row for each method.
 
-    For each target: how many runs arrived, between which shares the true rate lies (95 %), the median of the
+    For each of `TARGETS`: how many runs arrived, between which shares the true rate lies (95 %), the median of the
     evaluations over all runs, and the evaluations for each success.
     """
     refuse_arguments(trial_table, locals())
     refuse_empty(trials, "trials")
-    for target in listed(targets, "the targets"):
-        one_number(target, "a target")
     words = ("arrived", "rate, 95 %", "median", "for each")
-    head = ("method", *(f"to {100 * target:g} %: {word}" for target in targets for word in words))
-    rows = [(t.method, *(cell for target in targets for cell in _cells(t, target))) for t in trials]
+    head = ("method", *(f"to {100 * target:g} %: {word}" for target in TARGETS for word in words))
+    rows = [(t.method, *(cell for target in TARGETS for cell in _cells(t, target))) for t in trials]
     return Table(head, rows, trials[0].problem)
 
 

@@ -22,10 +22,10 @@ def letter(key: str, at: Sequence[Value] | Array, words: str, role: str = "ink")
     return Text(key, at[0], at[1], Formula(words), role=role, size=15)
 
 
-def arc(key: str, centre: Sequence[Value] | Array, radius: Value, first: Value, last: Value, role: str = "ink") -> Line:
+def arc(key: str, centre: Sequence[Value] | Array, radius: Value, first: Value, last: Value) -> Line:
     """An arc about a centre between two angles (rad)."""
     turn = np.linspace(first, last, 37)
-    return Line(key, centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn), role=role, stroke="thin")
+    return Line(key, centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn), stroke="thin")
 
 
 def arrow(key: str, start: ArrayLike, tip: ArrayLike, role: str = "ink", both: bool = False) -> Line:

@@ -8,9 +8,8 @@ import numpy as np
 
 from ..quantities.kinds import refuse_arguments, refuse_empty
 from ..views.picture import Axes, Band, Colour, Line, Mark, Picture, Points, Text, View
-from .optimiser_trials import Trials
+from .optimiser_trials import TARGETS, Trials
 
-TARGETS = (0.01, 0.001)
 FEWEST = 3
 """Where the axis of evaluations begins."""
 

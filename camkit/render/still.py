@@ -117,14 +117,14 @@ def figure_of(
     return figure
 
 
-def strip(analysis: object, view: View, turns: Iterable[float], width: float = 12.6, height: float = 2.9) -> Still:
+def strip(analysis: object, view: View, turns: Iterable[float]) -> Still:
     """Pictures side by side of a mechanism that turns: ``view`` of it at each of ``turns`` (rad), to the same scale.
 
     Only what is drawn, and the angle: the large picture has the scales and the legend.
     """
     turns = tuple(turns)
     with rc_context(theme_style()):
-        figure = Still(figsize=(width, height), dpi=100)
+        figure = Still(figsize=(12.6, 2.9), dpi=100)
         FigureCanvasAgg(figure)
         axes = figure.subplots(1, len(turns), gridspec_kw=STRIP)
         for ax, turn in zip(axes, turns, strict=True):
