@@ -78,6 +78,9 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
     was judged on all angles of the study, and under tolerances by exact parts (``yields``); an empty front says in
     ``message`` which limit stood in the way.
 
+    Where menus are free there is a search for each combination of options, up to 200, and what is best of all of them
+    is the front; ``options`` says what each reached.
+
     >>> from camkit.machines import door_handle_study
     >>> front = quick_front(door_handle_study())
     >>> len(front), front.study.evaluate(front.x).feasible.all()

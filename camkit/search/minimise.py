@@ -53,6 +53,9 @@ def minimise(
       ``narrowing`` of 0.9 that is not its paper's) need no slopes and no start: they look at about ``designs`` designs.
       How far they came is then checked by a descent from their result; the message says it, ``descended`` has its end.
 
+    Where menus are free ``"slsqp"`` goes through all combinations of options, up to 200, each a search of its own, and
+    ``options`` of the result says what each reached; the other methods search options and numbers together.
+
     Of a study under tolerances (`Study.under`) ``"slsqp"`` tightens the limits until enough of the parts keep them.
 
     ``recheck``: how many angles the result is judged on, if not those of the study; ``"slsqp"`` tightens limits until

@@ -134,6 +134,8 @@ def nsga2(
     A generation is one batched evaluation.  The result is repeatable for a seed; a front without a design says
     in ``message`` which limit stood in the way.
 
+    Where menus are free an option is that of one parent or the other, and any other in its place is a mutation.
+
     Under tolerances limits are tightened by margins that are fitted to the population in between, and each design of
     the result is judged by exact parts.  With a checkpoint every design is looked at within its tolerances.
 

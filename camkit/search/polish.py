@@ -10,6 +10,7 @@ import numpy as np
 
 from ..quantities import D
 from ..quantities.kinds import numbers, refuse_arguments, shown
+from ..study.options import refuse_menus
 from ..study.residuals import SumOfResiduals
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
@@ -31,6 +32,7 @@ def polish(study: Study[D], x: object = None) -> Minimum[D]:
     refuse_arguments(polish, locals())
     if study.nominal is not study:
         raise ValueError("the study is one under tolerances; polish takes none: use minimise")
+    refuse_menus(study, "polish")
     objective = _sum_of_residuals(study)
     start = study.x0 if x is None else numbers(x, "the design to polish")
     if start.shape != study.x0.shape:

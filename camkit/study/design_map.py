@@ -11,6 +11,7 @@ import numpy as np
 from ..quantities import Measure, counted
 from ..quantities.declaration import Quantity
 from ..quantities.kinds import numbers, refuse_kinds, shown
+from .options import refuse_menus
 from .slsqp import slsqp
 from .study import Evaluation, Study
 
@@ -43,6 +44,7 @@ class DesignMap:
         free, objectives = len(self.study.free), len(self.study.minimise)
         if free != 2:
             raise ValueError(f"a plane shows two free quantities; this study has {free}")
+        refuse_menus(self.study, "a plane")
         if objectives != 1:
             raise ValueError(f"a plane shows one objective; this study has {objectives}")
         if self.window is None:

@@ -32,7 +32,8 @@ def refuse_bounds(declared: Mapping[str, Quantity], space: Mapping[str, Any]) ->
     for name, bounds in space.items():
         ordered = isinstance(bounds, (tuple, list)) or np.ndim(bounds) == 1
         if not ordered or len(bounds) != 2 or not all(map(is_number, bounds)):
-            raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers")
+            sizes = "; sizes to choose from stand in braces" if ordered and len(bounds) > 2 else ""
+            raise ValueError(f"the bounds of the {words(name)} are {shown(bounds)}; they must be two numbers{sizes}")
         _check_bounds(name, declared[name], *bounds)
 
 
@@ -135,6 +136,8 @@ def freed(start: object, given: Free | Sequence[Any]) -> dict[str, tuple[float, 
     menus: list[Menu] = []
     for key, value in wanted.items():
         paths = value.paths if isinstance(value, Menu) else key if isinstance(key, tuple) else (key,)
+        if not paths or len({*paths}) < len(paths):
+            raise ValueError(f"the study frees {shown(key)}; it must be paths, each of them once")
         declared = declared_with(start, menus, paths)
         if len(paths) == 1 and isinstance(declared[paths[0]], Quantity) and not isinstance(value, (Menu, Mapping, set)):
             quantity = declared[paths[0]]

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
-from ..quantities import Analysable, D, Design, Measure, declared_in, value_of, with_quantities
+from ..quantities import Analysable, D, Design, Measure, declared_in, value_of, with_quantities, words
 from ..quantities.types import Array
 from .free import Menu
 
@@ -192,6 +192,12 @@ def measured(study: Study, measures: Sequence[Measure], x: Array) -> Array:
     analysis = study.analysis(x) if len(measures) else None
     values = [np.broadcast_to(np.asarray(m(analysis), dtype=float), len(x)) for m in measures]
     return np.stack(values, axis=-1) if values else np.zeros((len(x), 0))
+
+
+def refuse_menus(study: Study[Any], what: str) -> None:
+    """``ValueError`` in a sentence if the study frees a menu, which ``what`` cannot take."""
+    for menu in study.menus:
+        raise ValueError(f"the {words(menu.name)} is free as a menu; {what} takes quantities between bounds alone")
 
 
 def ready(design: D, free: Iterable[Any]) -> D:

@@ -373,8 +373,8 @@ class RobustStudy(Study[D]):
         rows = self.rows(x)
         if not self.menus:
             return rechecked(self, rows, parts)
-        every = [(at, plain.study.recheck(plain.x(rows[at]), parts)) for at, plain in self.options.groups(rows)]
-        return joined(every)
+        groups = list(self.options.groups(rows)) or [(np.arange(0), self.options.at(self.x0))]
+        return joined([(at, made.study.recheck(made.x(rows[at]), parts)) for at, made in groups])
 
 
 def _points(measure: Measure, analysis: Any, factor: float, p: int) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..quantities import Measure, Quantity, counted
 from ..quantities.kinds import refuse_kinds
+from .options import refuse_menus
 from .study import Evaluation, Study
 
 
@@ -33,6 +34,7 @@ class Sweep:
         counted(self.n, "values of a sweep", most=100_000)
         if len(self.study.free) != 1:
             raise ValueError(f"a sweep shows one free quantity; this study has {len(self.study.free)}")
+        refuse_menus(self.study, "a sweep")
 
     @property
     def name(self) -> str:

@@ -17,6 +17,7 @@ from camkit.cam import (
 from camkit.machines import standard_tubes
 from camkit.motion import ShapedLaw
 from camkit.quantities import choices_of, value_of, with_quantities
+from camkit.study import DesignMap, Sweep
 from camkit.study.free import Menu
 
 LAWS = (Cycloidal(), ModifiedSine(), ShapedLaw(Poly345()))
@@ -178,11 +179,22 @@ def test_freeing_refuses_what_has_no_effect():
         ({"motion.rise.law": LAWS, "motion.rise.law.c7": (0, 1)}, "'motion.rise.law.c7' is no quantity"),
         ({"roller_radius": SIZES, ("roller_radius", "contact.width"): ((0.01, 0.02),)}, "frees 'roller_radius' twice"),
         (("rotation", "rotation"), "the study frees 'rotation' twice"),
+        ({("contact.width", "contact.width"): ((0.01, 0.02),)}, "it must be paths, each of them once"),
+        ({(): LAWS}, "it must be paths, each of them once"),
+        ({"roller_radius": (0.006, 0.008, 0.01)}, "they must be two numbers; sizes to choose from stand in braces"),
+        ((BOTH, ("roller_radius", "contact.width")), "the options of the roller radius, contact width are None; they"),
     ],
 )
 def test_what_is_no_menu_is_refused_in_a_sentence(free, sentence):
     with pytest.raises(ValueError, match=sentence):
         Study(CAM, free, (peak_pressure,))
+
+
+def test_what_shows_numbers_refuses_menus():
+    with pytest.raises(ValueError, match="the rotation is free as a menu; a sweep takes"):
+        Sweep(study(free=("rotation",)))
+    with pytest.raises(ValueError, match="the rotation is free as a menu; a plane takes"):
+        DesignMap(study(free=("rotation", "base_radius"), minimise=(peak_torque,)))
 
 
 def test_designs_with_different_options_are_no_population():
@@ -221,6 +233,11 @@ def test_under_tolerances_an_option_is_judged_as_its_own_robust_study():
         np.testing.assert_allclose(margins[i], one.margins(rate)[0], rtol=1e-7, atol=1e-9)
         np.testing.assert_allclose(factors[i], one.tolerance_factor(rate)[0], rtol=1e-6)
         assert checked.share[i] == one.recheck(rate, 256).share[0]
+
+
+def test_the_yield_of_no_designs_with_menus():
+    none = study().under({"roller_radius": 0.05 * mm}).recheck(np.zeros((0, 6)))
+    assert (none.share.shape, none.interval.shape, none.wanted) == ((0,), (0, 2), 0.99)
 
 
 def test_a_tolerance_on_what_nothing_has_is_refused():
