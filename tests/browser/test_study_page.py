@@ -70,6 +70,9 @@ def test_from_wishes_and_ticks_to_the_design_that_is_found(page, server):
     eventually(lambda: page.evaluate(shown) == pytest.approx(305.6, abs=0.1))
     assert page.evaluate(f"() => {PANEL}.history.past.length") == steps + 1
 
+    kept = "'Optimise' == app.page['tab'] and 'peak contact pressure' in app.page['study']"
+    eventually(lambda: kernel_value(page, kept) is True)
+
     page.get_by_role("tab", name="Study").click()
     choose(dock, "maximum pressure angle: make it", "small")
     type_in(dock, "find a quantity", "base")

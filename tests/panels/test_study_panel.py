@@ -130,7 +130,7 @@ def test_the_least_contact_pressure_of_a_spring():
     optimise.wait(PATIENCE)
     assert app.opened == "Optimise"
     assert peak_pressure.one(app.analysis) / MPa == pytest.approx(305.6, abs=0.1)
-    assert min_force.one(app.analysis) == pytest.approx(10, rel=1e-5)
+    assert min_force.one(app.analysis) == pytest.approx(10, rel=1e-4)
     assert "the minimum contact force 10 N" in optimise.summary()
     assert optimise.options.rows == []
     assert panel.wishes.rows[min_force].now.text == "10 N"
