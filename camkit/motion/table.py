@@ -133,6 +133,21 @@ class TableMotion(MotionProgram):
         object.__setattr__(self, "bad_rows", tuple(BadRow(*row) for row in self.bad_rows))
         super().__post_init__()
 
+    def row_differences(self, k: int) -> tuple[Array, Array]:
+        """Cam angles (rad) and the ``k``-th derivative there as the rows say it by themselves, unsmoothed.
+
+        By divided differences of ``k + 1`` rows that follow one another, per rad^k, at the mean of their cam angles;
+        around the end of the turn where the table goes around it.  Empty where there are no rows.
+        """
+        x, y = np.unwrap(np.array(self.row_angles)), np.array(self.row_levels)
+        if self.periodic and len(self.segments) == 1:
+            x, y = np.concatenate([x, x[:k] + TURN]), np.concatenate([y, y[:k]])
+        values = y
+        for order in range(1, k + 1):
+            values = order * np.diff(values) / (x[order:] - x[: len(x) - order])
+        at = np.lib.stride_tricks.sliding_window_view(x, k + 1).mean(-1) if len(x) > k else x[:0]
+        return (np.mod(at, TURN) if self.periodic else at), values
+
 
 def motion_from_table(
     angle: ArrayLike,

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..motion import LAWS, Dwell, MotionProgram, Return, Rise, Segment
+from ..motion.segments import kind_of
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..units import deg, factor, in_unit
@@ -107,6 +108,8 @@ class ProgramEditor(Panel):
 
     def load(self, program: MotionProgram) -> None:
         """Show another program; its rows stay where they are, so that a button under the pointer does what it says."""
+        if other := [segment for segment in program.segments if kind_of(segment) not in KINDS]:
+            raise ValueError(f"the program has a {kind_of(other[0])}; rises, returns and dwells can be edited here")
         kept = self.rows[: len(program.segments)]
         with self._quiet, self.held():
             for row_, segment in zip(kept, program.segments, strict=False):

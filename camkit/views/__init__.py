@@ -15,10 +15,12 @@ from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
 from .space import linkage_in_space, output_angle, pressure_angles, velocity_ratio
 from .sweep import limit_sweep, sweep_view
+from .tables import TABLE_VIEWS
 from .tolerances import band, cloud, deviation, sobol_bars
 
 __all__ = [
     "LAW_VIEWS",
+    "TABLE_VIEWS",
     "Area",
     "Axes",
     "Band",
