@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..motion.table import LEAST_ROWS, MOST_ROWS, TableMotion, motion_from_table
+from ..motion.table import LEAST_ROWS, MOST_ROWS, TableMotion, motion_from_points, motion_from_table
 from ..quantities.applied import a_path
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.types import Array
@@ -40,6 +40,8 @@ _OTHER = r"veloc|geschw|accel|beschl|jerk|ruck|/ ?(deg|rad|s|°)|^[vaj]\b|\bno\b
 class _Columns(NamedTuple):
     angle: int
     lift: int
+    derivatives: tuple[int, ...] = ()
+    """Of a controller's rows that hold ``v, a`` or ``v, a, j``."""
 
 
 def read_motion(
@@ -63,6 +65,9 @@ def read_motion(
     and others).  Cam angles are those of the table, modulo a turn, where the motion goes around one (see
     `camkit.motion.motion_from_table`, also for ``rest`` and for ``tolerance``, in m or rad).
 
+    Rows that end in POLY5 or POLY7 are a controller's: angle, lift and its derivatives by that angle, ``v, a`` or
+    ``v, a, j``, of polynomials between them, which are taken exactly; so are those for which ``columns`` names these.
+
     The result is a motion program of any cam, with its ``remarks``, ``noise``, ``bad_rows`` and ``criterion``.
 
     >>> text = "angle [deg];lift [mm]\\n" + "\\n".join(f"{k};{5 - 5 * np.cos(k * deg):.4f}" for k in range(360))
@@ -77,7 +82,7 @@ def read_motion(
     refuse_arguments(read_motion, locals())
     _refuse_answers(delimiter, decimal, angle_unit, lift_unit)
     cells = cells_of(_bytes(path), delimiter, decimal, sheet)
-    if not LEAST_ROWS <= len(cells.rows) <= MOST_ROWS:
+    if not (2 if cells.behind[0] or columns else LEAST_ROWS) <= len(cells.rows) <= MOST_ROWS:
         raise ValueError(f"the table has {len(cells.rows)} rows; it needs {LEAST_ROWS} to {MOST_ROWS} of them")
     table = np.array(cells.rows, dtype=float)
     if not (abs(table) < LARGEST).all():
@@ -87,10 +92,15 @@ def read_motion(
     at = _columns(cells, words, columns)
     x, angle_said = _angles(table[:, at.angle], angle_unit, words[at.angle] or words[-1])
     unit, lift_said = _lift_unit(lift_unit, words[at.lift] or words[-1])
+    shown_in = unit if unit in ("deg", "rad") else "mm"
+    if at.derivatives:
+        said = ", ".join([cells.how, angle_said, f"{lift_said}, derivatives by that angle"])
+        per = deg * _worth(table[:, at.angle], x)
+        given = [table[:, i] * LIFTS[unit] / per**k for k, i in enumerate((at.lift, *at.derivatives))]
+        return motion_from_points(x * deg, given, shown_in, f"{said}, ")
     x, y, turned = _in_order(x, table[:, at.lift])
     digit = LIFTS[unit] * _digit([row[at.lift] for row in cells.rows])
     said = ", ".join(part for part in (cells.how, angle_said, lift_said, *turned, *_kinds(cells)) if part)
-    shown_in = unit if unit in ("deg", "rad") else "mm"
     return motion_from_table(
         x * deg, y * LIFTS[unit], shown_in, digit=digit, rest=rest, tolerance=tolerance, said=f"{said}, "
     )
@@ -134,9 +144,15 @@ def _columns(cells: Cells, words: Sequence[str], given: Sequence[int] | None) ->
     """Where angle and lift stand."""
     count = len(cells.rows[0])
     if given is not None:
-        if len(given) != 2 or len(set(given)) != 2 or not all(isinstance(i, int) and 1 <= i <= count for i in given):
-            raise ValueError(f"columns is {shown(given)}; it must be two numbers from 1 to {count}, of angle and lift")
-        return _Columns(given[0] - 1, given[1] - 1)
+        right = len(given) in (2, 4, 5) and len(set(given)) == len(given)
+        if not right or not all(isinstance(i, int) and 1 <= i <= count for i in given):
+            raise ValueError(
+                f"columns is {shown(given)}; it must be two numbers from 1 to {count}, of angle and lift, or four or "
+                "five with v, a and j of a controller's polynomials"
+            )
+        return _Columns(given[0] - 1, given[1] - 1, tuple(i - 1 for i in given[2:]))
+    if count in (4, 5) and any(re.match(rf"poly\D*{2 * count - 3}", word.lower()) for word in _ways(cells)):
+        return _Columns(0, 1, tuple(range(2, count)))
     plain = [i for i in range(count) if not re.search(_OTHER, words[i])]
     angles = [i for i in plain if re.search(_ANGLE, words[i])]
     lifts = [i for i in plain if re.search(_LIFT, words[i])]
@@ -206,10 +222,18 @@ def _digit(texts: Sequence[str]) -> float:
     return 0.0 if most > 12 else 10.0**-most
 
 
+def _ways(cells: Cells) -> set[str]:
+    """What stands behind the numbers of the rows: how a controller goes on from each."""
+    return {cell.upper() for behind in cells.behind for cell in behind if cell and not cell.startswith(("/", "#"))}
+
+
 def _kinds(cells: Cells) -> list[str]:
     """What a controller's table says of the way between its rows."""
-    kinds = {cell.upper() for cells in cells.behind for cell in cells if cell and not cell.startswith(("/", "#"))}
-    if not kinds:
-        return []
-    told = ", ".join(sorted(kinds)[:3]) + (" and others" if len(kinds) > 3 else "")
-    return [f"points of a smooth curve for the controller's {told}"]
+    kinds = sorted(_ways(cells))
+    told = ", ".join(kinds[:3]) + (" and others" if len(kinds) > 3 else "")
+    return [f"points of a smooth curve for the controller's {told}"] if kinds else []
+
+
+def _worth(given: Array, x: Array) -> float:
+    """What one of the table's angles is worth in degrees of the cam."""
+    return float(np.ptp(x) / np.ptp(given))

@@ -5,6 +5,7 @@ Source: VDI 2143 part 1 (motions given by tables); `camkit.motion.smoothing` for
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import comb
@@ -19,6 +20,7 @@ from .closing import TURN
 from .families.free import piecewise
 from .law import Kinematics
 from .program import MotionProgram
+from .resolution import between
 from .segments import Dwell, Segment, _refuse_angle, _refuse_name
 from .smoothing import BadRow, Rows, Smoothed
 
@@ -33,6 +35,8 @@ LEVEL = 2e-3
 """Ends that differ by less than so much of the range are level, and so do those that differ by what rounding does."""
 AGREES = 1.1
 """Rows agree with a rest at their ends if cross-validation is at most this much worse, for about as free a curve."""
+SAME = 1e-6
+"""Levels of exact rows that differ by less than so much of the range are the same."""
 CORNER = 1e-6
 """A jump of the jerk below this share of the largest jerk is rounding."""
 
@@ -189,7 +193,8 @@ def motion_from_table(
     rows = Rows(turned[order] / span, y[order] / size, min(max(digit / size, 1e-9), 1.0), ends, 0, near and near / size)
     found = _smoothed(rows, rest)
     off = zip(order[list(found.bad)], found.off, strict=True)
-    segments, start = _segments(found.powers * size, float(x[0]), span, ends)
+    knots, begins = np.arange(found.powers.shape[1]) / found.powers.shape[1], 0.0 if ends == "turn" else float(x[0])
+    segments, start = _segments(knots, found.powers * size, begins, span, ends != "free")
     motion = TableMotion(
         segments,
         start,
@@ -255,44 +260,82 @@ def _agrees(some: Smoothed, free: Smoothed) -> bool:
     return some.validated <= AGREES * free.validated and some.free <= AGREES * free.free + 2
 
 
-def _segments(powers: Array, first: float, span: float, ends: str) -> tuple[tuple[Segment, ...], float]:
+def _segments(
+    knots: Array, powers: Array, first: float, span: float, closed: bool
+) -> tuple[tuple[Segment, ...], float]:
     """The segments of the motion from cam angle 0 on, and where it begins; ``first`` is the angle of the first row."""
-    if ends != "level":
-        return (_part(powers, 0.0, 1.0, span),), float(powers[0, 0])
+    if not closed:
+        return (_part(knots, powers, 0.0, 1.0, span),), float(powers[0, 0])
     begins = float(np.mod(first + 1e-12, TURN)) - 1e-12
-    ahead = begins + span - TURN
+    ahead, rest = begins + span - TURN, (Dwell(TURN - span),) if TURN - span > 1e-9 else ()
     if ahead > 1e-9:  # it goes on over the end of the turn
         cut = 1 - ahead / span
-        later, start = _part(powers, 0.0, cut, span - ahead), polynomial_at(powers, cut)
-        return (_part(powers, cut, 1.0, ahead), Dwell(TURN - span), later), start
+        later, start = _part(knots, powers, 0.0, cut, span - ahead), float(_shifted(knots, powers, cut)[0])
+        return (_part(knots, powers, cut, 1.0, ahead), *rest, later), start
     before = (Dwell(begins),) if begins > 1e-9 else ()
     after = (Dwell(-ahead),) if ahead < -1e-9 else ()
-    return (*before, _part(powers, 0.0, 1.0, span), *after), float(powers[0, 0])
+    return (*before, _part(knots, powers, 0.0, 1.0, span), *after), float(powers[0, 0])
 
 
-def polynomial_at(powers: Array, u: float) -> float:
-    """The level at a share of the span."""
-    return float(_shifted(powers, u)[0])
+def _shifted(knots: Array, powers: Array, u: float) -> Array:
+    """The powers of the distance from a share ``u`` of the span."""
+    place, orders = int(np.searchsorted(knots, u, side="right")) - 1, range(len(powers))
+    far = u - knots[place]
+    return np.array([sum(comb(j, k) * powers[j, place] * far ** (j - k) for j in orders[k:]) for k in orders])
 
 
-def _shifted(powers: Array, u: float) -> Array:
-    """The powers of the distance from ``u``."""
-    spans = powers.shape[1]
-    place = min(int(u * spans), spans - 1)
-    far = u - place / spans
-    return np.array(
-        [sum(comb(j, k) * powers[j, place] * far ** (j - k) for j in range(k, len(powers))) for k in range(len(powers))]
-    )
-
-
-def _part(powers: Array, low: float, high: float, angle: float) -> Table:
-    """The table between two shares of the span, over ``angle``."""
-    knots = np.arange(powers.shape[1]) / powers.shape[1]
+def _part(knots: Array, powers: Array, low: float, high: float, angle: float) -> Table:
+    """The table between two shares of the span, over ``angle``; ``knots`` are where its pieces begin."""
     inside = (knots > low + 1e-9) & (knots < high - 1e-9)
-    pieces = np.column_stack([_shifted(powers, low), powers[:, inside]]) * (high - low) ** np.arange(6)[:, None]
+    scale = (high - low) ** np.arange(len(powers))[:, None]
+    pieces = np.column_stack([_shifted(knots, powers, low), powers[:, inside]]) * scale
     pieces[0] -= pieces[0, 0]
     shares = (0.0, *((knots[inside] - low) / (high - low)).tolist(), 1.0)
     return Table(angle, shares, tuple(map(tuple, pieces.tolist())))
+
+
+def motion_from_points(angle: Array, given: Sequence[Array], unit: str, said: str) -> TableMotion:
+    """The motion of a controller through rows of cam ``angle`` (rad) and of ``s, v, a``, and ``j`` where there is one.
+
+    Between two rows it is the polynomial of degree 5, or 7, that has what both say; where a derivative jumps there are
+    two rows of one angle.  Rows of a turn, and those that begin and end at one level, are closed to a turn.
+    """
+    s, *_ = given
+    step, size = np.diff(angle), float(np.ptp(s))
+    if not (step >= 0).all() or not (step > 0).any() or size == 0:
+        raise ValueError("the angles of the table must not fall from row to row, and its level must move")
+    goes, span = step > 1e-9, float(angle[-1] - angle[0])
+    if (leap := abs(np.diff(s)[~goes]) > SAME * size).any():
+        raise ValueError(f"row {np.flatnonzero(~goes)[np.argmax(leap)] + 2} leaps to another level at the same angle")
+    closed = abs(s[-1] - s[0]) <= SAME * size
+    if span > TURN + 1e-6 or (span > TURN - 1e-6 and not closed):
+        away = f"{_deg(span)} and {s[-1] - s[0]:.6g} from its start"
+        raise ValueError(f"the table ends {away}; it must span a turn at most, and come back in one")
+    first, second = ([row[:-1][goes] for row in given], [row[1:][goes] for row in given])
+    second[0] = np.where(np.arange(goes.sum()) == goes.sum() - 1, s[0] if closed else s[-1], second[0])
+    pieces = _quintic(first, second, step[goes]) if len(given) == 3 else _of_degree_7(first, second, step[goes])
+    knots, powers = (
+        (angle[:-1][goes] - angle[0]) / span,
+        pieces * (span / step[goes]) ** np.arange(len(pieces))[:, None],
+    )
+    span = TURN if abs(span - TURN) < 1e-6 else span
+    segments, start = _segments(knots, powers, float(angle[0]), span, closed)
+    criterion = f"polynomials of degree {len(pieces) - 1} between the rows, as the controller runs them"
+    begins = "" if closed or angle[0] == 0 else f"; cam angle 0 is the first row, at {_deg(angle[0])}"
+    return TableMotion(
+        segments, start, (f"{said}{len(angle)} rows: {criterion}{begins}",), criterion=criterion, unit=unit
+    )
+
+
+def _quintic(first: Sequence[Array], second: Sequence[Array], step: Array) -> Array:
+    """What stands before the powers of a share of each step: VDI 2143 part 1, ``s, v, a`` at both ends."""
+    (s, v, a), (s1, v1, a1) = ([row * step**k for k, row in enumerate(rows)] for rows in (first, second))
+    d, e, f = s1 - s - v - a / 2, v1 - v - a, a1 - a
+    return np.stack([s, v, a / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2])
+
+
+def _of_degree_7(first: Sequence[Array], second: Sequence[Array], step: Array) -> Array:
+    return np.asarray(between(Kinematics(*first), Kinematics(*second), step))
 
 
 def _deg(angle: float) -> str:

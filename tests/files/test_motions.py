@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from camkit import read_motion
+from camkit import Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, read_motion
+from camkit.motion import Poly4567
 from camkit.units import deg, inch, mm
 
 TABLES = Path(__file__).parents[1] / "data" / "tables"
@@ -137,6 +138,52 @@ def test_what_is_left_open_is_asked_and_answered():
     with pytest.raises(ValueError, match=r"4 columns \(commas and decimal points\)"):
         read(commas)
     assert_allclose(read(commas.replace(", ", " "))(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
+
+
+def controller(law, degree, angles=(), crank=1):
+    """Rows of a controller for a rise, a dwell, a return and a dwell; two of each where a segment ends."""
+    h = 20 * mm
+    program = MotionProgram((Rise(120 * deg, h, law), Dwell(60 * deg), Return(120 * deg, h, law), Dwell(60 * deg)))
+    x = np.sort([0.0, *np.repeat([120.0, 180.0, 300.0], 2), 360.0, *angles])
+    side = 1e-9 * np.where(np.append(np.diff(x), 1) == 0, -1, np.where(np.diff(x, prepend=-1) == 0, 1, 0))
+    per = deg / crank
+    values = [value * per**k / mm for k, value in enumerate(program(np.clip(x * deg + side, 0, 2 * np.pi)))]
+    lines = np.column_stack([x * crank, *values[: degree // 2 + 1]])
+    return program, "".join(";".join(f"{cell:.12g}" for cell in line) + f";POLY{degree}\n" for line in lines)
+
+
+@pytest.mark.parametrize(("law", "degree"), [(Poly345(), 5), (Poly4567(), 7)])
+def test_a_controllers_polynomials_are_exact(law, degree):
+    program, told = controller(law, degree)
+    motion, x = read(told), np.linspace(0.001, 6.28, 500)
+    assert motion.criterion.startswith(f"polynomials of degree {degree} between the rows")
+    for found, expected in zip(motion(x), program(x), strict=True):
+        assert_allclose(found, expected, rtol=0, atol=1e-6 * abs(expected).max())
+    assert all(joint.lawful for joint in motion.transitions())
+    crank = read(controller(law, degree, crank=2)[1], angle_unit="crank deg")
+    assert_allclose(crank(x).a, program(x).a, rtol=0, atol=1e-6 * abs(program(x).a).max())
+
+
+@pytest.mark.parametrize(("step", "error"), [(10, 1.4e-6), (5, 2.2e-8)])
+def test_between_a_controllers_rows_a_cycloid_is_nearly_met(step, error):
+    """The printed errors of degree 5, mm: ``h^6 |s^(6)| / 46080``."""
+    program, told = controller(Cycloidal(), 5, np.setdiff1d(np.arange(0, 360, step), [0, 120, 180, 300]))
+    x = np.linspace(0, 2 * np.pi, 7201)
+    found = abs(read(told)(x).s - program(x).s).max() / mm
+    assert found == pytest.approx(error, rel=0.05)
+
+
+def test_columns_of_derivatives_are_taken_when_they_are_named():
+    program, told = controller(Poly345(), 5)
+    plain = told.replace(";POLY5", "")
+    with pytest.raises(ValueError, match="4 columns"):
+        read(plain)
+    x = np.linspace(0, 6, 50)
+    assert_allclose(read(plain, columns=(1, 2, 3, 4))(x).a, program(x).a, rtol=0, atol=1e-8)
+    with pytest.raises(ValueError, match="row 3 leaps to another level"):
+        read(told.replace("120;20;", "120;19;", 1))
+    with pytest.raises(ValueError, match="must not fall"):
+        read(told.replace("180;", "100;"))
 
 
 def workbook(rows, *more, formula=None):
