@@ -293,6 +293,8 @@ GOOD = {
     "motion_from_table.level": lambda: np.linspace(0.0, 2.0, 9) ** 2,
     "read_motion.path": lambda: b"0;1\n60;3\n120;4\n180;3\n240;2\n300;2\n",
     "departure.target": lambda: 0.5,
+    "failures.study": lambda: STUDY.under({"base_radius": 0.001}),
+    "failures.x": lambda: STUDY.x0,
 }
 """Right values by the name of an argument, or of a function and its argument."""
 

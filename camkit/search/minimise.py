@@ -31,6 +31,8 @@ CROWD = 32
 """How many random designs compete to be a further start."""
 PASSES, SETTLED = 6, 1e-5
 """How often margins for tolerances are renewed at most, and by how much less than this they then change."""
+LACKING = 1e-4
+"""By how much limits may be missed by exact parts, as a share of them."""
 TRIES = 4
 """How often limits are tightened until the result keeps them; it is aimed at half of ``KEPT`` inside them."""
 
@@ -153,18 +155,27 @@ def _within_tolerances(study: RobustStudy, judge: RobustStudy, seed: int, starts
         )
     margins = np.maximum(np.nan_to_num(study.margins(_start(study))[0], posinf=0.0, neginf=0.0), 0)
     used, ends, finished = 0, [_start(study)], ""
+    lacking = [_lacking(judge, ends[0], judge.exact_margins(ends[0]))]
     for number in range(PASSES):
-        tight, exact = (which.tightened(partial(_constant, margins)) for which in (study, judge))
-        found = _slsqp(tight.replace(start=study.design(ends[-1])), exact, seed, 1 if number else starts, designs)
+        tight, judging = (which.tightened(partial(_constant, margins)) for which in (study, judge))
+        found = _slsqp(tight.replace(start=study.design(ends[-1])), judging, seed, 1 if number else starts, designs)
         ends.append(found.x)
         used, finished = used + found.evaluations, found.why
         (needed,) = ended(judge, found.x, partial(_exact_margins, judge, found.x), lambda known: 0)
+        lacking.append(_lacking(judge, found.x, needed))
         before, margins = margins, np.maximum(needed, 0)
         missed = plain(judge).evaluate(found.x).missed[0]
         if (abs(margins - before) < SETTLED).all() and not missed.any():
             break
         margins = np.maximum(margins, np.where(missed > 0, before + 1.1 * np.where(np.isfinite(missed), missed, 1), 0))
-    return Found(_better(plain(judge), *ends), used, (), finished)
+    best = min(zip(lacking, ends, strict=True), key=lambda end: (end[0], *_merit(plain(judge).evaluate(end[1]))))
+    return Found(best[1], used, (), finished)
+
+
+def _lacking(study: RobustStudy, x: np.ndarray, margins: np.ndarray) -> float:
+    """By how much a design misses its limits by exact parts; 0 where that is within what margins settle to."""
+    missed = float(np.maximum(study.nominal.evaluate(x).g[0] + margins, 0).sum())
+    return missed if missed > LACKING else 0.0
 
 
 def _exact_margins(judge: RobustStudy, x: np.ndarray) -> Arrays:

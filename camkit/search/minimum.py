@@ -16,6 +16,8 @@ from ..study.weighted import parts_of
 from ..units import deg, factor
 from .rates import CLOSE, multipliers
 
+CLOSE_WITHIN = 3e-3
+"""The same under tolerances, where few parts say what is reached."""
 SAME = 1e-3
 """Starts whose ends differ by less than this share found the same."""
 
@@ -110,7 +112,7 @@ def described(study: Study[D], found: Found) -> Minimum[D]:
     evaluation = study.evaluate(found.x)
     built, feasible = bool(np.isfinite(evaluation.f).all()), bool(evaluation.feasible[0])
     active = _active(study, evaluation) if built else ()
-    words = [f"{found.why}.", _held(active) if feasible else _missed(study, evaluation)]
+    words = [f"{found.why}.", _held(active, study.nominal is not study) if feasible else _missed(study, evaluation)]
     if feasible and len(found.ends) > 1:
         same = sum(abs(end - min(found.ends)) <= SAME * abs(min(found.ends)) for end in found.ends)
         words.append(f"{same} of {len(found.ends)} restarts ended with this objective, to {SAME:.1%} of it.")
@@ -134,12 +136,13 @@ def _sureness(study: Study, found: Evaluation, descended: np.ndarray) -> str:
     return f"A descent from there ends at {text}, {100 * gain:.2g} % better: this search had not come to the end."
 
 
-def _held(active: tuple[Active, ...]) -> str:
-    """What holds a design that keeps all limits where it is."""
+def _held(active: tuple[Active, ...], within: bool) -> str:
+    """What holds a design that keeps all limits where it is, perhaps ``within`` tolerances."""
     peaks = [str(a) for a in active if a.kind == "peak"]
     held = [str(a) for a in active if a.kind != "peak"]
     smallest = [f"Smallest found: {listed(peaks)}."] if peaks else []
-    return " ".join([*smallest, f"At their limits: {listed(held)}." if held else "No limit is reached."])
+    at = "At their limits within the tolerances" if within else "At their limits"
+    return " ".join([*smallest, f"{at}: {listed(held)}." if held else "No limit is reached."])
 
 
 def _missed(study: Study, evaluation: Evaluation) -> str:
@@ -162,10 +165,11 @@ def _active(study: Study, evaluation: Evaluation) -> tuple[Active, ...]:
     analysis = study.analysis(evaluation.x)
     objective = [part for _, part in parts_of(study.minimise[0])]
     peaks = [_reached("peak", m, analysis, 1) for m in objective if isinstance(m, CurveMeasure) and m.way * m.sign > 0]
+    close = CLOSE if study.nominal is study else CLOSE_WITHIN
     limits = [
         _reached("limit", m, analysis, sense)
         for (m, v, sense), g in zip(study.limits, evaluation.g[0], strict=True)
-        if abs(g) <= CLOSE * (1 if v else factor(m.unit))
+        if abs(g) <= close * (1 if v else factor(m.unit))
     ]
     return (*peaks, *limits, *_bounds_reached(study, evaluation.x[0]))
 

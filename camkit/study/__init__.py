@@ -1,6 +1,7 @@
 """What is asked of a design: free quantities, objectives, limits; over ranges, maps and tolerances."""
 
 from .design_map import DesignMap
+from .failures import failures
 from .recheck import Recheck
 from .residuals import SumOfResiduals
 from .robust import RobustStudy
@@ -25,6 +26,7 @@ __all__ = [
     "Tolerances",
     "WeightedSum",
     "en_10210",
+    "failures",
     "general_tolerances",
     "iso_286",
     "iso_2768",

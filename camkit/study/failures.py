@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..quantities import words
+from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from .robust import RobustStudy
 from .spread import Source
@@ -32,6 +33,8 @@ class Failures:
         missed, without = self.missed.mean(0), self.without.mean(0)
         if not missed.any():
             return "no part misses a limit"
+        if not self.study.limits:
+            return f"{_per_cent(missed[0])} of the parts cannot be built"
         worst, cause = int(missed.argmax()), int(without.argmax())
         measure, value, sense = self.study.limits[worst]
         limit = f"{measure.name} ({'at most' if sense > 0 else 'at least'} {measure.text(value)})"
@@ -70,6 +73,7 @@ def failures(study: RobustStudy, x: Array) -> Failures:
     >>> failures(robust, [[0.1295, 0.103]]).without.round(2).tolist()
     [[1.0, 0.81]]
     """
+    refuse_arguments(failures, locals())
     models, z = study.models(study.rows(x)), study.shares()
 
     def kept(shares: Array) -> Array:

@@ -11,7 +11,7 @@ from camkit.machines import corrected_valve_study, door_handle, door_handle_stud
 from camkit.machines.shaft import twist_utilisation
 from camkit.quantities import Measure, quantities_of, value_of
 from camkit.search import search
-from camkit.study import RobustStudy, Source, Tolerance, en_10210, iso_286, recheck
+from camkit.study import RobustStudy, Source, Tolerance, en_10210, failures, iso_286, recheck
 from camkit.study.recheck import clopper_pearson
 from camkit.study.weighted import points_of
 
@@ -150,8 +150,12 @@ def test_the_lightest_shaft(options, spread, outer):
     best = minimise(robust)
     assert best.feasible
     assert_allclose(best.x / mm, [outer, 103], atol=0.01)
+    assert "At their limits within the tolerances: the utilisation of the twist 9" in best.message
     if not options:
         assert robust.recheck(best.x, 2**14).share == pytest.approx(0.99, abs=1e-3)
+        sure = robust.recheck(minimise(robust.sought).x)
+        assert sure.kept.all()
+        assert sure.share == pytest.approx(0.993, abs=1e-3)
 
 
 def test_the_reference_values_of_the_lightest_shaft():
@@ -272,6 +276,7 @@ def test_without_limits_a_part_must_be_built():
     shares = 0.5, 1 - 0.2**2 / (2 * 1.0 * 0.6), 1
     assert_allclose(robust.recheck(x, 4096).share, shares, atol=5e-3)
     assert robust.recheck(x).kept.tolist() == [False, False, True]
+    assert str(failures(robust, x[:1])).endswith("% of the parts cannot be built")
     assert_array_equal(robust.evaluate([[0.1002, 0.1], [0.101, 0.1]]).feasible, [False, True])
 
 
