@@ -45,11 +45,12 @@ class Robustness:
     ) -> None:
         self.explorer = explorer
         self.tick = Check(description="made within tolerances", tooltip=HELP)
-        self.wanted = Number("yield wanted", WANTED, YIELD, changed, refused)
+        self.wanted = Number("yield wanted", WANTED, YIELD, changed, refused, visible=False)
         self.words = Words()
         self.asked = row(self.tick, self.wanted)
         self.nominal: Front
         self.yields: Array
+        self.tick.observe(lambda change: setattr(self.wanted, "visible", change.new), "value")
         self.tick.observe(lambda _: changed(), "value")
         explorer.observe(lambda _: changed() if self.tick.value else None, "tolerances")
 
