@@ -70,6 +70,7 @@ def fingerprint(study: Study) -> str:
     evaluation = study.evaluate(points)
     names = [
         *study.free,
+        *(option for menu in study.menus for option in menu.names),
         *(m.label for m in study.minimise),
         *(f"{m.label} {float(v)!r} {s}" for m, v, s in study.limits),
     ]
