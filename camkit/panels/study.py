@@ -13,7 +13,7 @@ from ..quantities.kinds import refuse_arguments
 from ..search.fast_front import MOST_FREE
 from ..study.robust import RobustStudy
 from ..study.study import Study
-from ..units import factor, in_unit
+from ..units import convert, in_unit
 from .ahp import ahp_panel
 from .choose import choose_panel
 from .instrument import Instrument
@@ -25,14 +25,15 @@ from .kit.sheet import IMPOSSIBLE, Panel, reason
 from .kit.space import Space
 from .kit.wishes import Wishes
 from .kit.yields import YIELD
-from .live_pareto import live_pareto_panel
+from .live_pareto import LiveParetoPanel, live_pareto_panel
 from .optimise import optimise_panel
-from .pareto import pareto_panel
+from .pareto import ParetoPanel, pareto_panel
 from .tolerances import tolerance_panel
 
 TOLD = 3
 """So many free quantities are named in the line that says what is asked for."""
 P = TypeVar("P", bound=Panel)
+F = TypeVar("F", ParetoPanel, LiveParetoPanel)
 ROBUST = (
     "the limits are then kept by so many of the parts: within the tolerances given, or the general ones (ISO 2768-1 m)"
 )
@@ -141,7 +142,7 @@ class StudyPanel(Panel):
             asked = Study(self._design, free, minimise, *limits)
         if not self.robust.value:
             return asked.nominal
-        share = self.share.value * factor("%")
+        share = convert(self.share.value, "%", "")
         if isinstance(asked, RobustStudy):
             return asked.replace(yield_at_least=share)
         return asked.under(self.explorer.within(asked.start), share)
@@ -176,13 +177,25 @@ class StudyPanel(Panel):
         """The front, live where it takes few free quantities, with judgements that begin alike, and the decision."""
         app, names = self.explorer, [measure.name for measure in study.minimise]
         judged = ahp_panel(Judgements(names, [1] * (len(names) * (len(names) - 1) // 2)), "What matters more?")
-        front = self._tab("Front", lambda: pareto_panel(app, study, importance=judged))
+        nominal = study.nominal
+        front = self._tab("Front", lambda: self._made(study, pareto_panel(app, nominal, importance=judged)))
         if len(study.free) <= MOST_FREE:
-            front = self._tab("Live front", lambda: live_pareto_panel(app, study, importance=judged))
+            front = self._tab(
+                "Live front", lambda: self._made(study, live_pareto_panel(app, nominal, importance=judged))
+            )
         else:
             front.run()
         self._tab("Decision", lambda: choose_panel(front))
         return front
+
+    def _made(self, study: Study, panel: F) -> F:
+        """The panel of a front, which asks for the yield that a study asks for."""
+        if isinstance(study, RobustStudy):
+            if isinstance(self._given, RobustStudy):  # with tolerances of its own
+                self.explorer.tolerances = study.tolerances
+            panel.robust.wanted.set(study.yield_at_least)
+            panel.robust.tick.value = True
+        return panel
 
     def _tab(self, title: str, make: Callable[[], P]) -> P:
         """A panel in the tab of that title; the one that stood there for an earlier study follows no more."""

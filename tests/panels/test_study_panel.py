@@ -222,6 +222,16 @@ def test_a_yield_is_wanted_too():
     assert min_force.one(app.analysis) > 10.005  # there is room for the parts
 
 
+def test_a_yield_is_wanted_of_a_front():
+    given = door_handle_study().under({"lift_arm": 0.4 * mm}, 0.95)
+    panel = study_panel(explore(given.start), given)
+    press(panel, "Find")
+    live, front = opened(panel, "Live front"), opened(panel, "Front")
+    live.settle()
+    assert live.front.study == front.asked_study() == panel.study == given
+    assert live.robust.nominal.study == given.nominal
+
+
 def test_a_study_under_tolerances_is_asked_for_as_it_is():
     given = shaft_study().under({"outer_diameter": 0.5 * mm}, 0.9)
     panel = study_panel(explore(given.start), given)
