@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
 
-from ..quantities import Measure, Quantity
+from ..quantities import Analysable, Measure, Quantity
 from ..quantities.kinds import a_number, refuse_arguments
-from ..search.cycle_time import INTERVALS, IntervalStep, cycle_time_steps
-from ..search.protocol import Step
+from ..search.cycle_time import INTERVALS, IntervalStep
+from ..search.protocol import Step, search
 from ..study.study import Study, named_studies
 from ..units import deg, in_unit
 from ..views.progress import ShownIntervals, intervals_tried
 from .instrument import Instrument
 from .kit.drawn import LivePicture
-from .kit.inputs import Menu, Number
+from .kit.inputs import Input, Menu, Number
 from .kit.parts import Button, Part, Words, bold
+from .kit.resuming import Begun, Resuming
 from .kit.runner import JobPanel, Runner
 
 TOLERANCE = 0.1 * deg
@@ -26,7 +30,8 @@ class CycleTimePanel(JobPanel):
 
     ``studies`` is a `Study`, or maps names in a menu to several, searched around the design of an `Instrument`; the
     objective is limited to ``limit``.  ``intervals`` between ``shortest`` and ``longest`` (rad) are tried, each search
-    starting where the last one ended; gains count from the longest.  ``step`` holds the best so far, also after Stop.
+    starting where the last one ended; gains count from the longest.  ``step`` holds the best so far, also after Stop;
+    *Resume* goes on with a search that was stopped or killed.
     """
 
     def __init__(
@@ -44,11 +49,17 @@ class CycleTimePanel(JobPanel):
         self.intervals = tuple(intervals)
         self.problem = Menu(list(self.studies), "problem")
         self.measure: Measure = self._study().minimise[0]
-        self._search(limit, shortest, longest)  # refuses at once what cannot be searched
-        self.runner = Runner("Shorten the cycle", self._prepare, self._show_step, self.studies)
+        self._search(self._study(), limit, shortest, longest)  # refuses at once what cannot be searched
+        self._make_runner()
         self.limit = self._limit_knob(limit)
         self.shortest = self._interval("phi_min", "shortest", shortest)
         self.longest = self._interval("phi_max", "longest", longest)
+        self._boxes |= {
+            "problem": self.problem,
+            "limit": self.limit,
+            "shortest": self.shortest,
+            "longest": self.longest,
+        }
         self.steps: list[IntervalStep] = []
         self.take = Button("Load the design", self.load, disabled=True)
         self.verdict = Words()
@@ -56,6 +67,13 @@ class CycleTimePanel(JobPanel):
         self.picture.show(ShownIntervals(self.measure, limit, ()))
         super().__init__(self._beside_picture(*self._questions()))
         explorer.add_tab("Cycle time", self)
+
+    def _make_runner(self) -> None:
+        self._boxes: dict[str, Input] = {}
+        self.resuming = resuming = Resuming("cycle", self.explorer, self.studies, self._boxes, self._begun)
+        page = self.studies
+        self.runner = Runner("Shorten the cycle", resuming.begin, self._show_step, page, ended=resuming.offer)
+        resuming.runner = self.runner
 
     def _limit_knob(self, limit: float) -> Number:
         unit = self.measure.unit
@@ -70,7 +88,14 @@ class CycleTimePanel(JobPanel):
     def _questions(self) -> list[Part]:
         runner = self.runner
         problem, knobs = [self.problem] if len(self.studies) > 1 else [], (self.limit, self.longest, self.shortest)
-        return [*problem, *knobs, runner.buttons(self.take), runner.status, runner.banner, self.verdict]
+        return [
+            *problem,
+            *knobs,
+            runner.buttons(self.resuming.button, self.take),
+            runner.status,
+            runner.banner,
+            self.verdict,
+        ]
 
     def _study(self) -> Study:
         return self.studies[self.problem.value].around(self.explorer.design)
@@ -85,20 +110,23 @@ class CycleTimePanel(JobPanel):
         if self.step and self.step.best:
             self.explorer.load(self.step.best.design)
 
-    def _prepare(self) -> Iterator[Step]:
-        limit = self.limit.value
-        return self._steps(
-            self._study().minimise[0], limit, self._search(limit, self.shortest.value, self.longest.value)
-        )
+    def _begun(self, design: Analysable) -> Begun:
+        study = self.studies[self.problem.value].around(design)
+        asked = self.limit.value, self.shortest.value, self.longest.value
+        self._search(study, *asked)
+        return partial(self._steps, study, *asked)
 
-    def _search(self, limit: float, *ends: float) -> Iterator[Step]:
-        return cycle_time_steps(self._study(), limit, *ends, intervals=self.intervals, tolerance=TOLERANCE)
+    def _search(self, study: Study, limit: float, *ends: float, path: Path | None = None) -> Iterator[Step]:
+        """Refuses at once what cannot be searched."""
+        names = ("limit", "shortest", "longest")
+        asked: dict[str, Any] = dict(zip(names, (limit, *ends), strict=True))
+        return search(study, "cycle_time", intervals=self.intervals, tolerance=TOLERANCE, checkpoint=path, **asked)
 
-    def _steps(self, measure: Measure, limit: float, steps: Iterator[Step]) -> Iterator[Step]:
-        self.measure, self._tried_limit, self.steps = measure, limit, []
+    def _steps(self, study: Study, limit: float, shortest: float, longest: float, path: Path | None) -> Iterator[Step]:
+        self.measure, self._tried_limit, self.steps = study.minimise[0], limit, []
         self.take.disabled = True
         self.verdict.say()
-        for step in steps:
+        for step in self._search(study, limit, shortest, longest, path=path):
             if isinstance(step, IntervalStep):
                 self._show(step)
             yield step
@@ -112,6 +140,7 @@ class CycleTimePanel(JobPanel):
 
     def _show_step(self, step: Step, last: bool) -> None:
         stopped = " (stopped)" if last and not (self.runner.job and self.runner.job.ended) else ""
+        self.resuming.tell()
         self.runner.status.say(f"{step.number} intervals tried, {step.evaluated} designs evaluated{stopped}")
 
     def summary(self) -> str:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..quantities import Measure, words
+from ..quantities import Analysable, Measure, words
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.types import Array
 from ..search.minimise import METHODS
@@ -20,6 +22,7 @@ from .instrument import Instrument
 from .kit.drawn import LivePicture
 from .kit.inputs import Menu, Whole
 from .kit.parts import Button, Part, Table, Words, bold
+from .kit.resuming import Begun, Resuming
 from .kit.runner import JobPanel, Runner
 
 
@@ -28,7 +31,8 @@ class OptimisePanel(JobPanel):
 
     ``studies`` is a `Study`, or maps names in a menu to several; there is a menu for the ``methods``, too, if there
     are several.  ``minimum`` is the last result, ``None`` if the search was stopped: the best so far is then in the
-    sliders.  *Undo* loads the design from which the search began.
+    sliders.  *Undo* loads the design from which the search began, *Resume* goes on with one that was stopped or killed:
+    what had ended of it is kept in a file.
     """
 
     def __init__(
@@ -39,8 +43,12 @@ class OptimisePanel(JobPanel):
             raise ValueError(f"the methods are {shown(methods)}; there are {', '.join(map(repr, METHODS))}")
         self.explorer, self.studies = explorer, named_studies(studies, explorer.start)
         self.problem, self.method = Menu(list(self.studies), "problem"), Menu(list(methods), "method")
-        self.runner = Runner("Optimise from here", self._prepare, self._show, self.studies)
         self.starts = Whole(1, 1, 100, "restarts")
+        boxes = {"problem": self.problem, "method": self.method, "starts": self.starts}
+        self.resuming = resuming = Resuming("optimise", explorer, self.studies, boxes, self._begun)
+        page = self.studies
+        self.runner = Runner("Optimise from here", resuming.begin, self._show, page, ended=resuming.offer)
+        resuming.runner = self.runner
         self.method.observe(lambda _: self._fit_starts(), "value")
         self._fit_starts()
         self.study = self._study()
@@ -61,7 +69,7 @@ class OptimisePanel(JobPanel):
         return [
             *asked,
             self.starts,
-            runner.buttons(self.back),
+            runner.buttons(self.resuming.button, self.back),
             runner.status,
             runner.banner,
             self.verdict,
@@ -75,13 +83,14 @@ class OptimisePanel(JobPanel):
     def _study(self) -> Study:
         return self.studies[self.problem.value].around(self.explorer.design)
 
-    def _prepare(self) -> Iterator[Step]:
-        return self._steps(self._study(), self.explorer.design, self.method.value, self.starts.value)
+    def _begun(self, design: Analysable) -> Begun:
+        study = self.studies[self.problem.value].around(design)
+        return partial(self._steps, study, self.explorer.design, self.method.value, self.starts.value)
 
-    def _steps(self, study: Study, before: object, method: str, starts: int) -> Iterator[Step]:
+    def _steps(self, study: Study, before: object, method: str, starts: int, path: Path | None) -> Iterator[Step]:
         self.study, self.before, self.back.disabled = study, before, False
         self.minimum, self._seen = None, []
-        for step in search(study, method, starts=starts):
+        for step in search(study, method, starts=starts, checkpoint=path):
             if not step.message:
                 self._seen.append(step.summary)
             yield step
@@ -90,6 +99,7 @@ class OptimisePanel(JobPanel):
     def _show(self, step: Step, last: bool) -> None:
         best = f", best so far {self._text(step.best.f)}" if step.best else ""
         self.runner.status.say(f"{step.evaluated} designs evaluated{best}")
+        self.resuming.tell()
         self.picture.show(ShownLooks(self._measure, tuple(self._seen)))
         if last:
             stopped = f"The search was stopped after {step.evaluated} designs."

@@ -44,6 +44,12 @@ PATIENCE = 60
 """How long, in seconds, something is waited for that happens at once on an idle machine."""
 
 
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """Where searches are kept."""
+    monkeypatch.chdir(tmp_path)
+
+
 @pytest.fixture
 def app():
     return app_of(FIRST)

@@ -22,6 +22,12 @@ from camkit.units import deg, mm
 from camkit.views.picture import Axes, Picture
 
 
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """Where searches are kept."""
+    monkeypatch.chdir(tmp_path)
+
+
 def slow(analysis):
     if threading.current_thread() is not threading.main_thread():
         time.sleep(0.02)
