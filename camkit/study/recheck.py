@@ -12,7 +12,7 @@ import numpy as np
 from ..quantities import counted
 from ..quantities.types import Array
 from .study import KEPT
-from .three_point import DEEP, ThreePoint, bounded
+from .three_point import DEEP, ThreePoint, bounded, seen
 
 if TYPE_CHECKING:
     from .robust import RobustStudy
@@ -146,7 +146,7 @@ def _limits(study: RobustStudy, parts: Array, objectives: bool = True) -> Array:
         g = np.where(np.isfinite(found.f).all(-1, keepdims=True), g, np.inf)
     else:
         g = study.limits_of(study.analysis_of_parts(rows), len(rows))
-    return g.reshape(*parts.shape[:2], g.shape[-1])
+    return seen(g).reshape(*parts.shape[:2], g.shape[-1])
 
 
 def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int) -> tuple[Array, int]:

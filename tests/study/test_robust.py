@@ -5,7 +5,20 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.optimize import brentq
 
-from camkit import DoorHandleCam, Poly345, ValveCam, deg, minimise, mm, polish, rssr_study, shaft_study
+from camkit import (
+    DoorHandleCam,
+    Poly345,
+    Study,
+    TranslatingRollerCam,
+    ValveCam,
+    deg,
+    minimise,
+    mm,
+    polish,
+    rssr_study,
+    shaft_study,
+)
+from camkit.cam import max_pressure_angle, min_concave_radius, min_convex_radius
 from camkit.linkage import swing
 from camkit.machines import corrected_valve_study, door_handle, door_handle_study, ninety_degree_study
 from camkit.machines.shaft import twist_utilisation
@@ -132,6 +145,18 @@ def test_the_screened_recheck_is_that_of_all_parts():
     start = np.array([119.5, 120, 119.5, 98, 98.4]) * mm
     x = start + np.random.default_rng(1).uniform(-0.3, 0.3, (12, 5)) * mm
     every = robust.judged(robust.made(x, robust.shares(1024, 20768)).reshape(-1, 5)).feasible.reshape(12, -1)
+    assert_array_equal(robust.recheck(x, 1024).share, every.mean(1))
+
+
+def test_a_limit_that_is_kept_without_end_hides_none_that_is_missed():
+    """A sliding roller with no hollow: its least radius there is infinite, while the pressure angle is missed."""
+    limits = {max_pressure_angle: 25 * deg}, {min_convex_radius: 12 * mm, min_concave_radius: 12 * mm}
+    paths = {"base_radius": 0.5 * mm, "roller_radius": 0.3 * mm, "offset": 0.5 * mm}
+    study = Study(TranslatingRollerCam(), [*paths], [max_pressure_angle], *limits, angles=181)
+    robust, x = study.under(paths), np.array([[32.06, 33.81, 14.51], [34.05, 31.59, -15.05], [34.8, 31.6, 15]]) * mm
+    assert np.isneginf(study.evaluate(x).g[:, 2]).all()
+    every = robust.judged(robust.made(x, robust.shares(1024, 20768)).reshape(-1, 3)).feasible.reshape(3, -1)
+    assert every.mean(1)[1] < 0.5
     assert_array_equal(robust.recheck(x, 1024).share, every.mean(1))
 
 
