@@ -202,11 +202,19 @@ def _lift_unit(given: str | None, words: str) -> tuple[str, str]:
 
 
 def _in_order(x: Array, y: Array) -> tuple[Array, Array, list[str]]:
-    """Rows from the least angle on: backwards where they fall, one turn back where they begin before the turn ends."""
+    """Rows from the least angle on: backwards where they fall, one turn back where they begin before the turn ends.
+
+    So where they lie around its end, and none is on the other side of the turn.
+    """
     steps = np.diff(x)
     if len(x) > 1 and (steps < 0).all():
         return x[::-1], y[::-1], ["rows backwards, so that row 1 is the last of the table"]
     back = np.flatnonzero(steps < -180)
+    if (steps > 0).all() and steps.max() > 90 and x[0] + 360 - x[-1] < 3 * np.median(steps):
+        k = int(np.argmax(steps)) + 1
+        x, y = np.append(x[k:] - 360, x[:k]), np.append(y[k:], y[:k])
+        once = np.append(True, np.diff(x) > 0)
+        return x[once], y[once], [f"rows from {x[0] + 360:.6g} deg on around the end of the turn, counted from there"]
     if len(back) == 1:
         return x - 360 * (np.arange(len(x)) <= back[0]), y, ["rows from before the end of a turn on"]
     return x, y, []

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..quantities.kinds import a_number, listed, numbers, refuse_arguments, refuse_lengths
 from ..quantities.types import Array, Value
-from ..units import factor, in_unit
+from ..units import deg, factor, in_unit
 from .closing import TURN
 from .families.free import piecewise
 from .law import Kinematics
@@ -35,6 +35,8 @@ LEVEL = 2e-3
 """Ends that differ by less than so much of the range are level, and so do those that differ by what rounding does."""
 AGREES = 1.1
 """Rows agree with a rest at their ends if cross-validation is at most this much worse, for about as free a curve."""
+HOLE = 15.0
+"""Rows that are more than so many usual steps, and degrees, apart leave a hole."""
 SAME = 1e-6
 """Levels of exact rows that differ by less than so much of the range are the same."""
 CORNER = 1e-6
@@ -188,6 +190,7 @@ def motion_from_table(
     if tolerance is not None:
         near = float(a_number(tolerance, "the tolerance", "be above 0", lambda value: value > 0))
     x, y, ends = _ends(x, y, max(LEVEL * size, 2 * digit))
+    _refuse_gap(x)
     turned = np.mod(x, TURN) if ends == "turn" else x - x[0]
     order, span = np.argsort(turned, kind="stable"), TURN if ends == "turn" else float(x[-1] - x[0])
     rows = Rows(turned[order] / span, y[order] / size, min(max(digit / size, 1e-9), 1.0), ends, 0, near and near / size)
@@ -253,6 +256,17 @@ def _ends(x: Array, y: Array, close: float) -> tuple[Array, Array, str]:
     if TURN - span <= GAP * steps.max() and abs(y[-1] - y[0]) <= step_over:
         return x, y, "turn"
     return x, y, "level" if abs(y[-1] - y[0]) <= close else "free"
+
+
+def _refuse_gap(x: Array) -> None:
+    """Where rows are missing nobody knows what the follower does."""
+    steps = np.diff(x)
+    if steps.max() > max(HOLE * float(np.median(steps)), HOLE * deg):
+        row = int(np.argmax(steps)) + 1
+        raise ValueError(
+            f"between rows {row} and {row + 1} of the table ({_deg(x[row - 1])} and {_deg(x[row])}) rows are missing; "
+            "add some, also where the follower rests"
+        )
 
 
 def _agrees(some: Smoothed, free: Smoothed) -> bool:
@@ -368,5 +382,6 @@ def _remarks(motion: TableMotion, x: Array, y: Array, ends: str, said: str) -> l
     ]
     if ends == "level":
         jumps = [joint for joint in motion.transitions() if not joint.lawful]
+        told[0] += "" if jumps else ", and the rows agree with a rest at both"
         told += [f"at {joint.text(unit)}; rest=True lets the table begin and end at rest" for joint in jumps]
     return told

@@ -1,6 +1,7 @@
 """Motion read from files: every dialect of a table written and read back, and what cannot be read refused."""
 
 import io
+import sys
 import zipfile
 from pathlib import Path
 
@@ -118,6 +119,18 @@ def test_angles_run_as_they_like():
         assert_allclose(read(text(x))(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
 
 
+def test_a_lobe_around_the_end_of_the_turn_is_whole():
+    told = (TABLES / "lobe_european.csv").read_text(encoding="utf-8-sig").replace(",", ".").splitlines()[3:]
+    x, y = np.array([line.split(";") for line in told], dtype=float).T
+    whole = read(text(x, y, ""))
+    for turned in (np.append(x[70:], x[:70] + 360), np.append(x[70:], x[:71] + 360)):
+        found = read(text(turned, np.append(y[70:], y[: len(turned) - 71]), ""))
+        assert "rows from 290 deg on around the end of the turn" in found.remarks[0]
+        assert_allclose(found(ANGLES * deg).a, whole(ANGLES * deg).a, rtol=0, atol=1e-12)
+    with pytest.raises(ValueError, match=r"between rows 141 and 142 .* rows are missing"):
+        read(text(np.append(x + 70, np.arange(240, 300)), np.append(y, np.zeros(60)), ""))
+
+
 def test_what_is_left_open_is_asked_and_answered():
     crank = text(2 * ANGLES, lifts(ANGLES), "angle;lift\n")
     with pytest.raises(ValueError, match="angle_unit='crank deg'"):
@@ -208,6 +221,13 @@ def test_a_workbook_is_read():
     motion = read_motion(workbook(ROWS))
     assert motion.remarks[0].startswith("the sheet Sheet, angles in deg")
     assert_allclose(motion(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
+
+
+def test_without_openpyxl_a_sentence_says_what_to_install(monkeypatch):
+    data = workbook(ROWS)
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(ModuleNotFoundError, match=r"a workbook needs openpyxl, .* pip install 'camkit\[lab\]'"):
+        read_motion(data)
 
 
 def test_of_two_tables_one_is_asked_for():

@@ -231,6 +231,7 @@ def test_a_lobe_closes_the_turn_and_keeps_its_angles():
     assert motion.periodic
     assert all(joint.lawful for joint in motion.transitions())
     assert motion.transitions()[-1].order is None
+    assert motion.remarks[0].endswith("a dwell of 220 deg closes the turn, and the rows agree with a rest at both")
     cam = TranslatingFlatCam(motion, 30 * mm)
     assert cam.analyse().profile_margin.value / mm == pytest.approx(4.33, abs=0.05)
 
