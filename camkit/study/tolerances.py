@@ -16,6 +16,7 @@ import numpy as np
 from ..quantities import Analysable, Measure, Paths, Quantity, counted, floats, quantities_of, value_of, words
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor
+from .free import Menu
 from .spread import SPREADS, iso_2768, spread_shares
 from .study import Evaluation, Study
 
@@ -59,7 +60,10 @@ def general_tolerances(of: Study | Analysable) -> dict[str, float]:
     """
     refuse_arguments(general_tolerances, locals())
     if isinstance(of, Study):
-        return {path: general_tolerance(q, x) for (path, q), x in zip(of.declared.items(), of.x0, strict=True)}
+        start = of.around(of.start).start
+        freed = [p for name, b in of.free.items() for p in (b.paths if isinstance(b, Menu) else (name,))]
+        known = {path: q for path, q in quantities_of(start).items() if path in freed}
+        return {path: general_tolerance(known[path], value_of(start, path)) for path in freed if path in known}
     sizes = {path: q for path, q in quantities_of(of).items() if _is_size(of, path, q)}
     values = zip(sizes.items(), Paths(of, sizes).values(of), strict=True)
     halves = ((path, q, x, general_tolerance(q, x)) for (path, q), x in values)

@@ -17,7 +17,7 @@ from camkit.cam import (
 from camkit.machines import standard_tubes
 from camkit.motion import ShapedLaw
 from camkit.quantities import choices_of, value_of, with_quantities
-from camkit.study import DesignMap, Sweep
+from camkit.study import DesignMap, Sweep, general_tolerances
 from camkit.study.free import Menu
 
 LAWS = (Cycloidal(), ModifiedSine(), ShapedLaw(Poly345()))
@@ -233,6 +233,12 @@ def test_under_tolerances_an_option_is_judged_as_its_own_robust_study():
         np.testing.assert_allclose(margins[i], one.margins(rate)[0], rtol=1e-7, atol=1e-9)
         np.testing.assert_allclose(factors[i], one.tolerance_factor(rate)[0], rtol=1e-6)
         assert checked.share[i] == one.recheck(rate, 256).share[0]
+
+
+def test_general_tolerances_are_those_of_numbers_and_sizes():
+    halves = general_tolerances(study())
+    assert list(halves) == ["roller_radius", "load.spring_rate"]  # no law, no direction, no coefficient of another law
+    assert halves["roller_radius"] == general_tolerances(CAM)["roller_radius"]
 
 
 def test_the_yield_of_no_designs_with_menus():
