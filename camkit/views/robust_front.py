@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -17,8 +16,8 @@ from .picture import Mark, Picture, Points
 
 CLASSES = 0.9, 0.5
 """Where one class of yields ends and the next begins, beside the yield that is wanted."""
-FORMS = ("dot", "none"), ("dot", "full"), ("cross", "full")
-"""Mark and inside of the classes below the yield that is wanted, the last of them of the lowest."""
+FORMS = "triangle", "square", "cross"
+"""Of the classes below the yield that is wanted, the last of them of the lowest."""
 
 
 @dataclass(frozen=True)
@@ -72,9 +71,9 @@ def _nominal(shown: RobustFront) -> list[Mark]:
         above, below = f"{100 * low:g} % or more", f"below {100 * high:g} %"
         told = above if k == 0 else f"{100 * low:g} to {100 * high:g} %" if np.isfinite(low) else below
         names = tuple(f"yield {100 * share:.1f} % by the model" for share in shown.yields[where])
-        role, form = ("allowed", FORMS[1]) if k == 0 else ("trouble", FORMS[k - len(ends) + 1])
-        style: dict[str, Any] = {"role": role, "mark": form[0], "fill": form[1], "label": f"nominal, yield {told}"}
-        marks.append(Points(f"yield {k}", x[where], y[where], size=8, names=names, **style))
+        role, form = ("allowed", "dot") if k == 0 else ("trouble", FORMS[k - len(ends) + 1])
+        label = f"nominal, yield {told}"
+        marks.append(Points(f"yield {k}", x[where], y[where], role=role, mark=form, size=8, label=label, names=names))
     return marks
 
 
