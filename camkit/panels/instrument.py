@@ -293,7 +293,8 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     def _open_study(self) -> None:
         from .study import StudyPanel  # it stands on this one
 
-        StudyPanel(self)
+        if not any(tab["title"] == "Study" for tab in self.tabs):  # another page, or one of another make, may ask again
+            StudyPanel(self)
 
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])

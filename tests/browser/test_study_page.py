@@ -70,6 +70,13 @@ def test_from_wishes_and_ticks_to_the_design_that_is_found(page, server):
     eventually(lambda: page.evaluate(shown) == pytest.approx(305.6, abs=0.1))
     assert page.evaluate(f"() => {PANEL}.history.past.length") == steps + 1
 
+    page.get_by_role("tab", name="Study").click()
+    kernel_value(page, "setattr(app, 'design', app.design.replace(rotation=-1))")  # of another make
+    page.wait_for_function(f"() => {PANEL}.structure.choices.some((choice) => choice.chosen === 'clockwise')")
+    dock.get_by_text(told).wait_for()  # what was asked for stays
+    kernel_value(page, "setattr(app, 'design', app.design.replace(rotation=1))")
+    dock.get_by_text(told).wait_for()
+    page.get_by_role("tab", name="Optimise").click()
     kept = "'Optimise' == app.page['tab'] and 'peak contact pressure' in app.page['study']"
     eventually(lambda: kernel_value(page, kept) is True)
 

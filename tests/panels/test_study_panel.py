@@ -385,6 +385,8 @@ def test_the_tab_is_made_when_a_page_first_shows_it():
     (tab,) = app.tabs
     assert tab["title"] == "Study"
     gentle_roller(tab["sheets"][0])
+    app._handle_custom_msg({"study": True}, [])  # another page shows it, too
+    assert app.tabs == [tab]
     page = app.html()
     assert "at least 10 N: minimum contact force" in page
     assert ": make it" not in page  # nobody would hear of a menu
