@@ -12,6 +12,7 @@ from ..motion import MotionProgram, Segment
 from ..motion.vibration import left_swinging
 from ..quantities import PeakMeasure
 from ..quantities.kinds import one_number
+from ..quantities.known import certain
 from ..quantities.types import Array
 
 
@@ -19,8 +20,9 @@ def vibration_at(frequency: float, damping: float = 0.0) -> PeakMeasure:
     """The residual vibration of a follower with the natural ``frequency`` (Hz) at the speed of its cam.
 
     What still swings after a stroke that began at rest, after the worst of them, as a share of the whole travel;
-    ``damping`` is a share of the critical one.  The strokes lie between the dwells; where there is none all of the
-    motion is one.  A search sees the swing and its phases, so that it finds a law that leaves nothing to swing.
+    ``damping`` is a share of the critical one.  The strokes lie between the dwells, one of them perhaps over the start
+    of the turn; where there is none all of the motion is one.  A search sees the swing and its phases, so that it finds
+    a law that leaves nothing to swing.
 
     >>> from camkit import TranslatingRollerCam
     >>> left = vibration_at(40)
@@ -37,12 +39,20 @@ def vibration_at(frequency: float, damping: float = 0.0) -> PeakMeasure:
     def points(analysis: Any) -> Array:
         curve = next(iter(analysis.curves.values()))
         program, periods = curve.program, frequency / np.where(curve.cam.load.speed > 0, curve.cam.load.speed, np.nan)
-        strokes = [MotionProgram(tuple(run)) for still, run in groupby(program.segments, _still) if not still]
-        left = [left_swinging(stroke, stroke.span * periods, damping) for stroke in strokes]
+        left = [left_swinging(stroke, stroke.span * periods, damping) for stroke in _strokes(program)]
         return end_to_end(*left) / _travel(program) if left else np.zeros(1)
 
     made = "vibration at", frequency, damping
     return PeakMeasure(f"residual vibration at {frequency:.6g} Hz{damped}", "%", points, made=made)
+
+
+def _strokes(program: MotionProgram) -> list[MotionProgram]:
+    """What moves between two dwells, also over the start of the turn."""
+    runs = [tuple(run) for still, run in groupby(program.segments, _still) if not still]
+    ends = program.segments[0], program.segments[-1]
+    if len(runs) > 1 and not any(map(_still, ends)) and certain(program.periodic):
+        runs[0] = runs.pop() + runs[0]
+    return [MotionProgram(run) for run in runs]
 
 
 def _still(segment: Segment) -> bool:

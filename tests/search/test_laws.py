@@ -27,12 +27,13 @@ from camkit.cam import (
 )
 from camkit.cam.pair import CAMS
 from camkit.files import from_json, to_json
-from camkit.motion import Degree9, residual_vibration
+from camkit.motion import Cycloidal, Degree9, Dwell, MotionProgram, Return, Rise, residual_vibration
 from camkit.quantities import value_of, with_quantities
 from camkit.search.front import Front
 from camkit.units import deg, mm, rpm
 
 ANGLES = 61
+MOVES = 20 * mm, Cycloidal()
 
 
 def with_contact(cam):
@@ -156,6 +157,18 @@ def test_the_swing_after_a_stroke_is_that_of_the_law(damping):
         swings = [residual_vibration(cam.motion.segments[0].law, 15 * beta / row[0], damping) for beta in strokes]
         assert found == pytest.approx(max(float(swing.residual) for swing in swings), rel=1e-9)
         assert measure.one(study.design(row).analyse()) == pytest.approx(found, rel=1e-12)
+
+
+def test_a_stroke_goes_on_over_the_start_of_the_turn():
+    """A return that a rise follows without a dwell, at the turn's end or, the same motion, within it."""
+    up, down, rest = (kind(120 * deg, *by) for kind, *by in ((Rise, *MOVES), (Return, *MOVES), (Dwell,)))
+    cut, whole = MotionProgram((up, rest, down)), MotionProgram((rest, down, up), 20 * mm)
+    (of_cut, of_whole), measure = (TranslatingRollerCam().replace(motion=m) for m in (cut, whole)), vibration_at(15.0)
+    joined = residual_vibration(MotionProgram((down, up), 20 * mm), 15.0 * 240 * deg / of_cut.load.speed).residual
+    assert measure.one(of_cut.analyse()) == pytest.approx(measure.one(of_whole.analyse()), rel=1e-9)
+    study = Study(of_cut, {"load.speed": (100 * rpm, 600 * rpm), "motion.rise.angle": (1.5, 2.5)}, (measure,))
+    x = np.array([[of_cut.load.speed, 120 * deg], [400 * rpm, 2.0]])
+    assert study.evaluate(x).f[0, 0] == pytest.approx(float(joined) / (20 * mm), rel=1e-9)
 
 
 def test_a_cam_at_rest_shakes_nothing_that_could_be_told():
