@@ -22,7 +22,10 @@ class Price(NamedTuple):
     """What one front lacks of another."""
 
     share: float
-    """Of the volume of objectives that the other dominates, up to the worst of either in each objective."""
+    """Of the volume of objectives that the other dominates, up to the worst of either in each objective.
+
+    ``nan`` where that has no volume, as of one or two designs.
+    """
     ends: np.ndarray
     """By how much the least of each objective is larger, ``(n_objectives,)``, SI."""
 
@@ -96,7 +99,8 @@ class Front(Generic[D]):
         if not len(self) or not len(nominal):
             raise ValueError("there is no design on one of the fronts; a price needs some on both")
         point = np.maximum(nominal.f.max(0), self.f.max(0))
-        share = 1 - self.hypervolume(point) / nominal.hypervolume(point) if len(nominal) > 1 else float("nan")
+        whole = nominal.hypervolume(point)
+        share = 1 - self.hypervolume(point) / whole if whole else float("nan")
         return Price(share, self.f.min(0) - nominal.f.min(0))
 
     def rates(self, i: SupportsIndex) -> np.ndarray:

@@ -206,6 +206,18 @@ def test_a_robust_search_goes_on_from_its_checkpoint(tmp_path):
         nsga2(robust.nominal, 12, 6, 3, file)
 
 
+def test_a_front_without_a_volume_has_no_share_to_lose():
+    """Two designs dominate nothing up to the worst of both, three with one within do."""
+    study = shaft_study()
+    study = study.replace(minimise=(*study.minimise, twist_utilisation))
+    ends, within = np.array([[0.0, 1.0], [1.0, 0.0]]), np.array([[0.5, 0.5]])
+    two, one, three = (Front(study, np.ones((len(f), 2)), f) for f in (ends, within, np.vstack([ends, within])))
+    assert np.isnan(one.price(two).share)
+    assert np.isnan(two.price(two).share)
+    assert one.price(three).share == 0
+    assert_allclose(one.price(two).ends, 0.5)
+
+
 def test_a_price_needs_the_same_objectives():
     nominal, front = found(valve)
     with pytest.raises(ValueError, match="has other objectives"):
