@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, TypeVar
 
 from ..decision import Judgements
 from ..files import Session, designs
-from ..quantities import Measure, measures_of
+from ..quantities import Measure, measures_of, value_of
 from ..quantities.kinds import refuse_arguments
 from ..search.fast_front import MOST_FREE
 from ..study.robust import RobustStudy
@@ -24,7 +24,7 @@ from .kit.runner import JobPanel
 from .kit.sheet import IMPOSSIBLE, Panel, reason
 from .kit.space import Space
 from .kit.wishes import Wishes
-from .kit.yields import YIELD
+from .kit.yields import NO_TOLERANCES, YIELD
 from .live_pareto import LiveParetoPanel, live_pareto_panel
 from .optimise import optimise_panel
 from .pareto import ParetoPanel, pareto_panel
@@ -134,12 +134,7 @@ class StudyPanel(Panel):
             raise ValueError("nothing is to be small or large; choose it for one measure or more")
         if not free:
             raise ValueError("nothing may change; tick one quantity or more")
-        limits = self.wishes.limits(1), self.wishes.limits(-1)
-        if self._given:
-            start, (at_most, at_least) = self._design, limits
-            asked = self._given.replace(start=start, free=free, minimise=minimise, at_most=at_most, at_least=at_least)
-        else:
-            asked = Study(self._design, free, minimise, *limits)
+        asked = self._asked(free, minimise)
         if not self.robust.value:
             return asked.nominal
         share = convert(self.share.value, "%", "")
@@ -147,19 +142,41 @@ class StudyPanel(Panel):
             return asked.replace(yield_at_least=share)
         return asked.under(self.explorer.within(asked.start), share)
 
+    def _asked(self, free: Mapping[Any, Any], minimise: tuple[Measure, ...]) -> Study:
+        """A study of the design in the sliders with the limits that are asked for."""
+        start, at_most, at_least = self._design, self.wishes.limits(1), self.wishes.limits(-1)
+        if self._given:
+            return self._given.replace(start=start, free=free, minimise=minimise, at_most=at_most, at_least=at_least)
+        return Study(start, free, minimise, at_most, at_least)
+
     def find(self) -> None:
         """Look for what is asked for, in tabs of their own; the banner says what cannot be searched."""
-        self._open(lambda study: self._optimise(study) if len(study.minimise) == 1 else self._front(study), "searched")
+        self._open(self._search, "searched")
+
+    def _search(self) -> Panel:
+        study = self.study
+        study = study.freeing(study.free)  # refuses what has no effect
+        return self._optimise(study) if len(study.minimise) == 1 else self._front(study)
 
     def open_tolerances(self) -> None:
         """Show what the workshop makes of the design in the sliders, in a tab of its own."""
-        self._open(lambda study: self._tab("Tolerances", lambda: tolerance_panel(self.explorer, study.nominal)), "made")
+        self._open(self._tolerances, "shown")
 
-    def _open(self, show: Callable[[Study], Panel], what: str) -> None:
+    def _tolerances(self) -> Panel:
+        """Within the tolerances of the verdict; where nothing is to be small or large, what is limited is drawn."""
+        limited = dict.fromkeys((*self.wishes.limits(1), *self.wishes.limits(-1)))
+        if not (drawn := self.wishes.minimise or tuple(limited)):
+            raise ValueError("nothing is to be kept; choose a limit for one measure or more")
+        if not (half := self.explorer.half_widths):
+            raise ValueError(NO_TOLERANCES)
+        values = {path: value_of(self._design, path) for path in half}
+        made = self._asked({path: (v - half[path], v + half[path]) for path, v in values.items()}, drawn).nominal
+        return self._tab("Tolerances", lambda: tolerance_panel(self.explorer, made, half))
+
+    def _open(self, show: Callable[[], Panel], what: str) -> None:
         """Show panels of what is asked for, and their last one's tab."""
         try:
-            study = self.study
-            panel = show(study.freeing(study.free))  # refuses what has no effect
+            panel = show()
         except IMPOSSIBLE as refusal:
             self._refuse(f"This cannot be {what}: {reason(refusal)}.")
             return

@@ -22,7 +22,7 @@ from camkit.machines import cam_lever_study
 from camkit.machines.high_speed_measures import high_speed_study
 from camkit.motion import Cycloidal, ModifiedSine
 from camkit.quantities import measures_of, quantities_of, with_quantities
-from camkit.study import Study
+from camkit.study import Study, general_tolerances
 from camkit.units import MPa, N, rpm
 
 PATIENCE = 60
@@ -254,7 +254,7 @@ def test_several_wishes_open_front_judgements_and_decision_on_them():
     assert opened(panel, "Front").asked_study() == panel.study
     assert opened(panel, "Decision").source is opened(panel, "Live front")
     press(panel, "Tolerances")
-    assert list(opened(panel, "Tolerances").half_widths) == list(panel.study.free)
+    assert opened(panel, "Tolerances").half_widths == general_tolerances(app.design)  # as in the verdict
     assert app.opened == "Tolerances"
 
 
@@ -313,9 +313,10 @@ def test_what_is_no_study_is_said_in_a_sentence():
         return alert(panel)
 
     assert said() == "This cannot be searched: nothing is to be small or large; choose it for one measure or more."
+    sentence = "nothing is to be kept; choose a limit for one measure or more"
+    assert said("Tolerances") == f"This cannot be shown: {sentence}."
     want(panel, max_pressure_angle, "small")
     assert said() == "This cannot be searched: nothing may change; tick one quantity or more."
-    assert said("Tolerances") == "This cannot be made: nothing may change; tick one quantity or more."
     free(panel, "contact.width")
     assert said() == (
         "This cannot be searched: the contact width has no effect on what the study judges; it must not be free."
@@ -332,6 +333,21 @@ def test_what_is_no_study_is_said_in_a_sentence():
     reversed_ = "the bounds of the base radius are 200 mm and 100 mm; they must be finite, the first below the second"
     assert alert(panel) == f"This cannot be searched: {reversed_}."
     assert said() == f"This cannot be searched: {reversed_}."
+
+
+def test_tolerances_of_limits_alone_are_those_of_the_verdict():
+    app = explore(ROLLER, at_most={max_pressure_angle: 25 * deg}, tolerances={"base_radius": (-0.1 * mm, 0.3 * mm)})
+    panel = study_panel(app)
+    free(panel, *SPRING)  # what may change says nothing of what the workshop misses
+    press(panel, "Tolerances")
+    made = opened(panel, "Tolerances")
+    assert alert(panel) == ""
+    assert made.half_widths == pytest.approx({"base_radius": 0.3 * mm})
+    assert made.tolerances.measures == (max_pressure_angle,)
+    move(app, "base_radius", 35)
+    made.settle()
+    assert made.tolerances.study.start.base_radius == pytest.approx(35 * mm)
+    assert [*app.tolerances] == ["base_radius"]
 
 
 def test_a_limit_that_nothing_can_keep_is_said():

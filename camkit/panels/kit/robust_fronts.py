@@ -18,7 +18,7 @@ from ...study.study import Study
 from ...views.robust_front import RobustFront
 from .inputs import Check, Number
 from .parts import Line, Words, row
-from .yields import YIELD
+from .yields import NO_TOLERANCES, YIELD
 
 if TYPE_CHECKING:
     from ..instrument import Instrument
@@ -59,7 +59,7 @@ class Robustness:
         if not self.tick.value:
             return study
         if not (tolerances := self.explorer.within(self.explorer.design)):
-            raise ValueError("the design has no size with a general tolerance; give tolerances to the instrument")
+            raise ValueError(NO_TOLERANCES)
         return study.under(tolerances, self.wanted.value)
 
     def compare(self, nominal: Front, study: Study) -> None:

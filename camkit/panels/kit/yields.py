@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import ipywidgets as w
+import numpy as np
 import traitlets
 
-from ...quantities import Measure, quantities_of
+from ...quantities import Measure, quantities_of, value_of
 from ...study.failures import failures, tolerance_texts
 from ...study.robust import RobustStudy
 from ...study.spread import Tolerance, iso_2768
@@ -22,6 +23,7 @@ YIELD = 0.99
 """What a verdict calls enough."""
 QUIET = 0.3
 """Seconds after the last change until exact parts are judged."""
+NO_TOLERANCES = "the design has no size with a general tolerance; give tolerances to the instrument"
 NOTHING = Measure("nothing", "", lambda analysis: 0.0)
 """To minimise where limits alone count."""
 
@@ -55,6 +57,16 @@ class Made(w.DOMWidget):
         unit = {path: declared.unit for path, declared in quantities_of(design).items()}
         general = general_tolerances(design).items()
         return {path: Tolerance(iso_2768) if unit[path] in LENGTHS else half for path, half in general}
+
+    @property
+    def half_widths(self) -> dict[str, float]:
+        """The tolerances of what is shown, SI, as wide to either side; without those of a `Source`."""
+        paths, found = {path: t for path, t in self.within(self.design).items() if isinstance(path, str)}, {}
+        for path, given in paths.items():
+            made = given if isinstance(given, Tolerance) else Tolerance(given)
+            low, high = made.between(path, np.array([value_of(self.design, path)]))
+            found[path] = float(max(-low[0], high[0]))
+        return found
 
     def _study(self, design: Any, tolerances: Mapping[Any, Any]) -> RobustStudy:
         first = list(quantities_of(design))[:1]

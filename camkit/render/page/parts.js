@@ -10,11 +10,14 @@ import { format, parse, pretty } from "./numbers.js";
  *   look: any, dark(): boolean}} Sheet how numbers are shown, and a text with them
  */
 
+/** A text in the units that are shown, powers raised. @param {string} text @param {Sheet} sheet */
+const said = (text, sheet) => sheet.words(text).replace(/(?<=[A-Za-z°])\^[+-]?\d+(?:\.\d+)?/g, (power) => pretty(power));
+
 /** A line of words, some of which look otherwise. @param {any} line @param {Sheet} sheet @returns {(Node | string)[]} */
 function pieces(line, sheet) {
-  if (typeof line === "string") return [sheet.words(line)];
+  if (typeof line === "string") return [said(line, sheet)];
   if (Array.isArray(line)) return line.flatMap((piece) => pieces(piece, sheet));
-  const element = make("span", { class: line.look ? `camkit-${line.look}` : "" }, sheet.words(line.words));
+  const element = make("span", { class: line.look ? `camkit-${line.look}` : "" }, said(line.words, sheet));
   if (line.series === undefined) return [element];
   const bar = make("span", { class: "camkit-colour" });
   bar.style.background = sheet.look.series[sheet.dark() ? "dark" : "light"][line.series % 20];
