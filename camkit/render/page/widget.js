@@ -122,7 +122,7 @@ async function view({ model, el }) {
     panel.say(sentence);
     setTimeout(() => { if (panel.note.textContent === sentence) panel.say(""); }, SAID);
   };
-  const tell = () => panel?.made.hear(model.get("made"));
+  const tell = () => panel?.made.hear(model.get("made") ?? {}); // a notebook of before has none
   const heard = {
     "change:structure": begin, // and with it the program, which may be the same
     "change:program": begin,
