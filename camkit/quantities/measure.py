@@ -153,11 +153,13 @@ class CurveMeasure(Measure):
         Raises ``ValueError`` for what are no two angles, and for an analysis that cannot be seen between two angles.
         """
         low, high = self._cam_angle(low), self._cam_angle(high)
-        if low == high:
+        turns = (high - low) / (2 * np.pi)
+        if turns in (0, -1):
             raise ValueError(f"the {self.name} is to be seen from {_degrees(low)} to the same angle; take at() for one")
         name = f"{self.name}, {low / deg:.6g} to {_degrees(high)}"
         made = "between", self.name, low, high
-        seen: Any = {n: f and _seen(f, low, high) for n in ("function", "points", "angle") for f in [getattr(self, n)]}
+        parts = ("function", "points", "angle") if turns < 1 - 1e-9 else ()  # a whole turn is the measure itself
+        seen: Any = {n: f and _seen(f, low, high) for n in parts for f in [getattr(self, n)]}
         return dataclasses.replace(self, name=name, made=made, whole=self, **seen)
 
     def _cam_angle(self, angle: object) -> float:

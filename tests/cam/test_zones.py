@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 from camkit import Study, minimise
 from camkit.cam import (
@@ -26,6 +27,7 @@ from camkit.cam.pair import CAMS
 from camkit.files import from_json, to_json
 from camkit.machines import DoorHandleCam, HighSpeedCam
 from camkit.machines import high_speed_measures as fast
+from camkit.motion import Cycloidal, Dwell, FreePolynomial, MotionProgram, Return, Rise
 from camkit.quantities import CurveMeasure, Measure, PeakMeasure, measures_of
 from camkit.search.front import Front
 from camkit.search.minimax import Epigraph
@@ -78,6 +80,20 @@ def test_every_curve_of_a_cam_has_zones_and_checkpoints(cam):
         here = measure.at(75 * deg).one(analysis)
         assert measure.between(74.9999 * deg, 75.0001 * deg).one(analysis) == pytest.approx(here, rel=1e-4, abs=1e-9)
         assert measure.way * whole >= measure.way * here - 1e-9 * abs(whole)
+
+
+@pytest.mark.parametrize("turn", [(0, 360), (-180, 180), (-10, 350), (-360, 0), (-300, 100)], ids=str)
+def test_a_whole_turn_is_the_measure_itself_wherever_it_begins(turn):
+    """Also where the speed jumps at 120 deg, by which the roller's path has a corner."""
+    jolt = Rise(120 * deg, 20 * mm, FreePolynomial(start=(0, 0, 0), end=(1, 1.5)))
+    rest = Dwell(60 * deg), Return(120 * deg, 20 * mm, Cycloidal()), Dwell(60 * deg)
+    low, high = (end * deg for end in turn)
+    for cam in (TranslatingRollerCam(), TranslatingRollerCam(MotionProgram((jolt, *rest)))):
+        seen = np.array([m.between(low, high).one(cam.analyse()) for m in (max_pressure_angle, undercut_margin)])
+        assert_array_equal(seen, [m.one(cam.analyse()) for m in (max_pressure_angle, undercut_margin)])
+    assert np.isneginf(seen[1])
+    assert np.isneginf(undercut_margin.between(100 * deg, 90 * deg).one(cam.analyse()))
+    assert undercut_margin.between(130 * deg, 110 * deg).one(cam.analyse()) > 0
 
 
 def test_a_checkpoint_is_the_curve_there():
@@ -184,6 +200,7 @@ def test_zones_are_read_from_files():
         ),
         (lambda: max_pressure_angle.at("top"), "it must be from -360 to 360 deg; for 30 degrees write 30 * deg"),
         (lambda: max_pressure_angle.between(1.0, 1.0), "to the same angle; take at() for one"),
+        (lambda: max_pressure_angle.between(360 * deg, 0), "from 360 deg to the same angle; take at() for one"),
         (lambda: max_pressure_angle.between(0, 1).between(0, 1), "is seen at some cam angles alone already"),
         (
             lambda: Study(TranslatingRollerCam(), ["base_radius"], (peak_pressure.between(0, 1),)),
