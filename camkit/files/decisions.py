@@ -32,6 +32,12 @@ class Decision:
     there are any.  ``yields`` says in words how many parts keep every limit; a front under tolerances knows it, and is
     recorded as one of its nominal study.  Everything else follows from the front: `lines` tell it.
 
+    >>> from camkit import quick_front
+    >>> from camkit.machines import door_handle_study
+    >>> front = quick_front(door_handle_study(), 20)
+    >>> Decision(front, 3).lines()[4:6]
+    [('rule', 'by hand'), ('chosen', 'design 3 of 0 to 19')]
+
     Raises ``ValueError`` for a place that is not on the front, an unknown rule, and judgements or a reference of
     another number of objectives.
     """

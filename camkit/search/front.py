@@ -92,6 +92,13 @@ class Front(Generic[D]):
     def price(self, nominal: Front[D]) -> Price:
         """What it costs that this front's designs survive being made: what it lacks of the ``nominal`` front.
 
+        >>> from camkit.machines import door_handle_study
+        >>> study, f = door_handle_study(), np.array([[1.0, 5.0], [2.0, 3.0], [4.0, 2.0]])
+        >>> nominal, robust = (Front(study, np.tile(study.x0, (3, 1)), values) for values in (f, f + 0.5))
+        >>> price = robust.price(nominal)
+        >>> round(price.share, 3), price.ends.tolist()
+        (0.448, [0.5, 0.5])
+
         Raises ``ValueError`` for a front of other objectives, and one without a design.
         """
         if not isinstance(nominal, Front) or nominal.study.minimise != self.study.minimise:
@@ -109,6 +116,11 @@ class Front(Generic[D]):
         ``[a, b]`` is by how much objective ``b`` is worse where ``a`` is better by one.  From the designs next to it
         (see `slope_on_front`); ``nan`` at the ends of a front, and where there are other than two objectives, among
         which no single rate is known.
+
+        >>> from camkit.machines import door_handle_study
+        >>> study, f = door_handle_study(), np.array([[1.0, 5.0], [2.0, 3.0], [3.0, 2.0]])
+        >>> float(Front(study, np.tile(study.x0, (3, 1)), f).rates(1)[0, 1])
+        1.5
         """
         place, k = self._place(i), len(self.study.minimise)
         if place.ndim:
