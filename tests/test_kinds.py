@@ -275,7 +275,7 @@ FUNCTIONS |= {
         "start": CamLever(), "objective": peak_stress, "max_radius": 0.11, "free_laws": False, "angles": 31
     },
     camkit.machines.corrected_valve_study: {"start": camkit.ValveCam(), "weights": (0.5, 0.5)},
-    camkit.machines.door_handle_paper_study: {"start": DOOR, "reference": DOOR, "weights": (1, 1, 1)},
+    camkit.machines.door_handle_paper_study: {"start": DOOR},
     camkit.door_handle_study: {"start": DOOR, "space": DOOR_SPACE, "reference": DOOR, "weights": (1, 1, 1)},
     camkit.high_speed_study: {
         "start": camkit.HighSpeedCam(), "objective": peak_stress, "free_laws": True, "free_spring": True,

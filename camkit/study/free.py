@@ -131,6 +131,9 @@ def freed(start: object, given: Free | Sequence[Any]) -> dict[str, tuple[float, 
     choice has a tuple of options; both may have a mapping from names to options.  A tuple of paths that move together
     has options with a value for each of them, or with one for all.
     """
+    for name in given:
+        if not all(isinstance(path, str) for path in (name if isinstance(name, tuple) else (name,))):
+            raise ValueError(f"the study frees {shown(name)}; it must be a path, or a tuple of paths")
     wanted = given if isinstance(given, Mapping) else dict.fromkeys(given)
     free: dict[str, Any] = {}
     menus: list[Menu] = []
