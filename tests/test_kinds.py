@@ -99,6 +99,7 @@ BAD = {
     "matrix": np.ones((2, 1)).view(np.matrix),
     "list in itself": ITSELF,
     "lists in lists": NESTED,
+    "list in a tuple": [("base_radius", ["offset"])],
     "class of designs": TranslatingRollerCam,
     "population": TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]])),
     "another design": camkit.TranslatingFlatCam(),

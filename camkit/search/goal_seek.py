@@ -85,7 +85,8 @@ class _Nearest:
         self.study, self.value = study, value
         self.start = np.clip(study.x0, *study.bounds)
         now = float(study.evaluate(self.start).f[0, 0])
-        self.size = abs(value) or (abs(now) if np.isfinite(now) else 0.0) or 1.0
+        self.now = abs(now) if np.isfinite(now) else 0.0
+        self.size = abs(value) or self.now or 1.0
         self.epigraph = Epigraph(study, self.size, KEPT / 2)
         self.start = self.epigraph.u(self.start)
         self.down = not now < value
@@ -135,7 +136,7 @@ class _Nearest:
     def farthest(self, u: Array) -> Array:
         """How far the objective comes from ``u`` towards the value within the limits."""
         there = self.study if self.down else self.study.replace(minimise=(-self.study.minimise[0],))
-        descent = Epigraph(there, self.size, 2 * ROUGH)
+        descent = Epigraph(there, self.now or self.size, 2 * ROUGH)  # the value may be far away
         for _ in range(TRIES if (descent.at(u) != BAD).any() else 0):
             u = descent.descend(u, ROUGH).u
             missed = self.judged(u).missed[0]

@@ -144,6 +144,7 @@ class RobustStudy(Study[D]):
     def _base(self, x: Array) -> Array:
         """What designs ``(p, n_free)`` have at every path, ``(p, n_paths)``."""
         rest = np.array(self._parts.values(self.start)[x.shape[1] :], dtype=float)
+        x = np.where(np.isfinite(x), x, np.nan)  # infinite ones would be multiplied by 0
         return np.hstack([x, np.broadcast_to(rest, (len(x), len(rest)))])
 
     def _half(self, base: Array) -> tuple[Array, Array]:

@@ -170,6 +170,10 @@ class Study(Generic[D]):
         given: object = self.free
         if not isinstance(given, (tuple, list, Mapping)) or not given:
             raise ValueError("a study needs the names of one or more free quantities")
+        try:
+            hash((*given,))
+        except TypeError:  # lists in it
+            raise ValueError(f"the study frees {shown(given)}; it must be paths, or tuples of paths") from None
         if twice := [name for i, name in enumerate(given) if name in list(given)[:i]]:
             raise ValueError(f"the study frees {shown(twice[0])} twice; each quantity can be free once")
         object.__setattr__(self, "free", freed(self.start, self.free))

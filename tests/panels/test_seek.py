@@ -59,6 +59,8 @@ def test_a_name_that_no_measure_has_is_refused_and_the_page_is_answered():
     ask(app, seek=["nothing", 1.0])
     assert app.sent == [{"sought": "nothing"}]
     assert "there is no measure 'nothing' here" in app.message.lower()
+    ask(app, seek=[["nothing"], 1.0])
+    assert "there is no measure ['nothing'] here" in app.message.lower()
     ask(app, seek=[max_pressure_angle.name, float("nan")])
     assert "nan" in app.message
     assert app.design == before

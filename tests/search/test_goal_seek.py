@@ -48,6 +48,12 @@ def test_limits_and_bounds_are_kept_and_named_where_they_stop_it():
     )
 
 
+@pytest.mark.parametrize(("value", "ends"), [(1e9, (100, 80)), (-1e9, (10, 50))])
+def test_a_value_far_beyond_all_designs_is_approached_as_far_as_they_go(value, ends):
+    stopped = goal_seek(Study(Bars(), ["first", "second"], (length,)), value)
+    assert_allclose(stopped.x, np.array(ends) * mm, rtol=1e-4)
+
+
 def test_a_measure_to_be_made_large_counts_as_its_negative():
     found = goal_seek(Study(Bars(), ["first", "second"], (-length,)), -90 * mm)
     assert_allclose(found.x, [31 * mm, 59 * mm], rtol=1e-6)

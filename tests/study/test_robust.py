@@ -480,6 +480,12 @@ def test_what_is_wrong_is_refused_in_a_sentence(tolerances, options, said):
         shaft_study().under(tolerances, **options)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_design_without_finite_numbers_is_infeasible_beside_others():
+    found = shaft_study().under(TUBE).evaluate([[np.inf, 0.103], [np.nan, 0.103], [0.14, 0.103], [0.14, -np.inf]])
+    assert found.feasible.tolist() == [False, False, True, False]
+
+
 def test_what_knows_no_tolerances_refuses_them():
     with pytest.raises(ValueError, match="polish takes none: use minimise"):
         polish(rssr_study().under({"crank": 0.1 * mm}))

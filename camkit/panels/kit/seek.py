@@ -31,9 +31,9 @@ def seek(app: Instrument, name: object, value: float) -> Minimum[Any]:
     A limit that is missed already must not be missed by more.  ``ValueError`` for a name that no measure has.
     """
     named = {measure.name: measure for measure in app.measures}
-    if name not in named:
+    if not isinstance(name, str) or name not in named:
         raise ValueError(f"there is no measure {shown(name)} here")
-    measure = named[str(name)]
+    measure = named[name]
     study = Study(app.design, _space(app), (measure,), _eased(app, "at_most", 1), _eased(app, "at_least", -1))
     found = goal_seek(study, value)
     app.load(found.design)
