@@ -152,8 +152,8 @@ def _free(
     found = {menu.name: (Given(k, [0, len(menu.names) - 1]), 1.0) for k, menu in keys.items()}
     numbers = {k: value for k, value in mapping(entry["free"], "free").items() if k not in keys}
     for k, given in reading.renaming.entries(type(start).__name__, numbers).items():
-        ((path, quantity),) = _declared(start, menus, k, given.name).items()
-        if not isinstance(quantity, Quantity):
+        (path, quantity), *others = _declared(start, menus, k, given.name).items()
+        if others or not isinstance(quantity, Quantity):
             raise ValueError(f"the file says {shown(given.value)} for {shown(k)}, where options belong")
         found[path] = given, given.times * quantity.factor
     order = _order(entry)

@@ -57,6 +57,11 @@ def test_tolerances_of_what_an_option_brings_come_back(front):
         ("motion.rise.law", {}, "it says None for 'motion.rise.law', where a list"),
         ("motion.rise.law", [0, 1], "the file says .*0, 1.* for 'motion.rise.law', where options belong"),
         ("motion.rise.law.c2", {"options": [["a", "b"]]}, "the file says 'b' for 'motion.rise.law.c2'"),
+        (
+            "roller_radius [mm], contact.width [mm]",
+            [0, 1],
+            "the file says .*0, 1.* for 'roller_r.*', where options belong",
+        ),
         ("roller_radius [mm], contact.width [mm]", {"options": [["a", 1, 2, 3]]}, "where an option belongs"),
         (
             "roller_radius [mm], contact.width [mm]",
