@@ -146,10 +146,12 @@ def _held(active: tuple[Active, ...], within: bool) -> str:
 
 
 def _missed(study: Study, evaluation: Evaluation) -> str:
-    """Which limit a design misses by most."""
-    known, missed = np.isfinite(evaluation.g).all(), evaluation.missed.any()
-    nearest = f"this one misses {study.worst_miss(evaluation.g[0])}." if known and missed else ""
+    """Which limit a design misses by most, or for which it has no number."""
+    lacking = np.flatnonzero(evaluation.g[0] == np.inf)
+    known = evaluation.missed.any() and not len(lacking)
+    nearest = f"this one misses {study.worst_miss(evaluation.g[0])}." if known else ""
     if np.isfinite(evaluation.f).all():
+        nearest = nearest or f"this one has no {study.limits[lacking[0]][0].name}."
         return f"No design was found that keeps every limit; {nearest}"
     none = f"No design was found for which there is a {study.minimise[0].name}"
     return f"{none}; {nearest}" if nearest else f"{none}: none can be built or used."

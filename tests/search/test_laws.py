@@ -15,7 +15,9 @@ from camkit.cam import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     arm_acceleration,
+    base_radius,
     max_pressure_angle,
+    min_concave_radius,
     min_force,
     min_profile_radius,
     peak_acceleration,
@@ -175,6 +177,21 @@ def test_a_cam_at_rest_shakes_nothing_that_could_be_told():
     cam = TranslatingRollerCam()
     still = cam.replace(load=cam.load.replace(speed=0.0))
     assert np.isnan(vibration_at(15.0).one(still.analyse()))
+
+
+@pytest.mark.parametrize(
+    ("most", "said"),
+    [
+        ({max_pressure_angle: 1 * deg}, "this one misses the maximum pressure angle of at most 1 deg by "),
+        ({vibration_at(2000.0): 0.01}, "this one has no residual vibration at 2000 Hz."),
+    ],
+    ids=["beside a radius without end", "more periods than are followed"],
+)
+def test_why_no_law_keeps_every_limit_is_a_whole_sentence(most, said):
+    cam = TranslatingRollerCam()
+    slow = cam.replace(load=cam.load.replace(speed=60 * rpm))
+    study = Study(slow, ["base_radius"], (base_radius,), at_most=most, at_least={min_concave_radius: 5 * mm}, angles=91)
+    assert f"No design was found that keeps every limit; {said}" in minimise(study, starts=1).message
 
 
 @pytest.mark.parametrize(
