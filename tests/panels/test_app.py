@@ -1202,7 +1202,7 @@ def test_everything_can_be_tried(finder):
     app = finder.explorer
     run(finder)
     design = app.design
-    assert try_everything(finder) == len(parts(finder, Input)) == 8 + 3 * len(EXPANDED_SPACE)
+    assert try_everything(finder) == len(parts(finder, Input)) == 10 + 3 * len(EXPANDED_SPACE)
     assert try_everything(finder.criteria) > try_everything(finder.importance) > 0
     assert try_everything(app) == len(SLIDERS)
     assert app.design.replace(**{k: getattr(design, k) for k in DOOR_HANDLE_SPACE}) == design
