@@ -69,6 +69,8 @@ class RobustStudy(Study[D]):
             raise ValueError(f"the tolerances are {shown(self.tolerances)}; they must be a mapping with one or more")
         made = {key: t if isinstance(t, Tolerance) else Tolerance(t) for key, t in self.tolerances.items()}
         object.__setattr__(self, "tolerances", made)
+        for name in (name for i, name in enumerate(self.names) if name in self.names[:i]):
+            raise ValueError(f"two tolerances are called {shown(name)}; each must have a name of its own")
         if not isinstance(self.correlation, (Mapping, type(None))):
             raise ValueError(
                 f"the correlation is {shown(self.correlation)}; it must be a mapping from pairs of tolerances"

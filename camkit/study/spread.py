@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import words
+from ..quantities.applied import applied
 from ..quantities.kinds import finite, numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..quantities.types import Array, Value
 from ..units import mm, um
@@ -113,7 +114,9 @@ class Tolerance:
         if not callable(self.deviation):
             low, high = _pair(path, self.deviation)
             return np.full(values.shape, low), np.full(values.shape, high)
-        given, what = self.deviation(values), f"what the tolerance of the {words(path)} gives"
+        what = f"what the tolerance of the {words(path)} gives"
+        with applied(what, values):
+            given = self.deviation(values)
         sides = given if isinstance(given, tuple) else (-numbers(given, what), given)
         both = [np.asarray(numbers(side, what)) for side in sides]
         if len(both) != 2 or any(side.shape not in ((), values.shape) for side in both):
@@ -149,7 +152,7 @@ class Source:
         pairs: Any = tuple(
             given.items() if isinstance(given, Mapping) else given if isinstance(given, tuple) else (given,)
         )
-        if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+        if not all(isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], str) for pair in pairs):
             raise ValueError(f"the {self.name} moves {shown(given)}; it must be a mapping from paths to numbers")
         for path, factor in pairs:
             one_number(factor, f"how far the {words(path)} moves with the {self.name}", holds=finite)

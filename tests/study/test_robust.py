@@ -473,6 +473,8 @@ def test_what_misses_a_limit_itself_ranks_behind():
         (TUBE, {"objective": "median"}, "the objective is 'median'; there are nominal, mean, 95 %, worst"),
         (TUBE, {"correlation": {("length", "power"): 0.5}}, "it must be two of outer_diameter, inner_diameter"),
         ({Source("wall", {"bore": 1.0}): 0.1}, {}, "'bore' is no quantity of UniversalJointShaft"),
+        ({Source("length", {"outer_diameter": 1.0}): 0.1, "length": 0.1}, {}, "two tolerances are called 'length'"),
+        ({"length": lambda size: 1 / 0}, {}, "the length gives cannot be computed: ZeroDivisionError"),
     ],
 )
 def test_what_is_wrong_is_refused_in_a_sentence(tolerances, options, said):

@@ -84,6 +84,8 @@ def test_other_refusals():
         Source("wall", "bore")
     with pytest.raises(ValueError, match="how far the bore moves with the wall is 'twice'"):
         Source("wall", {"bore": "twice"})
+    with pytest.raises(ValueError, match=r"the wall moves .*3: 1.0.*; it must be a mapping from paths"):
+        Source("wall", {3: 1.0})
     with pytest.raises(ValueError, match="it must be two of x, y"):
         correlated(["x", "y"], {("x", "z"): 0.5})
     with pytest.raises(ValueError, match=r"the correlation of x and y is 1\.5; it must lie between -1 and 1"):
