@@ -332,6 +332,17 @@ class CamAnalysis(ABC):
         angle = np.broadcast_to(angle, size.shape)
         return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in (size, angle)))
 
+    @property
+    def bumps(self) -> Value:
+        """Whether the speed of the follower jumps, by an acceleration without end."""
+        return np.maximum(self.corner(1).value, self.corner(-1).value) > 0
+
+    @property
+    def struck(self) -> Value:
+        """Whether it jumps while the cam turns and the follower has mass, by a force without end."""
+        speed = getattr(self.cam.load, "speed", 1.0)  # one that does not say it always turns
+        return self.bumps & (np.max(self.inertia, axis=-1) > 0) & (number(speed) != 0)
+
     def between(self, low: float, high: float) -> Self:
         """The same cam seen between two cam angles (rad) alone: extremes are those there.
 

@@ -34,7 +34,7 @@ min_profile_radius = LeastMeasure(
 )
 undercut_place = Measure("cam angle of the minimum convex radius", "deg", lambda a: a.profile_margin.cam_angle)
 face_width = Measure("minimum width of the face", "mm", lambda a: a.face_width)
-min_force = least_over_cam("minimum contact force", "N", attrgetter("contact_force"))
+min_force = least_over_cam("minimum contact force", "N", attrgetter("contact_force"), "struck")
 
 
 def _mean_torque(analysis: CamAnalysis) -> Value:
@@ -56,7 +56,7 @@ leaving_speed = Measure("speed at which the follower leaves the cam", "rpm", jum
 jump_margin = Measure("overspeed before the follower leaves the cam", "%", _overspeed)
 
 
-peak_pressure = over_cam("peak contact pressure", "MPa", attrgetter("contact_pressure"))
+peak_pressure = over_cam("peak contact pressure", "MPa", attrgetter("contact_pressure"), "struck")
 """The largest Hertz pressure along a cam whose contact is given; ``nan`` if a flank is undercut."""
 ContactPair.measures = (peak_pressure,)
 

@@ -30,14 +30,29 @@ def peak(f: Callable[[Any], Value]) -> Callable[[Any], Value]:
     return lambda analysis: analysis.highest(f).value
 
 
-def over_cam(name: str, unit: str, f: Callable[[Any], Value]) -> PeakMeasure:
-    """The largest value of ``f`` over the cam, of which a search sees every cam angle."""
-    return PeakMeasure(name, unit, peak(f), angle=seen_at, points=lambda analysis: analysis.seen(f))
+def over_cam(name: str, unit: str, f: Callable[[Any], Value], without_end: str = "") -> PeakMeasure:
+    """The largest value of ``f`` over the cam, of which a search sees every cam angle.
+
+    It is ``inf`` where the analysis says by the name ``without_end`` that the curve has none.
+    """
+
+    def points(analysis: CamAnalysis) -> Value:
+        return analysis.seen(f) + _end(analysis, without_end)[..., None]
+
+    return PeakMeasure(name, unit, lambda a: a.highest(f).value + _end(a, without_end), angle=seen_at, points=points)
 
 
-def least_over_cam(name: str, unit: str, f: Callable[[Any], Value]) -> LeastMeasure:
-    """The least value of ``f`` over the cam, of which a search sees every cam angle."""
-    return LeastMeasure(name, unit, lambda a: a.lowest(f).value, angle=seen_at, points=lambda a: a.seen(f, -1))
+def least_over_cam(name: str, unit: str, f: Callable[[Any], Value], without_end: str = "") -> LeastMeasure:
+    """The least value of ``f`` over the cam, of which a search sees every cam angle; ``-inf`` as in `over_cam`."""
+
+    def points(analysis: CamAnalysis) -> Value:
+        return analysis.seen(f, -1) - _end(analysis, without_end)[..., None]
+
+    return LeastMeasure(name, unit, lambda a: a.lowest(f).value - _end(a, without_end), angle=seen_at, points=points)
+
+
+def _end(analysis: CamAnalysis, without_end: str) -> Array:
+    return np.where(getattr(analysis, without_end), np.inf, 0.0) if without_end else np.zeros(())
 
 
 def seen_at(analysis: CamAnalysis) -> Array:
@@ -137,9 +152,9 @@ groove_gap = Measure("wall between parts of the groove", "mm", lambda a: a.groov
 """A width only below a quarter of the roller's radius.  A larger number says that no wall is thinner than a quarter:
 it is an estimate from above, and where nothing but neighbours along the curve is near it tells of them, up to 1.14
 radii."""
-peak_force = over_cam("peak contact force", "N", lambda a: abs(a.contact_force))
-peak_torque = over_cam("peak cam torque without friction", "N mm", lambda a: abs(a.cam_torque))
-peak_wear = over_cam("wear index", "N^1.5 mm^-0.5", lambda a: a.wear_index)
+peak_force = over_cam("peak contact force", "N", lambda a: abs(a.contact_force), "struck")
+peak_torque = over_cam("peak cam torque without friction", "N mm", lambda a: abs(a.cam_torque), "struck")
+peak_wear = over_cam("wear index", "N^1.5 mm^-0.5", lambda a: a.wear_index, "struck")
 mean_efficiency = Measure("mean efficiency", "%", lambda a: mean_over(a, "efficiency"))
 published_mean_efficiency = Measure(
     "mean efficiency, published formula", "%", lambda a: mean_over(a, "published_efficiency")
@@ -157,13 +172,13 @@ def _travel(analysis: CamAnalysis) -> Array:
 
 MOTION = (
     over_cam("peak velocity", "", lambda a: abs(a.velocity)),
-    over_cam("peak acceleration", "1/rad", _acceleration),
+    over_cam("peak acceleration", "1/rad", _acceleration, "bumps"),
     over_cam("peak jerk", "1/rad^2", lambda a: abs(a.jerk)),
 )
 """Peaks of a rocking arm's motion, derivatives with respect to the cam angle."""
 travel, arm_travel = (over_cam("travel", unit, _travel) for unit in ("mm", "deg"))
 """From the motion's level 0, of a sliding follower and of an arm."""
-peak_acceleration, arm_acceleration = over_cam("peak acceleration", "mm/rad^2", _acceleration), MOTION[1]
+peak_acceleration, arm_acceleration = over_cam("peak acceleration", "mm/rad^2", _acceleration, "bumps"), MOTION[1]
 """By the cam angle, of a sliding follower and of an arm."""
 SLIDING, ROCKING = (travel, peak_acceleration, peak_wear), (arm_travel, arm_acceleration, peak_wear)
 """What a law can make small, or has to keep at some cam angles, beside what the tables show."""

@@ -157,6 +157,11 @@ class ConjugatePairAnalysis:
         return {"first": self.first, "second": self.second}
 
     @property
+    def struck(self) -> Value:
+        """Whether the speed of a follower with mass jumps."""
+        return self.first.struck
+
+    @property
     def cam_torque(self) -> np.ndarray:
         """Torque on the shaft without friction, N m, whichever cam pushes."""
         return self.first.cam_torque
