@@ -14,8 +14,6 @@ from .study import KEPT, Evaluation, Study
 
 RIDGE = 1e-2
 """How much a fit prefers margins that are the same everywhere."""
-BESIDE, TINY = 0.1, 1e-8
-"""How far, as a share of the bounds, a design tells of others; the square of a distance that is none."""
 NEAR = 0.02
 """How near to its limit a design counts half for a fit."""
 
@@ -43,18 +41,13 @@ def tightened(study: Study[D], margins: Callable[[Array], Array]) -> TightenedSt
 
 
 class FittedMargins(NamedTuple):
-    """Margins that change slowly over the bounds: a quadratic through some designs, within what was seen of them.
-
-    What it misses at these designs is added, by their nearness (Shepard's weights): margins have kinks.
-    """
+    """Margins that change slowly over the bounds: a quadratic through some designs, within what was seen of them."""
 
     bounds: Array
     coefficients: Array
     low: Array
     high: Array
     raised: Array
-    at_designs: Array
-    missing: Array
 
     @classmethod
     def to(cls, bounds: Array, x: Array, g: Array, margins: Array) -> Self:
@@ -67,16 +60,11 @@ class FittedMargins(NamedTuple):
         left = basis.T @ (weight * basis) + RIDGE * np.eye(basis.shape[1])
         slopes = np.linalg.solve(left, basis.T @ (weight * (margins - mean).T[..., None]))[..., 0].T
         slopes[0] += mean
-        found = cls(bounds, slopes, margins.min(0), margins.max(0), np.zeros(margins.shape[1]), x, 0 * margins)
-        return found._replace(missing=margins - found.at(x))
+        return cls(bounds, slopes, margins.min(0), margins.max(0), np.zeros(margins.shape[1]))
 
     def at(self, x: Array) -> Array:
         """The margins at designs ``(p, n_free)``, ``(p, n_limits)``."""
-        low, high = self.bounds
-        apart = (((x[:, None] - self.at_designs) / (high - low)) ** 2).sum(-1)
-        weight = 1 / (apart + TINY) ** 2
-        nearby = weight @ self.missing / (weight.sum(-1, keepdims=True) + 1 / BESIDE**4)
-        return np.clip(_basis(self.bounds, x) @ self.coefficients + nearby, self.low, self.high) + self.raised
+        return np.clip(_basis(self.bounds, x) @ self.coefficients, self.low, self.high) + self.raised
 
     def above(self, x: Array, g: Array, margins: Array) -> Self:
         """The same fit, raised for each limit by as much as designs that keep it are beyond it with ``margins``."""
