@@ -12,6 +12,8 @@ from ..study.study import Study
 from ..units import factor
 from .minimax import Epigraph
 
+REACHED = 1e-6
+"""A point of a curve that comes this near to its bound, a share, is at it: its neighbours pull another way."""
 CLOSE = 1e-4
 """A peak, a limit or a bound holds a design that comes as near to it, as a share of it."""
 APART = 0.02
@@ -55,7 +57,7 @@ def multipliers(study: Study, x: np.ndarray) -> dict[Measure | str, float]:
     problem = Epigraph(nominal, size, study.exact_margins(x) if isinstance(study, RobustStudy) else 0.0)
     u = problem.u(x)
     t = problem.tops(problem.at(u))
-    near = problem.excess(problem.at(u), t) >= -CLOSE
+    near = problem.excess(problem.at(u), t) >= -REACHED
     upper, lower = np.flatnonzero(u >= 1 - CLOSE), np.flatnonzero(u <= CLOSE)
     ends = np.concatenate([np.eye(len(u))[upper], -np.eye(len(u))[lower]])
     by_t = problem.owner[near, None] == np.arange(len(t))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..quantities import words
 from ..quantities.kinds import refuse_arguments
@@ -65,7 +66,7 @@ def tolerance_texts(study: RobustStudy) -> list[str]:
     return told
 
 
-def failures(study: RobustStudy, x: Array) -> Failures:
+def failures(study: RobustStudy, x: ArrayLike) -> Failures:
     """Why parts of designs ``(p, n_free)`` fail.
 
     >>> from camkit import mm, shaft_study

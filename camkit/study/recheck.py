@@ -26,6 +26,8 @@ BATCH, SURE = 8, 2.0
 CONFIDENCE = 0.95
 CORNERS = 10
 """Of up to so many tolerances all corners are judged; of more the one where the model is worst."""
+ROWS = 4096
+"""So many parts are judged at once."""
 
 
 @dataclass(frozen=True)
@@ -140,6 +142,9 @@ def _limits(study: RobustStudy, parts: Array, objectives: bool = True) -> Array:
     Without ``objectives`` these are taken to be finite.
     """
     rows = parts.reshape(-1, parts.shape[-1])
+    if len(rows) > ROWS:  # so many at once have no room in a small machine
+        every = np.array_split(parts, -(-len(rows) // ROWS), axis=1)
+        return np.concatenate([_limits(study, few, objectives) for few in every], axis=1)
     if objectives:
         found = study.judged(rows)
         g = found.g if study.limits else np.full((len(rows), 1), DEEP)
