@@ -98,7 +98,7 @@ def test_marks_and_legend():
 
 
 @dataclass(frozen=True)
-class Plate(Design):
+class Slab(Design):
     """A plate of two lengths; a long one cannot be built."""
 
     width: float = quantity("b", 30, 10, 60, "mm", "its width")
@@ -114,7 +114,7 @@ tall = Measure("height", "mm", lambda p: p.height.sum(-1))
 
 
 def test_lengths_are_shown_in_their_units_and_what_grows_is_read_as_it_is():
-    study = Study(Plate(), ("width", "height"), (-area,), at_most={slim: 40 * mm}, at_least={tall: 20 * mm})
+    study = Study(Slab(), ("width", "height"), (-area,), at_most={slim: 40 * mm}, at_least={tall: 20 * mm})
     view = objective_plane(ShownPlane(DesignMap(study, n=41), here=(0.03, 0.03), best=(0.04, 0.06)))
     assert (view.axes.xlabel, view.axes.ylabel) == ("width  b  [mm]", "height  h  [mm]")
     assert view.axes.title == "Area  [mm^2]"
@@ -126,7 +126,7 @@ def test_lengths_are_shown_in_their_units_and_what_grows_is_read_as_it_is():
 
 
 def test_without_a_limit_nothing_is_veiled():
-    view = objective_plane(ShownPlane(DesignMap(Study(Plate(), ("width", "height"), (area,)), n=11)))
+    view = objective_plane(ShownPlane(DesignMap(Study(Slab(), ("width", "height"), (area,)), n=11)))
     assert not len(curve(view["limit"]))
     assert legend(view) == []
 
