@@ -382,9 +382,13 @@ def numbers_of(shown: Any) -> list[str]:
     return [text.replace("°", " °").partition(" ")[0] for text in shown["measures"]]
 
 
+RAISED = str.maketrans("0123456789-.", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻·", "+")
+"""Powers as a page writes them."""
+
+
 def on_page(text: str) -> str:
     """A number of the package as a page writes it."""
-    return text.replace(" deg", " °")
+    return re.sub(r"\^([-+]?[\d.]+)", lambda power: power[1].translate(RAISED), text.replace(" deg", " °"))
 
 
 def numbers_in(design: Any, measures: Iterable[Any]) -> list[str]:
