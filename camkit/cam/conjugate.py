@@ -15,7 +15,8 @@ def opposite(program: MotionProgram) -> MotionProgram:
     >>> program([0.25, 0.5, 1.0, 2.0]).s.round(6).tolist()
     [-0.045423, -0.25, -0.5, -0.5]
     """
-    return MotionProgram(tuple(_opposite(segment) for segment in program.segments), -program.start)
+    downwards = tuple(_opposite(segment) for segment in program.segments)
+    return MotionProgram(downwards, -program.start, advance=-program.advance)
 
 
 def _opposite(segment: Segment) -> Segment:

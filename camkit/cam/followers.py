@@ -1,8 +1,8 @@
-"""How a follower is led and what it resists with, whatever touches the cam: on a straight guide, or on an arm."""
+"""How a follower moves, is led and what it resists with, whatever touches the cam: on a straight guide or an arm."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from functools import cached_property, reduce
 from typing import ClassVar
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from ..geometry import vector
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
+from ..quantities import Design, unless
 from ..quantities.types import Array, Value
 from ..units import deg
 from .analysis import CamAnalysis
@@ -26,6 +27,26 @@ def top_level(motion: MotionProgram) -> Array:
     """The highest level at which a segment of ``motion`` begins or ends, m; of a table its highest one."""
     tops = (level + segment.reach[1] for level, segment in zip(motion.levels, motion.segments, strict=False))
     return reduce(np.maximum, tops)
+
+
+class DiskCam(Design, ABC):
+    """A cam with one outline, which its follower goes around with each turn: its motion comes back."""
+
+    motion: MotionProgram
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        back = self.motion.comes_back
+        if refuse := unless(back):
+            refuse(
+                f"the motion goes on by {self.motion.advance:.6g} (follower units) with each turn; a disk cam takes "
+                "its follower back to where it was: the advance of its motion must be 0"
+            )
+        self._keep(back)
+
+    @abstractmethod
+    def analyse(self, n: int = 721) -> CamAnalysis:
+        """Geometry and forces at ``n`` cam angles over the motion's whole span."""
 
 
 class SlidingAnalysis(CamAnalysis):

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..geometry import Body, Outline, vector
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity, text_if
+from ..quantities import choice, quantity, text_if
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
@@ -32,7 +32,7 @@ from .directions import ROTATIONS
 from .extremes import lowest
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
-from .followers import RockingAnalysis, rise_and_return
+from .followers import DiskCam, RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
 from .measures import ROCKING
@@ -45,7 +45,7 @@ def _closed() -> ArmLoad:
 
 
 @dataclass(frozen=True)
-class OscillatingFlatCam(Design):
+class OscillatingFlatCam(DiskCam):
     """A disk cam that rocks an arm through a flat face.
 
     ``motion`` gives the arm's angle beyond ``start_angle``, which the arm has at the motion's level 0, wherever the

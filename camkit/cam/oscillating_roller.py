@@ -19,7 +19,7 @@ import numpy as np
 
 from ..geometry import Body, vector
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity, text_if
+from ..quantities import choice, quantity, text_if
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm
@@ -27,7 +27,7 @@ from . import bodies
 from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
-from .followers import RockingAnalysis, rise_and_return
+from .followers import DiskCam, RockingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Contact, Friction
 from .measures import ARM_CURVE, ROCKING
@@ -36,7 +36,7 @@ from .shaking import MAKERS
 
 
 @dataclass(frozen=True)
-class OscillatingRollerCam(Design):
+class OscillatingRollerCam(DiskCam):
     """A disk cam that rocks an arm through a roller, as a plate (inner flank) or a groove (both flanks).
 
     ``motion`` gives the arm's angle beyond ``start_angle``, which the arm has at the motion's level 0, wherever the

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..geometry import Body, Outline, vector
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity, unless
+from ..quantities import choice, quantity, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -28,7 +28,7 @@ from .directions import ROTATIONS
 from .extremes import lowest
 from .flat_analysis import FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
-from .followers import SlidingAnalysis, rise_and_return
+from .followers import DiskCam, SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import SLIDING
 from .shaking import MAKERS
@@ -37,7 +37,7 @@ from .slide import SlideFriction, SlideLoad
 
 
 @dataclass(frozen=True)
-class TranslatingFlatCam(Design):
+class TranslatingFlatCam(DiskCam):
     """A disk cam that lifts a sliding follower through a flat face.
 
     ``motion`` gives the follower's level; at the level 0, wherever the motion begins, the face stands

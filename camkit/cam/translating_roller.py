@@ -18,7 +18,7 @@ import numpy as np
 
 from ..geometry import Body, vector
 from ..motion import MotionProgram, motion_in
-from ..quantities import Design, choice, quantity, text_if, unless
+from ..quantities import choice, quantity, text_if, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -28,7 +28,7 @@ from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .extremes import highest
 from .follower_measures import ROLLER_CURVE, jump_margin
-from .followers import SlidingAnalysis, rise_and_return
+from .followers import DiskCam, SlidingAnalysis, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .measures import SLIDING, number
 from .roller_analysis import RollerAnalysis
@@ -38,7 +38,7 @@ from .slide import SlideFriction, SlideLoad
 
 
 @dataclass(frozen=True)
-class TranslatingRollerCam(Design):
+class TranslatingRollerCam(DiskCam):
     """A disk cam that lifts a sliding follower through a roller, as a plate (inner flank) or a groove (both).
 
     ``motion`` gives the follower's level; at the level 0, wherever the motion begins, the profile has the

@@ -30,6 +30,10 @@ MOST_THINGS = 500
 """Entries that are objects themselves, such as the segments of a program."""
 
 
+UNSAID = ("name", "advance")
+"""Keyword-only fields that a file leaves out where they are empty or 0, as most are."""
+
+
 def key(name: str, declared: object) -> str:
     """A field's name in a file: with its unit."""
     return f"{name} [{declared.unit}]" if isinstance(declared, Quantity) and declared.unit else name
@@ -59,9 +63,7 @@ def entry_of(thing: object, where: str = "value") -> object:
     if name in known and is_dataclass(thing):
         _refuse_namesake(type(thing), known[name], where)
         declared = _declarations(type(thing))
-        values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init}
-        if isinstance(thing, Segment) and not thing.name:
-            values.pop("name", None)
+        values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init and not _unsaid(thing, f)}
         return {"kind": name} | {
             key(n, declared.get(n)): field_entry(v, declared.get(n), f"{words(n)} of the {kind_words(type(thing))}")
             for n, v in values.items()
@@ -72,6 +74,15 @@ def entry_of(thing: object, where: str = "value") -> object:
         else "a function of one's own"
     )
     raise ValueError(f"the {where} is {what}, which no file can hold")
+
+
+def _may_be_unsaid(of: Field[Any]) -> bool:
+    return of.kw_only and of.name in UNSAID
+
+
+def _unsaid(thing: object, of: Field[Any]) -> bool:
+    value = getattr(thing, of.name)
+    return _may_be_unsaid(of) and not np.ndim(value) and value in ("", 0.0)
 
 
 def _declarations(kind: type) -> dict[str, Quantity | Choice]:
@@ -208,7 +219,7 @@ class Reading:
         named = {key(f.name, declared.get(f.name)): f for f in fields(kind) if f.init}
         for wrong in entries.keys() - named.keys():
             raise _unknown(entries[wrong].name, kind)
-        for lacking in [n for n, f in named.items() if n not in entries and not (f.name == "name" and f.kw_only)]:
+        for lacking in [n for n, f in named.items() if n not in entries and not _may_be_unsaid(f)]:
             if not any(path.startswith(f"{lacking}.") for path in deeper):
                 self.lacks(lacking, kind_words(kind), named[lacking])
         hints = _hints(kind)

@@ -1,7 +1,7 @@
 """How a motion program that spans a turn stays closed when its segments change.
 
 The last dwell takes up the angle that the others leave of the turn (the last segment, where there is no dwell), and
-the last move takes the follower back to where it began.
+the last move takes the follower back to where it began, or on by the advance of a turn.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def closing(segments: Sequence[Segment]) -> tuple[int, int | None]:
     return dwells[-1] if dwells else len(segments) - 1, moves[-1] if moves else None
 
 
-def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Segment]:
+def closed(segments: Sequence[Segment], before: Sequence[Segment], advance: Value = 0.0) -> list[Segment]:
     """``segments`` of a turn, closed again where angles or lifts are not those that they were ``before``."""
     found: list[Segment] = list(segments)
     angle, lift = closing(before)
@@ -34,7 +34,7 @@ def closed(segments: Sequence[Segment], before: Sequence[Segment]) -> list[Segme
     if any(new.angle is not old.angle for new, old in pairs):
         found[angle] = replace(found[angle], angle=_angle_left(found, angle))
     if lift is not None and any(new.change is not old.change for new, old in pairs):
-        found[lift] = replace(found[lift], lift=_lift_left(found, lift))
+        found[lift] = replace(found[lift], lift=_lift_left(found, lift, advance))
     return found
 
 
@@ -49,9 +49,9 @@ def _angle_left(segments: Sequence[Segment], i: int) -> Value:
     return TURN - others
 
 
-def _lift_left(segments: Sequence[Segment], i: int) -> Value:
-    """What the segment has to move for the turn to end where it began."""
-    others = _of_the_others(segments, i, "change")
+def _lift_left(segments: Sequence[Segment], i: int, advance: Value) -> Value:
+    """What the segment has to move for the turn to end where it began, or its ``advance`` further."""
+    others = _of_the_others(segments, i, "change") - advance
     lift = others if isinstance(segments[i], Return) else -others
     if refuse := unless(lift >= 0):
         kind = kind_of(segments[i])

@@ -59,7 +59,7 @@ class FormError(Declared):
                 f"an error of form rides on a motion program; {kind_words(type(program), article=True)} is none, "
                 "and a machine whose motion follows from quantities of its own takes no error of form"
             )
-        return FormedProgram(program.segments, program.start, self)
+        return FormedProgram(program.segments, program.start, self, advance=program.advance)
 
 
 @dataclass(frozen=True)

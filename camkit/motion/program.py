@@ -78,9 +78,18 @@ class MotionProgram(Declared):
     leaves open (1e-4 deg) is closed; a program that misses the turn by more, but by less than 0.5 deg, is refused.
     Cam sizes and springs are counted from the level 0, wherever the program begins.
 
+    A motion that goes on, as that of an indexing table or a rotary knife does, says by how much it is further after
+    each turn: its ``advance`` (m or rad), below 0 for one that goes backwards.
+
+    >>> from camkit.motion import ModifiedSine
+    >>> index = MotionProgram((Rise(120 * deg, 60 * deg, ModifiedSine()), Dwell(240 * deg)), advance=60 * deg)
+    >>> (index([-60 * deg, 60 * deg, 420 * deg, 1000 * deg]).s / deg).round(9)
+    array([  0.,  30.,  90., 180.])
+
     Paths call the segments by their own names, or ``rise``, ``dwell``, ``return``, ``dwell2`` by kind and count.  A
     program that spans 360 deg stays closed when its segments are given other values by path: the last dwell (the last
-    segment, where there is none) takes up the angle and the last move the lift, so these two are no quantities.
+    segment, where there is none) takes up the angle and the last move the lift, so these two are no quantities.  The
+    ``advance`` stays.
 
     >>> from camkit.motion import Cycloidal, Dwell, Return, Rise
     >>> from camkit.quantities import quantities_of, with_quantities
@@ -97,17 +106,19 @@ class MotionProgram(Declared):
         ...
     ValueError: the program spans 359.99 deg; 0.01 deg are missing to a full turn: lengthen a segment or add a dwell
 
-    A population holds arrays of shape ``(p, 1)`` in its segments, its laws or its ``start``; cam angles of
-    shape ``(n,)`` or ``(p, n)`` then give ``(p, n)``.  One program that cannot be is refused by
+    A population holds arrays of shape ``(p, 1)`` in its segments, its laws, its ``start`` or its ``advance``; cam
+    angles of shape ``(n,)`` or ``(p, n)`` then give ``(p, n)``.  One program that cannot be is refused by
     ``ValueError``; in a population its row is ``nan``.
     """
 
     segments: tuple[Segment, ...]
     start: Value = field(default=0.0, metadata={"declared": START, "by_owner": True})
+    advance: Value = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "segments", listed(self.segments, "what the program is made of", "segment"))
-        object.__setattr__(self, "start", a_number(self.start, "the start of the program"))
+        for name in ("start", "advance"):
+            object.__setattr__(self, name, a_number(getattr(self, name), f"the {name} of the program"))
         _refuse_program(self)
 
     @cached_property
@@ -134,13 +145,23 @@ class MotionProgram(Declared):
         angle, lift = closing(self.segments)
         found = {f"{self.names[angle]}.angle": "it takes up what the other segments leave of the turn"}
         if lift is not None:
-            found[f"{self.names[lift]}.lift"] = "it takes the follower back to where the turn began"
+            found[f"{self.names[lift]}.lift"] = f"it takes the follower {self._where_to}"
         return found
+
+    @property
+    def comes_back(self) -> bool | Array:
+        """Whether the follower is after a turn where it was before: its ``advance`` is 0."""
+        return self.advance == 0
+
+    @property
+    def _where_to(self) -> str:
+        """Where the follower is after a turn, in words."""
+        return "back to where the turn began" if certain(self.comes_back) else "on by the advance of a turn"
 
     def changed(self, changes: Mapping[str, Any]) -> MotionProgram:
         """With other segments by name; a turn is closed again."""
         segments = [changes.get(name, segment) for name, segment in zip(self.names, self.segments, strict=True)]
-        segments = closed(segments, self.segments) if self._turns else segments
+        segments = closed(segments, self.segments, self.advance) if self._turns else segments
         return self.replace(segments=tuple(segments), start=changes.get("start", self.start))
 
     @cached_property
@@ -198,22 +219,23 @@ class MotionProgram(Declared):
 
     @property
     def closes(self) -> bool | Array:
-        """Whether the last level is the first one, or need not be."""
+        """Whether the last level is the first one and the advance, or need not be: there is no turn, nor an advance."""
         size = sum(segment.reach[1] - segment.reach[0] for segment in self.segments)
-        return (np.abs(self.levels[-1] - self.start) <= SAME_LEVEL * size) | np.logical_not(self.periodic)
+        gap = np.abs(self.levels[-1] - self.start - self.advance)
+        return np.where(self.periodic, gap <= SAME_LEVEL * size, self.comes_back)[()]
 
     @cached_property
     def possible(self) -> bool:
         """Whether the program can be; of a population, which rows can."""
         each = [finite(segment.change) & positive(segment.angle) for segment in self.segments]
         fits = (self._beyond <= ROUNDED) & np.logical_not(self._misses)
-        return reduce(np.logical_and, each, finite(self.start) & fits & self.closes)
+        return reduce(np.logical_and, each, finite(self.start) & finite(self.advance) & fits & self.closes)
 
     def __call__(self, cam_angle: ArrayLike) -> Kinematics:
         """``s, v, a, j`` at ``cam_angle`` (rad); at a joint the segment that begins there speaks."""
         phi = numbers(cam_angle, "the cam angles")
         with np.errstate(all="ignore"):
-            motion = self._at(self._within(np.atleast_1d(phi)))
+            motion = self._turned(np.atleast_1d(phi))
         return motion if phi.ndim else Kinematics(*(values[..., 0] for values in motion))
 
     def in_time(self, cam_angle: ArrayLike, speed: Value) -> Kinematics:
@@ -251,6 +273,14 @@ class MotionProgram(Declared):
         ``inf`` where a lower derivative jumps, at a joint or inside a law.  A population gives arrays ``(p,)``.
         """
         return find_peaks(self)
+
+    def _turned(self, phi: Array) -> Kinematics:
+        """``s, v, a, j`` at cam angles of any turn; the level is one ``advance`` further for each."""
+        x = self._within(phi)
+        s, v, a, j = self._at(x)
+        if not certain(self.comes_back):
+            s = s + self.advance * np.floor((phi - x) / TURN + 0.5)
+        return Kinematics(s, v, a, j)
 
     def _within(self, phi: Array) -> Array:
         """Cam angles brought into the turn, ``nan`` where the program says nothing."""
@@ -311,7 +341,7 @@ def _refuse_program(program: MotionProgram) -> None:
             raise ValueError(f"segment {i} of the program is {given}; it must be a rise, a return or a dwell")
     refuse_lengths(program)
     for name in program.names:
-        if program.names.count(name) > 1 or name in ("start", "segments", "form"):
+        if program.names.count(name) > 1 or name in ("start", "segments", "advance", "form"):
             raise ValueError(f"a segment of the program is called {name}; it must have a name that nothing else has")
     if refuse := unless(program._beyond <= ROUNDED):
         little = f"{degrees(program._beyond)} more than a full turn"
@@ -323,5 +353,16 @@ def _refuse_program(program: MotionProgram) -> None:
             "lengthen a segment or add a dwell"
         )
     if refuse := unless(program.closes):
-        gap = f"{program.levels[-1] - program.start:.6g}"
-        refuse(f"the program ends {gap} from its start after 360 deg; a full turn must come back to its start")
+        refuse(_left_open(program))
+
+
+def _left_open(program: MotionProgram) -> str:
+    """Why a program does not close."""
+    end, advance = program.levels[-1] - program.start, f"{program.advance:.6g}"
+    must = text_if(
+        program.comes_back,
+        f"; a full turn must come back to its start, or say by how much it is further: advance={end:.12g}",
+        f"; that must be its advance, {advance}, from which it is {end - program.advance:.3g} away",
+    )
+    short = f"the advance of the program is {advance}, but it spans {degrees(program.span)}; only a full turn can go on"
+    return text_if(program.periodic, f"the program ends {end:.6g} from its start after 360 deg{must}", short)

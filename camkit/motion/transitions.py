@@ -106,7 +106,8 @@ def _sides(program: MotionProgram) -> list[tuple[Value, Kinematics, Kinematics]]
     last = [_side(program, i, 1.0) for i in range(len(program.segments))]
     pairs = [(program.starts[i], last[i - 1], first[i]) for i in range(1, len(program.segments))]
     if np.all(program.periodic):
-        pairs.append((program.span, last[-1], first[0]))
+        s, v, a, j = first[0]
+        pairs.append((program.span, last[-1], Kinematics(s + program.advance, v, a, j)))
     return pairs
 
 

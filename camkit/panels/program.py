@@ -126,7 +126,8 @@ class ProgramEditor(Panel):
         self.rows, self._list.children = rows, tuple(each.row for each in rows)
 
     def _changed(self) -> None:
-        self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), self.start.start))
+        start, advance = self.program.start, self.program.advance
+        self._try(lambda: MotionProgram(tuple(row.segment() for row in self.rows), start, advance=advance))
 
     def _try(self, make: Callable[[], MotionProgram]) -> None:
         last = self.program

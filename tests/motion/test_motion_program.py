@@ -374,7 +374,8 @@ law = Cycloidal()
         ),
         (
             lambda: MotionProgram((Rise(180 * deg, 0.02, law), Return(180 * deg, 0.015, law))),
-            "the program ends 0.005 from its start after 360 deg; a full turn must come back to its start",
+            "the program ends 0.005 from its start after 360 deg; a full turn must come back to its start, or "
+            "say by how much it is further: advance=0.005",
         ),
         (
             lambda: full_turn(law).in_time(0.0, np.nan),
