@@ -9,6 +9,7 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
+from .quantities.known import known
 from .quantities.types import Array, Value
 
 
@@ -64,7 +65,11 @@ class Disc(Body):
 
 def _at(value: Value, i: Any) -> Value:
     """A number, or that of several which stands for position ``i``."""
-    return np.take(value, i, axis=-1) if np.ndim(value) else value
+    if not np.ndim(value):
+        return value
+    if known(value) and not known(i):  # the place alone is recorded: what moves without quantities, as a table says
+        return np.take_along_axis(np.asarray(value), np.reshape(i, (1,) * np.ndim(value)), -1)[..., 0]
+    return np.take(value, i, axis=-1)
 
 
 def vector(*components: Value) -> np.ndarray:
