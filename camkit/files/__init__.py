@@ -1,5 +1,6 @@
 """Designs, sessions, profiles and tables as files."""
 
+from .cells import TableQuestion
 from .decisions import Decision
 from .designs import Read, from_json, read, read_json, to_json, write
 from .motions import read_motion
@@ -10,6 +11,7 @@ __all__ = [
     "Decision",
     "Read",
     "Session",
+    "TableQuestion",
     "from_json",
     "profile_csv",
     "profile_dxf",

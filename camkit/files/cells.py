@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import dropwhile
 from typing import Any
@@ -28,6 +28,19 @@ _NUMBER = {
 _NO_NUMBER = re.compile(r"[+-]?(nan|inf(inity)?)|n/?a|#.*|-+|\?+|=.*|", re.IGNORECASE)
 """What stands where a number is missing."""
 _MINUS = str.maketrans({"−": "-", "–": "-", "\xa0": " ", "\u202f": " "})
+
+
+class TableQuestion(ValueError):
+    """What a table leaves open: the ``argument`` of `read_motion` that says it, and its ``options`` by their names.
+
+    >>> question = TableQuestion("the table has no unit", "angle_unit='deg'", "angle_unit", {"deg": "deg"})
+    >>> str(question), question.why, question.options
+    ("the table has no unit; say angle_unit='deg'", 'the table has no unit', {'deg': 'deg'})
+    """
+
+    def __init__(self, why: str, say: str, argument: str, options: Mapping[str, Any]) -> None:
+        self.why, self.argument, self.options = why, argument, dict(options)
+        super().__init__(f"{why}; say {say}")
 
 
 @dataclass(frozen=True)
@@ -185,7 +198,8 @@ def _workbook(data: bytes, sheet: str | None) -> Cells:
             "the workbook has no rows of two numbers or more; formulas count by the values that they were saved with"
         )
     if len(found) > 1:
-        raise ValueError(f"the workbook has tables in {', '.join(map(shown, found))}; say sheet=")
+        why = f"the workbook has tables in {', '.join(map(shown, found))}"
+        raise TableQuestion(why, "sheet=", "sheet", {name: name for name in found})
     return _whole(next(iter(found.values())))
 
 

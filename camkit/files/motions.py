@@ -14,7 +14,7 @@ from ..quantities.applied import a_path
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.types import Array
 from ..units import deg, inch, mm, um
-from .cells import Cells, cells_of
+from .cells import Cells, TableQuestion, cells_of
 from .json_file import LARGEST, MOST_BYTES
 
 ANGLES = {"deg": 1.0, "rad": 1 / deg, "crank deg": 0.5}
@@ -35,6 +35,10 @@ _IN_WORDS = {
 _ANGLE = r"angle|winkel|crank|kurbel|\bphi\b|\btheta\b|master|\bcam\b|rotation|\bdeg|°|\bgrad\b|\brad|^x\b"
 _LIFT = r"lift|hub|stroke|displ|travel|follower|slave|weg|level|position|\bmm\b|\binch|thou|^[ys]\b"
 _OTHER = r"veloc|geschw|accel|beschl|jerk|ruck|/ ?(deg|rad|s|°)|^[vaj]\b|\bno\b|\bnr\b|^#"
+
+
+MOST_PAIRS, MOST_LETTERS = 40, 24
+"""So many pairs of columns are offered at most, with so much of their headings; of words behind rows, too."""
 
 
 class _Columns(NamedTuple):
@@ -77,7 +81,8 @@ def read_motion(
     >>> motion.remarks[0][:75]
     'semicolons and decimal commas, angles in deg (of the cam), levels in mm, 36'
 
-    Raises ``ValueError`` in a sentence for what holds no such table, and for rows that cannot be a motion.
+    Raises ``ValueError`` in a sentence for what holds no such table, and for rows that cannot be a motion; what asks is
+    a `TableQuestion` with its ``argument`` and its ``options``.
     """
     refuse_arguments(read_motion, locals())
     _refuse_answers(delimiter, decimal, angle_unit, lift_unit)
@@ -89,7 +94,7 @@ def read_motion(
         row = int(np.argmin((abs(table) < LARGEST).all(1)))
         raise ValueError(f"line {cells.lines[row]} of the table holds a number that no cam can have")
     words = _words(cells)
-    at = _columns(cells, words, columns)
+    at = _columns(cells, words, columns, table)
     x, angle_said = _angles(table[:, at.angle], angle_unit, words[at.angle] or words[-1])
     unit, lift_said = _lift_unit(lift_unit, words[at.lift] or words[-1])
     shown_in = unit if unit in ("deg", "rad") else "mm"
@@ -140,7 +145,7 @@ def _tidy(words: str) -> str:
     return re.sub(r"[_,:]+", " ", words.lower()).strip()
 
 
-def _columns(cells: Cells, words: Sequence[str], given: Sequence[int] | None) -> _Columns:
+def _columns(cells: Cells, words: Sequence[str], given: Sequence[int] | None, table: Array) -> _Columns:
     """Where angle and lift stand."""
     count = len(cells.rows[0])
     if given is not None:
@@ -162,9 +167,21 @@ def _columns(cells: Cells, words: Sequence[str], given: Sequence[int] | None) ->
     lifts = [i for i in lifts if i not in angles[:1]]
     if len(angles) >= 1 and len(lifts) == 1:
         return _Columns(angles[0], lifts[0])
-    raise ValueError(
-        f"the table has {count} columns ({cells.how}), and it is not clear which are angle and lift; say columns=(1, 2)"
-    )
+    why = f"the table has {count} columns ({cells.how}), and it is not clear which are angle and lift"
+    raise TableQuestion(why, "columns=(1, 2)", "columns", _pairs(table, words))
+
+
+def _pairs(table: Array, words: Sequence[str]) -> dict[str, tuple[int, int]]:
+    """Which columns could be angle and lift: the angles go on from row to row, but for one step back."""
+    ahead, moves = np.diff(table, axis=0) > 0, np.ptp(table, axis=0) > 0
+    goes = moves & (np.minimum(ahead.sum(0), (~ahead).sum(0)) <= 1)
+    ends = zip(words, table.min(0), table.max(0), strict=False)
+    each = [
+        f"{i} ({word[:MOST_LETTERS]}{', ' * bool(word)}{low:.6g} to {high:.6g})"
+        for i, (word, low, high) in enumerate(ends, 1)
+    ]
+    pairs = [(i, k) for i in np.flatnonzero(goes).tolist() for k in np.flatnonzero(moves).tolist() if i != k]
+    return {f"angle in column {each[i]}, lift in column {each[k]}": (i + 1, k + 1) for i, k in pairs[:MOST_PAIRS]}
 
 
 def _unit(words: str, offered: Sequence[str]) -> str | None:
@@ -178,20 +195,27 @@ def _angles(x: Array, given: str | None, words: str) -> tuple[Array, str]:
     step = span / (len(x) - 1) if len(x) > 1 else span
     if unit is None and span < 7:
         if abs(span - 2 * np.pi) > 1.5 * step:
-            raise ValueError(f"the angles span {span:.6g} without a unit; say angle_unit='deg' or angle_unit='rad'")
+            why, say = f"the angles span {span:.6g} without a unit", "angle_unit='deg' or angle_unit='rad'"
+            raise TableQuestion(why, say, "angle_unit", {"degrees": "deg", "radians": "rad"})
         unit = "rad"
     for power in (10, 100, 1000) if given is None and unit in (None, "deg") else ():
         if abs(span - 360 * power) <= 1.5 * step:
             return x / power, f"angles in {1 / power:g} deg (of the cam)"
     turned = x * ANGLES[unit or "deg"]
     if np.ptp(turned) > 360 * (1 + 1e-6):
-        raise ValueError(
-            f"the angles span {np.ptp(turned):.6g} deg, more than a turn of the cam; say angle_unit='crank deg' for a "
-            "crank that turns twice as often, or take out what is beyond the turn"
-        )
+        _refuse_span(float(np.ptp(turned)), unit)
     said = {"crank deg": "angles in deg of the crank (two turns for one of the cam)"}
     assumed = "" if unit else " as no unit is named"
     return turned, said.get(unit or "", f"angles in {unit or 'deg'} (of the cam){assumed}")
+
+
+def _refuse_span(span: float, unit: str | None) -> None:
+    """More than a turn: of a crank, perhaps, if nobody says that it is the cam's."""
+    why, beyond = f"the angles span {span:.6g} deg, more than a turn of the cam", "take out what is beyond the turn"
+    if unit in ("crank deg", "rad") or span > 720 * (1 + 1e-6):
+        raise ValueError(f"{why}; {beyond}")
+    say = f"angle_unit='crank deg' for a crank that turns twice as often, or {beyond}"
+    raise TableQuestion(why, say, "angle_unit", {"degrees of a crank that turns twice as often": "crank deg"})
 
 
 def _lift_unit(given: str | None, words: str) -> tuple[str, str]:
@@ -237,7 +261,7 @@ def _ways(cells: Cells) -> set[str]:
 
 def _kinds(cells: Cells) -> list[str]:
     """What a controller's table says of the way between its rows."""
-    kinds = sorted(_ways(cells))
+    kinds = sorted({way[:MOST_LETTERS] for way in _ways(cells)})
     told = ", ".join(kinds[:3]) + (" and others" if len(kinds) > 3 else "")
     return [f"points of a smooth curve for the controller's {told}"] if kinds else []
 
