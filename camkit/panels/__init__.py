@@ -17,6 +17,7 @@ with extra("camkit.panels"):
     from .program import ProgramEditor, edit_program
     from .shortlist import shortlist
     from .study import StudyPanel, study_panel
+    from .tables import TablePanel, table_panel
     from .tolerances import TolerancePanel, tolerance_panel
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "ParetoPanel",
     "ProgramEditor",
     "StudyPanel",
+    "TablePanel",
     "TolerancePanel",
     "ahp_panel",
     "choose_panel",
@@ -44,5 +46,6 @@ __all__ = [
     "presets",
     "shortlist",
     "study_panel",
+    "table_panel",
     "tolerance_panel",
 ]

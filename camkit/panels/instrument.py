@@ -13,7 +13,6 @@ import ipywidgets as w
 import numpy as np
 import traitlets
 
-from ..files import designs
 from ..quantities import (
     Analysable,
     Choice,
@@ -34,8 +33,8 @@ from ..units import factor
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import changed, numbers_of, with_numbers
-from .kit.design_files import file_of, files_of, remarked
 from .kit.displayed import Displayed
+from .kit.files import Files
 from .kit.keeper import Keeper
 from .kit.makes import Makes
 from .kit.seek import pull
@@ -50,7 +49,7 @@ AGREED = 1e-9
 """Page and kernel differ by less than such a share of a measure's size."""
 
 
-class Instrument(Made, Displayed, anywidget.AnyWidget):
+class Instrument(Made, Files, Displayed, anywidget.AnyWidget):
     """A design under sliders; the page computes and draws it, the kernel is told what a person settles on.
 
     ``design`` is what is shown, the last one that could be built; setting it moves the page.  ``on_change(f)`` calls
@@ -66,11 +65,6 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     """The measures of ``values`` as the page computes them."""
     said = traitlets.Dict().tag(sync=True)
     """Of which make these are, which view of the page said them, and ``at`` which time of its clock."""
-    message = traitlets.Unicode().tag(sync=True)
-    tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
-    """What stands beside the curves, by its title: sheets."""
-    opened = traitlets.Unicode().tag(sync=True)
-    """The tab that is to be seen now, by its title."""
     page = traitlets.Dict().tag(sync=True)
     """How the page was left beside its design: where it stands, what Undo goes back to, what is pinned."""
     design: Any = traitlets.Any()
@@ -110,7 +104,8 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         self._send_structure()
         self.observe(self._settled, "values")
         self.observe(self._shown, "design")
-        self.on_msg(lambda _, message, __: self._asked(message))
+        self.on_msg(lambda _, message, buffers: self._asked(message, buffers))
+        self.show_table()
 
     @property
     def views(self) -> tuple[View, ...]:
@@ -176,6 +171,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
                 self._answer(self.living.show_still(self.design), {"still": still, "values": self.values})
             except IMPOSSIBLE as error:
                 self.message = f"Not everything can be drawn: {reason(error)}."
+        self.show_table()
         self._tell_followers()
 
     @property
@@ -186,7 +182,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     def _send_structure(self) -> None:
         with self.hold_sync():
             first = {m.name: float(n) for m, n in zip(self.measures, self._first, strict=True) if np.isfinite(n)}
-            more = {"files": files_of(self.analysis), "first": first, "make": self.makes.last[0]}
+            more = {**self.files, "first": first, "make": self.makes.last[0]}
             self.structure, self.program = {**self.living.structure, **more}, self.living.packed
             self._push()
 
@@ -247,7 +243,7 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
                     f"The page computes {measure.text(page)} for the {measure.name}, the kernel {measure.text(now)}."
                 )
 
-    def _asked(self, message: Mapping[str, Any]) -> None:
+    def _asked(self, message: Mapping[str, Any], buffers: Sequence[memoryview]) -> None:
         """What the page asks for: a choice from a menu, a file, or what it may not compute itself."""
         try:
             self._catch_up(message)
@@ -262,15 +258,17 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
             elif "reset" in message:
                 self.load(self.start)
             elif "file" in message:
-                self._send_file(message["file"])
+                if (seen := self._of(self.values)) != self.design:
+                    seen.analyse()  # refuses what cannot be built
+                self.send_file(message["file"])
             elif "open" in message:
-                self.load_json(message["open"])
+                self.open_file(bytes(buffers[0]), message["open"])
             elif "session" in message:
                 self.keeper.answer(message["session"])
             elif "seek" in message:
                 pull(self, *message["seek"])
             elif "study" in message:
-                self._open_study()
+                self.open_study()
             elif "compute" in message:
                 self._compute(message)
         except Exception as error:  # a page must always be answered
@@ -290,12 +288,6 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
         here, before = self.makes.last[0], self._overtaken.get(self.said.get("view"), -np.inf)
         return bool(self.said.get("at", np.inf) <= before or self.said.get("make", here) != here)
 
-    def _open_study(self) -> None:
-        from .study import StudyPanel  # it stands on this one
-
-        if not any(tab["title"] == "Study" for tab in self.tabs):  # another page, or one of another make, may ask again
-            StudyPanel(self)
-
     def _compute(self, message: Mapping[str, Any]) -> None:
         count = len(self.structure["quantities"])
         values, names = message["compute"], (p["name"] for p in self.structure["positions"])
@@ -314,24 +306,6 @@ class Instrument(Made, Displayed, anywidget.AnyWidget):
     def _answer(self, shown: Mapping[str, Any], more: Mapping[str, object]) -> None:
         arrays = [np.asarray(array, dtype=float).tobytes() for array in shown["arrays"]]
         self.send({**more, **{name: part for name, part in shown.items() if name != "arrays"}}, arrays)
-
-    def _send_file(self, kind: str) -> None:
-        """A file of the design that the page shows; ``ValueError`` where that cannot be built."""
-        if (seen := self._of(self.values)) != self.design:
-            seen.analyse()
-        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [file_of(self, kind)])
-
-    def load_json(self, file: str | bytes) -> None:
-        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
-        try:
-            found = designs.read_json(file, type(self.design))
-            found.thing.analyse()
-        except IMPOSSIBLE as refusal:
-            self.message = f"This file cannot be used: {reason(refusal)}."
-        else:
-            self.load(found.thing)
-            if self.design == found.thing:  # else it cannot be computed, which the page says
-                self.message = remarked(found)
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the panel as one HTML file that computes without Python (see `camkit.render.to_html`)."""

@@ -14,7 +14,20 @@ PAGE = Path(__file__).with_name("page")
 MODULES = (
     *("numbers", "units", "marks", "scales", "axes", "heading", "picture", "spans", "controls"),
     *("positions", "pointer", "files", "kernel", "parts", "theme"),
-    *("sheet", "docks", "engine", "idle", "bar", "history", "measures", "around", "beside", "verdict", "quantities"),
+    *(
+        "sheet",
+        "docks",
+        "engine",
+        "idle",
+        "drop",
+        "bar",
+        "history",
+        "measures",
+        "around",
+        "beside",
+        "verdict",
+        "quantities",
+    ),
     *("made", "tabs", "why", "handles", "places", "pull", "names", "panel", "session", "cell"),
 )
 """What every page is made of, each on those before it."""

@@ -33,9 +33,14 @@ def sliders(app):
     return [path for path in declared_in(app.design) if path in choices or numbers.get(path)]
 
 
-def ask(app, **message):
+def ask(app, buffers=(), **message):
     """What else the page sends."""
-    app._handle_custom_msg(message, [])
+    app._handle_custom_msg(message, [memoryview(data) for data in buffers])
+
+
+def open_file(app, file, name="file"):
+    """Drop a file on the page, or choose one."""
+    ask(app, [file if isinstance(file, bytes) else file.encode()], open=name)
 
 
 def answers(app, **message):

@@ -8,7 +8,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from hand import ask, choose, move
+from hand import ask, choose, move, open_file
 from PIL import Image
 from stubborn import Stubborn
 
@@ -127,9 +127,9 @@ def test_a_file_is_opened_or_refused_in_a_sentence(app, sent):
     ask(app, file="json")
     saved = sent.pop()[1][0].decode()
     move(app, "base_radius", 45)
-    ask(app, open=saved)
+    open_file(app, saved)
     assert app.design == app.start
-    ask(app, open="{}")
+    open_file(app, "{}")
     assert app.message.startswith("This file cannot be used: ")
 
 
@@ -264,7 +264,7 @@ def test_a_file_that_cannot_be_used_is_refused_and_changes_nothing(text, sentenc
     app = explore(DoorHandleCam(), pressure_angle)
     move(app, "lift_arm", 48)
     good, values, structure = app.design, app.values, app.structure
-    ask(app, open=text)
+    open_file(app, text)
     assert app.message.startswith(f"This file cannot be used: {sentence}")
     assert app.design is good
     assert (app.values, app.structure) == (values, structure)

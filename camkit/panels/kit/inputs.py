@@ -232,9 +232,9 @@ class Upload(Part):
     accept = traitlets.Unicode(".json").tag(page=True)
     most = traitlets.Int(MOST_BYTES + 1).tag(page=True)
 
-    def __init__(self, description: str, use: Callable[[bytes], None]) -> None:
+    def __init__(self, description: str, use: Callable[[bytes], None], **given: object) -> None:
         self.use = use
-        super().__init__(description=description)
+        super().__init__(description=description, **given)
 
     def take(self, message: Message) -> None:
         """A file."""

@@ -1,5 +1,6 @@
 // The row above all: the name of the design, what was done and is undone, and files.
 import { make } from "./controls.js";
+import { openerOf } from "./drop.js";
 
 /** @type {Record<string, string>} */
 const FILES = {
@@ -10,17 +11,13 @@ const FILES = {
 export const button = (words, title, act) =>
   make("button", { type: "button", title, "aria-label": /\w/.test(words) ? undefined : title, onclick: act }, words);
 
-/** Buttons that save and open files, if there is a host to ask. @param {string[]} kinds
+/** Buttons that save and open files, if there is a host to ask. @param {any} structure
  * @param {import("./panel.js").Host | null} host */
-export function filesOf(kinds, host) {
+export function filesOf(structure, host) {
   if (!host) return [];
-  const opened = async () => { if (file.files[0]) host.open(await file.files[0].text()); file.value = ""; };
-  const file = make("input", { type: "file", accept: ".json", hidden: true, onchange: opened });
   const save = make("select", { "aria-label": "Export", "data-asks": true, onchange: () => { if (save.value) host.file(save.value); save.value = ""; } },
-    make("option", { value: "" }, "Export"), ...kinds.map((kind) => make("option", { value: kind }, FILES[kind])));
-  const open = button("Open", "Open a saved design", () => file.click());
-  open.setAttribute("data-asks", "");
-  return [open, file, save];
+    make("option", { value: "" }, "Export"), ...structure.files.map((/** @type {string} */ kind) => make("option", { value: kind }, FILES[kind])));
+  return [...openerOf(structure, host), save];
 }
 
 /** A button for the whole screen, where there is one to be had. @param {HTMLElement} root */

@@ -3,6 +3,7 @@ import { Chart } from "./picture.js";
 import { make } from "./controls.js";
 import { fill, format } from "./numbers.js";
 import { button, filesOf, screenOf } from "./bar.js";
+import { takeDrops, tableOf } from "./drop.js";
 import { Handles } from "./handles.js";
 import { Made } from "./made.js";
 import { History } from "./history.js";
@@ -31,7 +32,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
  *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
- *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(text: string): void, name(asked: Record<string, any>): void, study(): void}} Host what
+ *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(file: File): void, name(asked: Record<string, any>): void, study(): void}} Host what
  *   stands behind the page, if anything does
  */
 
@@ -158,6 +159,7 @@ export class Panel {
     this.units = new Units(structure);
     this.quantities = new Quantities(structure, this.units, moved,
       host && ((path, option) => host.choose(path, option)));
+    for (const motion of host ? structure.tables ?? [] : []) this.quantities.lead(motion, tableOf(structure, host));
     this.positions = new Positions(structure, this.units, this.values, moved, (settled) => this.ask(settled));
     this.rows = [...this.quantities.rows, ...this.positions.rows];
     const explain = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => this.why.explain(element, measure);
@@ -187,6 +189,7 @@ export class Panel {
     root.replaceChildren(this._bar(), this.note, seen, this.quantities.element, this.tabs.element, this.positions.element,
       this.tabs.row, this.tip, this.why.element);
     for (const chart of this.charts) listen(this, chart);
+    takeDrops(this);
     this.handles = new Handles(this, moved);
     this.quantities.element.addEventListener("toggle", () => this._paint(), { capture: true }); // a group was opened
     root.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this._key(event), { signal: this.leaving.signal });
@@ -208,7 +211,7 @@ export class Panel {
     this.names = new Names(this, structure.named ?? [], this.host && ((asked) => this.host.name(asked)));
     return make("div", { class: "camkit-bar-top" }, make("b", { role: "heading", "aria-level": "1", title: structure.name }, structure.name),
       this.names.element, this.undoing, this.redoing, reset, this.pinning, make("span", { class: "camkit-space" }),
-      this.chosen, ...filesOf(structure.files, this.host), ...screenOf(this.root));
+      this.chosen, ...filesOf(structure, this.host), ...screenOf(this.root));
   }
 
   /** @param {number} k @param {number} value @param {boolean} settled */

@@ -37,6 +37,12 @@ export class Quantities {
     return seen.map((k) => [k, away(k)]).sort((a, b) => a[1] - b[1]).map(([k]) => k);
   }
 
+  /** Put something before the quantities of a part, by its name. @param {string} name @param {HTMLElement} element */
+  lead(name, element) {
+    const group = this.groups.find((/** @type {any} */ each) => `${titleOf(each)} `.toLowerCase().startsWith(`${name} `.toLowerCase()));
+    if (group) group.firstChild.after(element); else this.element.append(element);
+  }
+
   /** How a person has them before them: the groups that are open, how far it is scrolled. */
   get held() {
     const open = this.groups.filter((/** @type {any} */ group) => group.open).map(titleOf);
@@ -81,7 +87,7 @@ export class Quantities {
     for (const choice of this.choices) choice.hidden = !has(choice.firstChild.textContent);
     for (const group of this.groups) {
       if (wanted) group.open = true;
-      group.hidden = Boolean(wanted) && ![...group.children].slice(1).some((row) => !row.hidden);
+      group.hidden = Boolean(wanted) && ![...group.querySelectorAll(".camkit-row, .camkit-choice")].some((row) => !row.hidden);
     }
     this.nothing.hidden = this.groups.some((/** @type {HTMLElement} */ group) => !group.hidden);
   }

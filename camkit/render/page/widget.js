@@ -44,13 +44,13 @@ async function view({ model, el }) {
   let at = 0; // by the clock of this view, which others do not have
   const own = Math.random(), leaving = new AbortController();
   let heardAt = 0; // what the kernel hears in any case before a cell that is run now
-  /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question */
-  const ask = (question) => {
+  /** Ask the kernel for something, with what is shown: a question may overtake that. @param {any} question @param {ArrayBuffer[]} [buffers] */
+  const ask = (question, buffers) => {
     const { structure: { make }, values, history: { count } } = panel;
     clearTimeout(panel.reporting);
     panel.reported = [...values.slice(0, count)];
     heardAt = at = Math.max(at + 1, Date.now());
-    model.send({ ...question, values: panel.reported, said: { at, make, view: own } });
+    model.send({ ...question, values: panel.reported, said: { at, make, view: own } }, undefined, buffers);
   };
   const host = {
     changed(/** @type {number[]} */ values, /** @type {(number | null)[]} */ computed) {
@@ -65,7 +65,7 @@ async function view({ model, el }) {
     reset: () => ask({ reset: true }),
     choose: (/** @type {string} */ path, /** @type {string} */ option) => ask({ choose: [path, option] }),
     file: (/** @type {string} */ kind) => { saving = true; ask({ file: kind }); },
-    open: (/** @type {string} */ text) => ask({ open: text }),
+    open: async (/** @type {File} */ file) => ask({ open: file.name }, [await file.slice(0, panel.structure.most).arrayBuffer()]),
     name: (/** @type {any} */ asked) => ask({ session: asked }),
     study: () => ask({ study: true }),
   };
@@ -128,7 +128,7 @@ async function view({ model, el }) {
     "change:program": begin,
     "change:tabs": dock,
     "change:made": tell,
-    "change:opened": () => { void dock().then(() => panel?.showTab(model.get("opened"))); },
+    "change:opened": () => { void ready.then(dock).then(() => panel?.showTab(model.get("opened"))); },
     "change:values": moved,
     "change:message": () => panel?.say(model.get("message")),
     "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {

@@ -1,0 +1,89 @@
+"""What the page of an instrument opens and saves, and the tabs that open with that."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import ipywidgets as w
+import traitlets
+
+from ...files import designs
+from ...files.json_file import MOST_BYTES
+from ...motion import TableMotion
+from ...quantities import words
+from .design_files import file_of, files_of, remarked
+from .motions_in import motions_in
+from .sheet import IMPOSSIBLE, reason
+
+TABLES = ".csv,.txt,.tsv,.dat,.asc,.xlsx"
+"""The names of files that may hold a table end so."""
+
+
+class Files(w.DOMWidget):
+    """An instrument whose page opens saved designs and tables of motions, and saves what it shows."""
+
+    message = traitlets.Unicode().tag(sync=True)
+    tabs = traitlets.List().tag(sync=True, **w.widget_serialization)  # type: ignore[var-annotated]
+    """What stands beside the curves, by its title: sheets."""
+    opened = traitlets.Unicode().tag(sync=True)
+    """The tab that is to be seen now, by its title."""
+    design: Any
+    analysis: Any
+
+    @property
+    def files(self) -> Mapping[str, object]:
+        """What the page saves; of what it opens the most bytes, and what motions are called that a table can give."""
+        motions = list(map(words, motions_in(self.design)))
+        return {"files": files_of(self.analysis), "most": MOST_BYTES + 1, "tables": motions, "readable": TABLES}
+
+    def open_file(self, file: bytes, name: str = "") -> None:
+        """Show what a file holds: a saved design, or a table as the motion of this one (see `table_panel`)."""
+        if name.endswith(".json") or _is_json(file) or not motions_in(self.design):
+            self.load_json(file)
+            return
+        from .. import tables  # they stand on this one
+
+        panel = tables.table_panel(self)
+        self.opened = ""  # it may have been left since
+        self.opened = tables.TITLE
+        panel.read(file)
+
+    def load_json(self, file: str | bytes) -> None:
+        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
+        try:
+            found = designs.read_json(file, type(self.design))
+            found.thing.analyse()
+        except IMPOSSIBLE as refusal:
+            self.message = f"This file cannot be used: {reason(refusal)}."
+        else:
+            self.load(found.thing)
+            if self.design == found.thing:  # else it cannot be computed, which the page says
+                self.message = remarked(found)
+
+    def load(self, design: Any) -> None:
+        """Show a design, or say why not."""
+        raise NotImplementedError
+
+    def send_file(self, kind: str) -> None:
+        """Give the page a file of what it shows."""
+        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [file_of(self, kind)])
+
+    def open_study(self) -> None:
+        """Open the tab in which a study is made."""
+        from ..study import StudyPanel
+
+        if not any(tab["title"] == "Study" for tab in self.tabs):  # another page, or one of another make, may ask again
+            StudyPanel(self)
+
+    def show_table(self) -> None:
+        """Open a tab that says what was understood of a table, for a design whose motion is from one."""
+        if any(isinstance(motion, TableMotion) for motion in motions_in(self.design).values()):
+            from ..tables import table_panel
+
+            table_panel(self)
+
+
+def _is_json(file: bytes) -> bool:
+    """Whether a file begins as a saved design does."""
+    return file[:99].replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"{")
