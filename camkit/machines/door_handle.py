@@ -127,6 +127,10 @@ class DoorHandleCam(Design):
         """What the relief crank's load shares with the lift crank's."""
         return {f"relief_load.{name}": f"it is that of the lift_load: lift_load.{name}" for name in SHARED}
 
+    def suited(self) -> bool:
+        """Whether the motion law suits both curves."""
+        return self.lift.motion.suited() and self.relief.motion.suited()
+
     @cached_property
     def lift(self) -> OscillatingRollerCam:
         """The lift curve: dwell, then rise; its arm swings against the cam's rotation."""

@@ -184,6 +184,10 @@ class HighSpeedCam(FreeLawCam):
         back = Return(self.return_angle, self.swing, self.return_law)
         return MotionProgram((away, Dwell(self.dwell_angle), back, Dwell(self.dwell_angle)))
 
+    def suited(self) -> bool:
+        """Whether the two laws suit the dwells."""
+        return self.motion.suited()
+
     def angles(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Cam angles of the whole turn, of the rise and of the return, ``n`` even ones in either of these."""
         n = counted(n, "angles", 5)

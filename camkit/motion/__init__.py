@@ -4,12 +4,16 @@ from .families.constant_velocity import ConstantVelocity
 from .families.free import Degree9, FreePolynomial
 from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
 from .families.harmonic import Cycloidal, SimpleHarmonic
-from .families.modified import ModifiedSine, ModifiedTrapezoid
+from .families.mirrored import Mirrored
+from .families.modified import ModifiedConstantVelocity, ModifiedSine, ModifiedTrapezoid
 from .families.plain import HALF_LAWS, LAWS
 from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
+from .families.powers import PowerPolynomial
 from .families.shaped import DEGREE9, SPLINE, ShapedLaw
+from .families.sines import Freudenstein, Gutman, SumOfSines
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
+from .families.to_nose import DoubleHarmonic, EighthOrder
 from .form import FormedProgram, FormError
 from .law import Kinematics, Law, Peaks
 from .program import MotionProgram, motion_in
@@ -27,16 +31,22 @@ __all__ = [
     "ConstantVelocity",
     "Cycloidal",
     "Degree9",
+    "DoubleHarmonic",
     "Dwell",
+    "EighthOrder",
     "FormError",
     "FormedProgram",
     "FreePolynomial",
+    "Freudenstein",
+    "Gutman",
     "HalfCycloidalEnd",
     "HalfCycloidalStart",
     "HalfHarmonicEnd",
     "HalfHarmonicStart",
     "Kinematics",
     "Law",
+    "Mirrored",
+    "ModifiedConstantVelocity",
     "ModifiedSine",
     "ModifiedTrapezoid",
     "MotionProgram",
@@ -45,6 +55,7 @@ __all__ = [
     "Poly345",
     "Poly4567",
     "Poly56789",
+    "PowerPolynomial",
     "ProgramPeaks",
     "Return",
     "Rise",
@@ -53,6 +64,7 @@ __all__ = [
     "SimpleHarmonic",
     "Skewed",
     "SplineLaw",
+    "SumOfSines",
     "TableLaw",
     "TableMotion",
     "Transition",

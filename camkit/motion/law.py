@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,8 +57,10 @@ class Law(Kinked, Declared, ABC):
     population of ``p`` laws; the four results then have the shape ``(p, n)``.
     """
 
-    name: ClassVar[str]
-    """What the law is called in menus and files."""
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """What the law is called in menus and files."""
 
     @property
     @abstractmethod

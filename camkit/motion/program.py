@@ -158,6 +158,10 @@ class MotionProgram(Declared):
         """Where the follower is after a turn, in words."""
         return "back to where the turn began" if certain(self.comes_back) else "on by the advance of a turn"
 
+    def suited(self) -> bool:
+        """Whether neither the level nor the velocity jumps at a joint, as with a half law that meets a dwell."""
+        return all(joint.order in (None, 2, 3) for joint in self.transitions())
+
     def changed(self, changes: Mapping[str, Any]) -> MotionProgram:
         """With other segments by name; a turn is closed again."""
         segments = [changes.get(name, segment) for name, segment in zip(self.names, self.segments, strict=True)]

@@ -15,19 +15,33 @@ from ..units import in_unit
 from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial
 from .families.harmonic import Cycloidal
+from .families.mirrored import Mirrored
+from .families.modified import ModifiedConstantVelocity
 from .families.plain import HALF_LAWS, LAWS
+from .families.powers import PowerPolynomial
 from .families.shaped import ShapedLaw
+from .families.sines import Freudenstein, Gutman, SumOfSines
 from .families.skewed import Skewed
 from .families.spline import SplineLaw
+from .families.to_nose import DoubleHarmonic, EighthOrder
 from .law import Kinematics, Kinked, Law
 
 LAW_MENU: tuple[Law, ...] = (
     *LAWS,
+    Gutman(),
+    Freudenstein(),
+    SumOfSines(),
     ShapedLaw(),
     FreePolynomial(),
+    PowerPolynomial(),
     SplineLaw((0.25, 0.5, 0.75), (0.1, 0.5, 0.9)),
     ConstantVelocity(),
+    ModifiedConstantVelocity(),
     Skewed(Cycloidal()),
+    DoubleHarmonic(),
+    EighthOrder(),
+    Mirrored(DoubleHarmonic()),
+    Mirrored(EighthOrder()),
     *HALF_LAWS,
 )
 """What the law of a segment can be, for a menu."""

@@ -40,7 +40,8 @@ class Transition:
     """A joint of a program: its cam ``angle`` (rad) and the jumps of ``s, v, a, j`` there, after minus before.
 
     Jumps are in the follower's unit (m or rad) per rad^k.  ``order`` is that of the lowest derivative that
-    jumps (0 position ... 3 jerk), ``None`` where all four are continuous.
+    jumps (0 position ... 3 jerk), ``None`` where all four are continuous.  A jump is ``inf`` where a law begins or ends
+    with an infinite derivative, as a polynomial with an exponent between 2 and 3 does.
     """
 
     angle: float
@@ -52,8 +53,8 @@ class Transition:
 
     @property
     def lawful(self) -> bool:
-        """Whether the fundamental law holds: no jump of position, velocity or acceleration."""
-        return self.order is None or self.order == 3
+        """Whether the fundamental law holds: no jump of position, velocity or acceleration, and no infinite jerk."""
+        return self.order is None or (self.order == 3 and bool(np.isfinite(self.j)))
 
     @property
     def verdict(self) -> str:
@@ -70,6 +71,8 @@ class Transition:
         if self.order is None:
             return f"{place}: smooth"
         size = (self.s, self.v, self.a, self.j)[self.order] / factor(unit)
+        if not np.isfinite(size):
+            return f"{place}: {MEANINGS[self.order - 1]}"
         told = f"{NAMES[self.order]} step {size:.4g} {unit or 'follower units'}{PER[self.order]}"
         return f"{place}: {told}, {MEANINGS[self.order]}"
 
@@ -90,7 +93,7 @@ def find_transitions(program: MotionProgram) -> list[Transition]:
 
 def _transition(angle: Value, before: Kinematics, after: Kinematics, scales: list[Value]) -> Transition:
     s, v, a, j = (float(y - x) for x, y in zip(before, after, strict=True))
-    broken = [abs(jump) > SMOOTH * scale for jump, scale in zip((s, v, a, j), scales, strict=True)]
+    broken = [not abs(jump) <= SMOOTH * scale for jump, scale in zip((s, v, a, j), scales, strict=True)]
     return Transition(float(angle), s, v, a, j, broken.index(True) if any(broken) else None)
 
 
@@ -143,12 +146,13 @@ def _inner(program: MotionProgram, k: int) -> list[tuple[Value, Value]]:
 
 
 def _infinite(program: MotionProgram, k: int) -> list[tuple[Value, Value]]:
-    """``inf`` for each place where a derivative below ``k`` jumps, 0 where none does."""
+    """``inf`` for each place where a derivative below ``k`` jumps or that of order ``k`` is infinite, 0 elsewhere."""
     scales = _scales(program)[:k]
     found: list[tuple[Value, Value]] = []
     for angle, before, after in [*_sides(program), *_kink_sides(program)]:
         jumps = [np.abs(y - x) > SMOOTH * scale for x, y, scale in zip(before, after, scales, strict=False)]
-        found.append((np.where(np.logical_or.reduce(np.broadcast_arrays(*jumps)), np.inf, 0.0), angle))
+        endless = [np.isinf(side[k]) for side in (before, after)]
+        found.append((np.where(np.logical_or.reduce(np.broadcast_arrays(*jumps, *endless)), np.inf, 0.0), angle))
     return found
 
 

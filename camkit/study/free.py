@@ -15,6 +15,7 @@ import numpy as np
 
 from ..quantities import Choice, Declared, Paths, Quantity, declared_in, value_of, with_quantities, words
 from ..quantities.kinds import number, shown
+from ..quantities.tree import a_design
 from ..quantities.types import Array
 
 Free = Mapping[Any, Any]
@@ -127,9 +128,10 @@ def _alike(value: Any, option: Any, free: Sequence[str]) -> bool:
 def freed(start: object, given: Free | Sequence[Any]) -> dict[str, tuple[float, float] | Menu]:
     """What a study frees, in order: the bounds of quantities, and menus; ``ValueError`` in a sentence for what is none.
 
-    A tuple of paths stands for menus and ranges as they are declared.  A quantity has two bounds, or a set of sizes; a
-    choice has a tuple of options; both may have a mapping from names to options.  A tuple of paths that move together
-    has options with a value for each of them, or with one for all.
+    A tuple of paths stands for ranges as they are declared, and for the options of menus with which the parts of the
+    design go together: a half law that would strike at a dwell is tried where it is named.  A quantity has two bounds,
+    or a set of sizes; a choice has a tuple of options; both may have a mapping from names to options.  A tuple of paths
+    that move together has options with a value for each of them, or with one for all.
     """
     for name in given:
         if not all(isinstance(path, str) for path in (name if isinstance(name, tuple) else (name,))):
@@ -148,6 +150,7 @@ def freed(start: object, given: Free | Sequence[Any]) -> dict[str, tuple[float, 
             refuse_bounds(declared, {key: bounds})
             free[key] = (float(bounds[0]), float(bounds[1]))
         else:
+            value = _suited(start, declared) if value is None else value
             menus.append(value if isinstance(value, Menu) else _menu(declared, value))
             free[menus[-1].name] = menus[-1]
     every = [path for name, value in free.items() for path in (value.paths if isinstance(value, Menu) else (name,))]
@@ -179,10 +182,8 @@ def brought_by(start: object, menus: Iterable[Menu]) -> dict[str, Any]:
 
 def _menu(declared: Mapping[str, Any], given: Any) -> Menu:
     """A menu at some paths, of options as `freed` takes them."""
-    paths, first = tuple(declared), next(iter(declared.values()))
+    paths = tuple(declared)
     told = words(", ".join(paths))
-    if given is None and isinstance(first, Choice):
-        given = first.named
     if isinstance(given, (set, frozenset)):
         given = sorted(given) if all(map(is_number, given)) else [*given]
     if not isinstance(given, (Mapping, Sequence, np.ndarray)) or isinstance(given, str):
@@ -200,6 +201,27 @@ def _menu(declared: Mapping[str, Any], given: Any) -> Menu:
         options[name] = option
     of_sizes = all(isinstance(d, Quantity) for d in declared.values())
     return Menu(paths, tuple(options), tuple(options.values()), of_sizes)
+
+
+def _suited(start: object, declared: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The options of a menu with which the parts of ``start`` go together, by name; all where none of them does."""
+    first = next(iter(declared.values()))
+    if not isinstance(first, Choice):
+        return None
+    return {name: option for name, option in first.named.items() if _suits(start, declared, option)} or first.named
+
+
+def _suits(start: object, paths: Iterable[str], option: Any) -> bool:
+    """Whether the parts of ``start`` go together with an option; what it cannot have is left to the study."""
+    with suppress(ValueError):
+        return _go_together(a_design(with_quantities(start, dict.fromkeys(paths, option))))
+    return True
+
+
+def _go_together(part: Declared) -> bool:
+    """Whether a part, and each that it holds, says of what it is made of that this is ``suited`` to each other."""
+    suited = getattr(part, "suited", None)
+    return (suited is None or suited()) and all(map(_go_together, part.branches().values()))
 
 
 def _option(declared: Mapping[str, Any], given: Any) -> tuple[Any, ...]:

@@ -14,16 +14,26 @@ from camkit.motion import (
     ConstantVelocity,
     Cycloidal,
     Degree9,
+    DoubleHarmonic,
+    EighthOrder,
     FreePolynomial,
+    Freudenstein,
+    Gutman,
+    HalfCycloidalEnd,
     HalfCycloidalStart,
+    Mirrored,
+    ModifiedConstantVelocity,
     ModifiedSine,
     ModifiedTrapezoid,
     Parabolic,
     Poly345,
     Poly4567,
+    Poly56789,
+    PowerPolynomial,
     SimpleHarmonic,
     Skewed,
     SplineLaw,
+    SumOfSines,
     TableLaw,
 )
 from camkit.motion.families.shaped import SPLINE, ShapedLaw
@@ -44,6 +54,16 @@ DWELL_LAWS = [
     Skewed(ModifiedTrapezoid(), 0.6),
     Skewed(SimpleHarmonic(), 0.45),
     Skewed(Parabolic(), 0.4),
+    Gutman(),
+    Freudenstein(),
+    SumOfSines(0.1, -0.03),
+    ModifiedConstantVelocity(),
+    ModifiedConstantVelocity(0.0),
+    ModifiedConstantVelocity(0.6),
+    PowerPolynomial((4, 5, 7, 9)),
+    PowerPolynomial((3.5, 4.2, 6)),
+    PowerPolynomial((5, 7, 9, 11, 13)),
+    Mirrored(Skewed(Cycloidal(), 0.35)),
 ]
 MOVING_LAWS = [
     *HALF_LAWS,
@@ -52,6 +72,12 @@ MOVING_LAWS = [
     FreePolynomial((0, None, 0), (1, 2, None)),
     SplineLaw((0.5,), (0.4,), (0.5, 0.0), (1.0, 0.0)),
     SplineLaw((0.4,), (0.4,), (0.0,), (1.0,)),
+    DoubleHarmonic(),
+    EighthOrder(),
+    Mirrored(DoubleHarmonic()),
+    Mirrored(EighthOrder()),
+    PowerPolynomial((3, 4, 6, 7.5), (0.5, 1, 2)),
+    PowerPolynomial((2, 3, 6)),
 ]
 EVERY_LAW = DWELL_LAWS + MOVING_LAWS
 
@@ -146,7 +172,18 @@ def test_shapes_and_the_outside(law):
     assert law(1 + 1e-12).s == law(1.0).s
 
 
-@pytest.mark.parametrize("law", [*LAWS, ConstantVelocity(), ConstantVelocity(0.1, "parabolic")], ids=named)
+@pytest.mark.parametrize(
+    "law",
+    [
+        *LAWS,
+        ConstantVelocity(),
+        ConstantVelocity(0.1, "parabolic"),
+        Gutman(),
+        Freudenstein(),
+        ModifiedConstantVelocity(),
+    ],
+    ids=named,
+)
 def test_symmetric(law):
     u = np.linspace(0, 0.499, 50)
     s, v, a, j = law(u)
@@ -169,6 +206,16 @@ def test_symmetric(law):
         (SplineLaw((), ()), Poly345()),
         (SplineLaw((), (), (0, 0, 0), (0, 0, 0)), Poly4567()),
         (Skewed(ModifiedSine(), 0.5), ModifiedSine()),
+        (SumOfSines(0, 0), Cycloidal()),
+        (SumOfSines(1 / 16), Gutman()),
+        (ModifiedConstantVelocity(0), ModifiedSine()),
+        (PowerPolynomial(), Poly345()),
+        (PowerPolynomial((4, 5, 6, 7)), Poly4567()),
+        (PowerPolynomial((5, 6, 7, 8, 9)), Poly56789()),
+        (PowerPolynomial((3, 4, 5), (0.5, -2)), FreePolynomial((0, 0, 0), (1, 0.5, -2))),
+        (PowerPolynomial((2, 3), (1.5,)), FreePolynomial((0, 0), (1, 1.5))),
+        (Mirrored(HalfCycloidalStart()), HalfCycloidalEnd()),
+        (Mirrored(Poly345()), Poly345()),
         (TableLaw((0, 1), (0, 1)), Poly345()),
         (TableLaw(ROWS, ROWS, 1.0), Poly345()),
     ],
@@ -254,6 +301,11 @@ columns = np.array([[0.1], [0.2], [0.4]])
         lambda x: Skewed(Cycloidal(), x),
         lambda x: Skewed(ModifiedTrapezoid(), x),
         lambda x: Skewed(ConstantVelocity(x), 0.4),
+        lambda x: SumOfSines(x, -x / 4),
+        lambda x: ModifiedConstantVelocity(x),
+        lambda x: Mirrored(ModifiedConstantVelocity(x)),
+        lambda x: PowerPolynomial((3 + x, 5, 6 - x)),
+        lambda x: PowerPolynomial((2.5, 3 + x, 5), (x, -2 * x)),
     ],
 )
 @pytest.mark.parametrize("u", [u6, np.stack([u6, u6**2, 1 - u6])])
@@ -270,8 +322,10 @@ def test_a_population_equals_its_members(law_of, u):
 
 def test_a_population_has_nan_where_a_member_cannot_be():
     bad = np.array([[0.2], [-1.0], [np.nan]])
-    for law in (ConstantVelocity(bad), Skewed(Cycloidal(), bad)):
+    powers = PowerPolynomial((3, 4 + bad, 4.1 + 0 * bad)), PowerPolynomial((2.7 + 2 * np.abs(bad - 0.2), 3))
+    for law in (ConstantVelocity(bad), Skewed(Cycloidal(), bad), ModifiedConstantVelocity(bad), powers[1]):
         assert np.isfinite(law(u6).s).all(axis=-1).tolist() == [True, False, False]
+    assert np.isnan(powers[0](u6).s).all(axis=-1).tolist() == [True, True, True]
 
 
 @pytest.mark.parametrize(
@@ -300,6 +354,43 @@ def test_a_population_has_nan_where_a_member_cannot_be():
         (
             lambda: Skewed("cycloidal", 0.4),
             "the law to be skewed is 'cycloidal'; it must be a motion law such as Cycloidal()",
+        ),
+        (
+            lambda: ModifiedConstantVelocity(1.0),
+            "the share of constant velocity is 1; it must be at least 0 and below 1",
+        ),
+        (
+            lambda: Mirrored(Cycloidal),
+            "the law to be mirrored is the class Cycloidal; it must be a motion law such as DoubleHarmonic()",
+        ),
+        (
+            lambda: PowerPolynomial(()),
+            "the polynomial has 0 exponents; it must have from 1 to 8",
+        ),
+        (
+            lambda: PowerPolynomial((3, 1, 5)),
+            "the exponent 2 of the polynomial is 1; it must be a finite number above 1",
+        ),
+        (
+            lambda: PowerPolynomial((3, 5, 4)),
+            "the exponent 3 of the polynomial is 4 after 5; each must be above the one before",
+        ),
+        (
+            lambda: PowerPolynomial((3, "4", 5)),
+            "the exponent 2 of the polynomial is '4'; it must be a finite number above 1 and at most 60",
+        ),
+        (
+            lambda: PowerPolynomial((3, 4), (0, 1)),
+            "the polynomial has 2 values v, a, j at its end and 2 exponents; it can have one value fewer than "
+            "exponents, and three at most",
+        ),
+        (
+            lambda: PowerPolynomial((3, 4), (np.inf,)),
+            "v at the end of the polynomial is inf; it must be a finite number",
+        ),
+        (
+            lambda: SumOfSines(np.nan),
+            "the third (share of the third harmonic) is nan; it must be a finite number",
         ),
         (
             lambda: FreePolynomial((None, 0), (None, 0)),

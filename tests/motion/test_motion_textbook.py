@@ -1,5 +1,8 @@
 """Motion laws against printed tables."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,13 +10,22 @@ from camkit.motion import (
     LAWS,
     Cycloidal,
     Degree9,
+    DoubleHarmonic,
+    Dwell,
+    EighthOrder,
     FreePolynomial,
+    Freudenstein,
+    Gutman,
+    Mirrored,
+    ModifiedConstantVelocity,
     ModifiedTrapezoid,
     MotionProgram,
     Poly345,
+    PowerPolynomial,
     Return,
     Rise,
     SimpleHarmonic,
+    SumOfSines,
 )
 from camkit.units import deg, mm, rpm
 
@@ -103,3 +115,115 @@ def test_345_peaks_of_the_high_speed_cam():
     assert (-a / s)[best] == pytest.approx(6.277462, abs=5e-7)
     assert k[best] == pytest.approx(0.755993, abs=2e-6)
     assert Poly345().peaks().Ca == pytest.approx(5.773503, abs=5e-7)
+
+
+# ---------------------------------------------------------------- laws beside those of the menu LAWS
+
+REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "motion_laws.json").read_text())["laws"]
+OF_REFERENCE = {
+    "double harmonic": DoubleHarmonic(),
+    "eighth order": EighthOrder(),
+    "mcv 0": ModifiedConstantVelocity(0),
+    "mcv 0.2": ModifiedConstantVelocity(0.2),
+    "mcv 0.333333": ModifiedConstantVelocity(1 / 3),
+    "mcv 0.6": ModifiedConstantVelocity(0.6),
+    "freudenstein 1-3": SumOfSines(1 / 28),
+    "freudenstein 1-3-5": Freudenstein(),
+    **{powers: PowerPolynomial([int(p) for p in powers.split("-")]) for powers in ("3-4-6", "3-5-7", "4-5-7-9")},
+    "5-7-9-11-13": PowerPolynomial((5, 7, 9, 11, 13)),
+}
+
+
+def test_every_reference_has_its_law():
+    assert {*OF_REFERENCE} == {*REFERENCE}
+
+
+@pytest.mark.parametrize("name", REFERENCE)
+def test_laws_against_twice_integrated_accelerations(name):
+    law, told = OF_REFERENCE[name], REFERENCE[name]
+    size = (1, told["Cv"], max(told["a_max"], -told["a_min"]), max(told["j_max"], -told["j_min"]))
+    assert law.peaks() == pytest.approx(size[1:], rel=1e-9)
+    assert law([0.25, 0.5, 0.75]).s == pytest.approx(told["s"], abs=1e-12)
+    assert [*law(0.3)] == pytest.approx(told["at_03"], abs=1e-10)
+    for u, ends in zip((0.0, 1.0), told["ends"], strict=True):
+        assert np.abs(np.array(law(u)[1:]) - ends) / size[1:] == pytest.approx(0, abs=1e-9)
+    u = np.linspace(0, 1, 200_001)
+    for k, letter in ((2, "a"), (3, "j")):
+        x = law(u)[k]
+        assert x.max() == pytest.approx(told[f"{letter}_max"], abs=1e-6 * size[k])
+        assert x.min() == pytest.approx(told[f"{letter}_min"], abs=1e-6 * size[k])
+
+
+@pytest.mark.parametrize("name", [name for name in REFERENCE if "coefficients" in REFERENCE[name]])
+def test_factors_of_powers(name):
+    assert OF_REFERENCE[name].c == pytest.approx(REFERENCE[name]["coefficients"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "printed"),
+    [
+        (ModifiedConstantVelocity(), ("1.28", "8.01", "201.4")),  # MCV50: VDI 2143; Neklutin
+        (Gutman(), ("2", "5.1302", "59.2176")),  # largest v at the middle; j(0) = 6 pi^2
+        (DoubleHarmonic(), ("2.04", "9.87", "42.4")),
+        (EighthOrder(), ("1.78", "5.268", "36.59")),
+    ],
+    ids=str,
+)
+def test_printed_peaks(law, printed):
+    for peak, text in zip(law.peaks(), printed, strict=True):
+        assert peak == pytest.approx(float(text), abs=0.51 * 10 ** -len(text.partition(".")[2]))
+
+
+@pytest.mark.parametrize("law", [DoubleHarmonic(), EighthOrder()], ids=lambda law: law.name)
+def test_a_return_from_the_nose_goes_on_with_the_acceleration_of_the_rise(law):
+    rise, back = Rise(90 * deg, 20 * mm, law), Return(90 * deg, 20 * mm, Mirrored(law))
+    nose = MotionProgram((rise, back, Dwell(180 * deg))).transitions()[0]
+    assert nose.order is None
+    struck = MotionProgram((rise, Return(90 * deg, 20 * mm, law), Dwell(180 * deg))).transitions()[0]
+    assert struck.order == 2
+
+
+REST, STRAIGHT, TURN, MOVING = (0.0, 0.0), (1.7, 0.0), (0.0, -3.1), (0.6, 2.3)
+
+
+@pytest.mark.parametrize("end", [REST, STRAIGHT, TURN, MOVING], ids=["R", "G", "U", "B"])
+@pytest.mark.parametrize("start", [REST, STRAIGHT, TURN, MOVING], ids=["R", "G", "U", "B"])
+def test_the_sixteen_pairs_of_vdi_2143(start, end):
+    """VDI 2143 part 1: from and to rest, constant velocity, a reversal and any motion, by the quintic's closed form."""
+    (v0, a0), (v1, a1) = start, end
+    law = FreePolynomial((0, v0, a0), (1, v1, a1))
+    d, e, f = 1 - v0 - a0 / 2, v1 - v0 - a0, a1 - a0
+    powers = np.polynomial.Polynomial(
+        [0, v0, a0 / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2]
+    )
+    u = np.linspace(0, 1, 21)
+    for k in range(4):
+        assert law(u)[k] == pytest.approx(powers.deriv(k)(u) if k else powers(u), abs=1e-10)
+
+
+@pytest.mark.parametrize(("velocity", "kept"), [(1.6, False), (5 / 3, True), (2.0, True), (2.5, True), (2.6, False)])
+def test_from_rest_to_a_constant_velocity_within_its_bounds(velocity, kept):
+    """A rise of 1 from rest to the velocity V: it neither passes V nor turns back for 5/3 <= V <= 5/2."""
+    v = FreePolynomial((0, 0, 0), (1, velocity, 0))(np.linspace(0, 1, 20_001)).v
+    assert (v.min() > -1e-9 and v.max() < velocity + 1e-9) == kept
+
+
+def test_to_twice_the_mean_velocity_there_is_a_polynomial_of_two_powers():
+    u = np.linspace(0, 1, 21)
+    assert FreePolynomial((0, 0, 0), (1, 2, 0))(u).s == pytest.approx(2 * u**3 - u**4, abs=1e-12)
+    assert PowerPolynomial((3, 4), (2,))(u).s == pytest.approx(2 * u**3 - u**4, abs=1e-12)
+
+
+def test_a_first_exponent_between_two_and_three_has_an_infinite_jerk():
+    law = PowerPolynomial((2.5, 4, 5))
+    assert law.continuity == 2
+    assert law.peaks().Cj == np.inf
+    rise, back = Rise(90 * deg, 20 * mm, law), Return(90 * deg, 20 * mm, law)
+    program = MotionProgram((Dwell(90 * deg), rise, Dwell(90 * deg), back))
+    joints = program.transitions()
+    assert [joint.lawful for joint in joints] == [False, True, False, True]
+    assert joints[0].text("mm") == "90°: infinite jerk: vibration, not for a fast cam"
+    assert program.peaks().jerk.value == np.inf
+    assert np.isfinite(program.peaks().acceleration.value)
+    assert PowerPolynomial((1.5, 4, 5)).peaks()[1:] == (np.inf, np.inf)
+    assert PowerPolynomial((2, 3)).peaks().Cj == pytest.approx(12)

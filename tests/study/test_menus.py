@@ -5,7 +5,18 @@ from itertools import product
 import numpy as np
 import pytest
 
-from camkit import Cycloidal, ModifiedSine, Poly345, Study, TranslatingRollerCam, deg, mm, shaft_study
+from camkit import (
+    Cycloidal,
+    DoorHandleCam,
+    HighSpeedCam,
+    ModifiedSine,
+    Poly345,
+    Study,
+    TranslatingRollerCam,
+    deg,
+    mm,
+    shaft_study,
+)
 from camkit.cam import (
     ContactPair,
     max_pressure_angle,
@@ -15,10 +26,10 @@ from camkit.cam import (
     peak_torque,
 )
 from camkit.machines import standard_tubes
-from camkit.motion import ShapedLaw
-from camkit.quantities import choices_of, value_of, with_quantities
+from camkit.motion import HALF_LAWS, LAW_MENU, Dwell, FreePolynomial, MotionProgram, Return, Rise, ShapedLaw
+from camkit.quantities import value_of, with_quantities
 from camkit.study import DesignMap, Sweep, general_tolerances
-from camkit.study.free import Menu
+from camkit.study.free import Menu, freed
 
 LAWS = (Cycloidal(), ModifiedSine(), ShapedLaw(Poly345()))
 BOTH = ("motion.rise.law", "motion.return.law")
@@ -94,15 +105,38 @@ def test_designs_with_the_same_options_are_judged_in_one_call(monkeypatch):
 
 
 def test_a_bare_path_frees_all_options_and_paths_can_move_together():
-    freed = Study(CAM, ("rotation", "motion.rise.law", "load.preload"), (peak_torque,))
-    assert [*freed.menus[1].options] == [*choices_of(CAM)["motion.rise.law"].named]
-    assert freed.declared["load.preload"].unit == "N"
-    assert freed.declared["rotation"].text(freed.x0[0]) == "counter-clockwise"
+    bare = Study(CAM, ("rotation", "motion.rise.law", "load.preload"), (peak_torque,))
+    assert [*bare.menus[1].options] == [law.name for law in LAW_MENU if law not in HALF_LAWS]
+    assert bare.declared["load.preload"].unit == "N"
+    assert bare.declared["rotation"].text(bare.x0[0]) == "counter-clockwise"
     both = Study(CAM, {BOTH: {"soft": ModifiedSine(), "mixed": (Cycloidal(), "3-4-5 polynomial")}}, (peak_torque,))
     mixed = both.design([1])
     assert [value_of(mixed, path).name for path in BOTH] == ["cycloidal", "3-4-5 polynomial"]
     assert (both.x_of(mixed).tolist(), both.declared[", ".join(BOTH)].text(1)) == ([1.0], "mixed")
     assert both.replace(free=both.free).free == both.free == both.around(mixed).free
+
+
+def tried(design, *paths):
+    """The options of a menu that is free as a whole."""
+    return {*freed(design, [paths])[", ".join(paths)].names}
+
+
+def test_of_a_menu_that_is_free_as_a_whole_the_options_that_go_with_the_rest_are_tried():
+    half, every = {law.name for law in HALF_LAWS}, {law.name for law in LAW_MENU}
+    assert tried(DoorHandleCam(), "motion_law") == tried(HighSpeedCam(), "return_law") == every - half
+    assert tried(CAM, "motion.rise.law", "motion.return.law") == every - half
+
+
+def test_a_half_law_is_tried_where_its_neighbour_moves_as_it_does():
+    straight = FreePolynomial((0,), (1,))
+    lead = (Rise(30 * deg, 5 * mm, HALF_LAWS[0]), Rise(30 * deg, 10 * mm, straight, name="straight"))
+    down = (Return(90 * deg, 15 * mm, Cycloidal()), Dwell(200 * deg))
+    cam = CAM.replace(motion=MotionProgram((*lead, Rise(10 * deg, 0.0, Cycloidal(), name="rest"), *down)))
+    assert tried(cam, "motion.rise.law") == {law.name for law in LAW_MENU}  # the straight piece strikes anyhow
+    smooth = (*lead, Rise(30 * deg, 5 * mm, HALF_LAWS[1], name="out"), Return(90 * deg, 20 * mm, Cycloidal()))
+    cam = CAM.replace(motion=MotionProgram((*smooth, Dwell(180 * deg))))
+    assert tried(cam, "motion.rise.law") == {"half cycloidal from rest"}
+    assert tried(cam, "motion.out.law") == {"half cycloidal to rest"}
 
 
 def test_sizes_of_a_catalogue_move_together():

@@ -1,4 +1,4 @@
-"""The laws that need no parameter, for menus."""
+"""Laws that need no parameter, for menus."""
 
 from ..law import Law
 from .half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
@@ -16,7 +16,7 @@ LAWS: tuple[Law, ...] = (
     Poly4567(),
     Poly56789(),
 )
-"""The laws that need no parameter, for a menu."""
+"""The classical laws from dwell to dwell that need no parameter, for a menu and to be compared."""
 
 HALF_LAWS: tuple[Law, ...] = (HalfCycloidalStart(), HalfCycloidalEnd(), HalfHarmonicStart(), HalfHarmonicEnd())
 """The laws between rest and a velocity, for a program that joins them to constant velocity."""
