@@ -18,6 +18,7 @@ from .cam import (
     SlideLoad,
     TranslatingFlatCam,
     TranslatingRollerCam,
+    motion_from_outline,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
 from .files import Decision, Session, profile_csv, profile_dxf, read, read_motion, write
@@ -149,6 +150,7 @@ __all__ = [
     "minimise",
     "mm",
     "most_isolated",
+    "motion_from_outline",
     "polish",
     "profile_csv",
     "profile_dxf",

@@ -112,6 +112,9 @@ HEIGHT = Measure("height", "mm", lambda analysis: analysis.pitch_radius.max(-1))
 STUDY = Study(TranslatingRollerCam(), ["base_radius"], [HEIGHT], at_most={HEIGHT: 0.06}, angles=31)
 BAD["study"] = STUDY
 
+TURNS = np.arange(24) * np.pi / 12
+CORNERS = ((0.03, -0.02), (0.03, 0.02), (-0.02, 0.02), (-0.02, -0.02))
+
 GIVEN = {
     Rise: (2.0, 0.02, LAW),
     Return: (2.0, 0.02, LAW),
@@ -140,6 +143,8 @@ GIVEN = {
     AnalysisCurve: ("pressure_angle", "deg", "pressure angle"),
     Quantity: ("x", 1.0, 0.0, 2.0, "mm", "a length"),
     Choice: ("law", LAW, (LAW,), "the law"),
+    camkit.cam.DrawnOutline: (CORNERS,),
+    camkit.cam.MeasuredOutline: (np.array([np.cos(TURNS), 0.2 + np.sin(TURNS)]) / 20,),
     Judgements: (("angle", "force"), [3]),
     Judges: ({"Anna": Judgements(("angle", "force"), [3]), "Ben": Judgements(("angle", "force"), [1])}, (1.0, 2.0)),
     Session: (STUDY, TranslatingRollerCam()),
@@ -149,7 +154,8 @@ GIVEN = {
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
 NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "Recheck", "SideBySide"}
-NOT_MADE_BY_HAND |= {"TableMotion", "TorqueBalance", "WeightedSum", "WinnerMap"}
+NOT_MADE_BY_HAND |= {"CamOutline", "ContactJump", "OutlineMotion", "TableMotion", "TorqueBalance", "WeightedSum"}
+NOT_MADE_BY_HAND |= {"WinnerMap"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]
 NAMES = {name: wing for wing in WINGS for name in wing.__all__ if name not in NOT_MADE_BY_HAND}

@@ -21,7 +21,9 @@ from .force_closure import (
     preload_needed,
     torque_balance,
 )
+from .from_outline import ContactJump, OutlineMotion, cam_from_outline, motion_from_outline
 from .loads import ArmLoad, Contact, Friction
+from .measured_outline import MeasuredOutline
 from .measures import (
     arm_acceleration,
     arm_travel,
@@ -42,6 +44,7 @@ from .measures import (
 )
 from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
+from .outlines import CamOutline, DrawnOutline
 from .pair import ConjugatePair, ConjugatePairAnalysis
 from .roller_analysis import RollerAnalysis
 from .shaking import vibration_at
@@ -52,17 +55,22 @@ from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
 __all__ = [
     "ArmLoad",
     "CamAnalysis",
+    "CamOutline",
     "ConjugatePair",
     "ConjugatePairAnalysis",
     "Contact",
+    "ContactJump",
     "ContactPair",
+    "DrawnOutline",
     "FlatAnalysis",
     "Friction",
+    "MeasuredOutline",
     "NoContact",
     "OscillatingFlatAnalysis",
     "OscillatingFlatCam",
     "OscillatingRollerAnalysis",
     "OscillatingRollerCam",
+    "OutlineMotion",
     "RollerAnalysis",
     "SlideFriction",
     "SlideLoad",
@@ -74,6 +82,7 @@ __all__ = [
     "arm_acceleration",
     "arm_travel",
     "base_radius",
+    "cam_from_outline",
     "contact_along",
     "face_width",
     "groove_gap",
@@ -87,6 +96,7 @@ __all__ = [
     "min_convex_radius",
     "min_force",
     "min_profile_radius",
+    "motion_from_outline",
     "peak_acceleration",
     "peak_force",
     "peak_pressure",
