@@ -61,11 +61,15 @@ class Transition:
         """What jumps, by how much, and what that means for the machine."""
         return self.text()
 
-    def text(self, unit: str = "") -> str:
+    def text(self, unit: str = "", speed: float | None = None) -> str:
         """The `verdict` with the jump in the follower's ``unit``, a length or an angle; without one as it is, SI.
+
+        At a ``speed`` of the shaft (rad/s) derivatives are those in time.
 
         >>> Transition(0.5235987756, 0, 0, 0, 0.1963, 3).text("mm")
         '30°: jerk step 196.3 mm/rad³, acceptable'
+        >>> Transition(0.5235987756, 0, 0, 0, 0.1963, 3).text("m", speed=10.0)
+        '30°: jerk step 196.3 m/s³, acceptable'
         """
         place = f"{in_unit(self.angle, 'deg'):.6g}°"
         if self.order is None:
@@ -73,7 +77,10 @@ class Transition:
         size = (self.s, self.v, self.a, self.j)[self.order] / factor(unit)
         if not np.isfinite(size):
             return f"{place}: {MEANINGS[self.order - 1]}"
-        told = f"{NAMES[self.order]} step {size:.4g} {unit or 'follower units'}{PER[self.order]}"
+        per = PER[self.order]
+        if speed is not None:
+            size, per = size * speed**self.order, per.replace("rad", "s")
+        told = f"{NAMES[self.order]} step {size:.4g} {unit or 'follower units'}{per}"
         return f"{place}: {told}, {MEANINGS[self.order]}"
 
 

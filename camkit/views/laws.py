@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..motion import Kinematics, Law, MotionProgram, residual_vibration
-from ..quantities.kinds import refuse_kinds
+from ..quantities.kinds import a_number, refuse_kinds
 from ..quantities.types import Array
 from ..units import deg, factor
 from .cam import MOTION
@@ -19,13 +19,53 @@ HAIR = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
 
 
+METRES = {"mm": "m", "cm": "m", "um": "m"}
+"""In which unit of length values in time are."""
+
+
+@dataclass(frozen=True)
+class MotionUnits:
+    """What a motion is shown in: the unit of its ``lift``, and per rad or, at a ``speed`` (rad/s), in time."""
+
+    lift: str = "mm"
+    speed: float | None = None
+
+    def __post_init__(self) -> None:
+        factor(self.lift)
+        if self.speed is not None:
+            a_number(self.speed, "the speed of the shaft", "be a finite number above 0", lambda speed: speed > 0)
+
+    def of(self, k: int) -> str:
+        """The unit of length or angle in that of the derivative of order ``k``."""
+        return self.lift if self.speed is None or k == 0 else METRES.get(self.lift, self.lift)
+
+    def name(self, k: int) -> str:
+        """The unit of the derivative of order ``k``."""
+        per = "/rad" if self.speed is None else "/s"
+        return self.of(k) + ("" if k == 0 else per if k == 1 else f"{per}^{k}")
+
+    def factor(self, k: int) -> float:
+        """How much one of it is in the follower's unit (m or rad) per rad^k."""
+        return factor(self.of(k)) / (1.0 if self.speed is None else self.speed**k)
+
+
 @dataclass(frozen=True)
 class ShownProgram:
-    """A motion program as it is drawn: ``n`` cam angles and both sides of every joint, lifts in ``unit``."""
+    """A motion program as it is drawn: ``n`` cam angles and both sides of every joint, lifts in ``unit``.
+
+    At a ``speed`` of the shaft (rad/s) derivatives are those in time, and ``over_time`` draws them over the time, too.
+    """
 
     program: MotionProgram
     unit: str = "mm"
     n: int = 721
+    speed: float | None = None
+    over_time: bool = False
+
+    @property
+    def units(self) -> MotionUnits:
+        """What numbers are shown in."""
+        return MotionUnits(self.unit, self.speed)
 
     @cached_property
     def joints(self) -> np.ndarray:
@@ -48,39 +88,48 @@ class ShownProgram:
         """Cam angles at which the fundamental law is broken, rad."""
         return np.array([joint.angle for joint in self.program.transitions() if not joint.lawful])
 
+    @property
+    def across(self) -> float:
+        """What cam angles (rad) are divided by for the axis."""
+        return self.speed if self.over_time and self.speed else deg
+
+    @property
+    def axis(self) -> str:
+        """The name of the axis."""
+        return "time  [s]" if self.over_time and self.speed else "cam angle  [deg]"
+
 
 def _derivative(shown: ShownProgram, k: int, name: str) -> Picture:
     """The ``k``-th derivative, with a cross wherever the fundamental law is broken."""
-    unit = shown.unit + ("" if k == 0 else "/rad" if k == 1 else f"/rad^{k}")
-    scale = factor(shown.unit)
+    scale, across = shown.units.factor(k), shown.across
     at = np.interp(shown.breaks, shown.cam_angle, shown.motion[k]) / scale
     return Picture.of(
-        Axes(title=name, xlabel="cam angle  [deg]", ylabel=f"{'svaj'[k]}  [{unit}]"),
-        Line("zero", shown.joints[[0, -1]] / deg, [0.0, 0.0], role="guide", stroke="thin"),
-        Line(name, shown.cam_angle / deg, shown.motion[k] / scale, role=MOTION[k], stroke="solid"),
-        Points("breaks", shown.breaks / deg, at, role="trouble", mark="cross", size=9),
+        Axes(title=name, xlabel=shown.axis, ylabel=f"{'svaj'[k]}  [{shown.units.name(k)}]"),
+        Line("zero", shown.joints[[0, -1]] / across, [0.0, 0.0], role="guide", stroke="thin"),
+        Line(name, shown.cam_angle / across, shown.motion[k] / scale, role=MOTION[k], stroke="solid"),
+        Points("breaks", shown.breaks / across, at, role="trouble", mark="cross", size=9),
     )
 
 
 def displacement(shown: ShownProgram) -> Picture:
     """Position, with a handle at every joint."""
     drawn = _derivative(shown, 0, "Displacement")
-    y = np.asarray(shown.program.levels, dtype=float) / factor(shown.unit)
-    return Picture.of(drawn.axes, drawn.marks, Points("handles", shown.joints / deg, y, size=10, fill="paper"))
+    y = np.asarray(shown.program.levels, dtype=float) / shown.units.factor(0)
+    return Picture.of(drawn.axes, drawn.marks, Points("handles", shown.joints / shown.across, y, size=10, fill="paper"))
 
 
 def velocity(shown: ShownProgram) -> Picture:
-    """First derivative with respect to the cam angle."""
+    """First derivative with respect to the cam angle, or to time."""
     return _derivative(shown, 1, "Velocity")
 
 
 def acceleration(shown: ShownProgram) -> Picture:
-    """Second derivative with respect to the cam angle."""
+    """Second derivative with respect to the cam angle, or to time."""
     return _derivative(shown, 2, "Acceleration")
 
 
 def jerk(shown: ShownProgram) -> Picture:
-    """Third derivative with respect to the cam angle."""
+    """Third derivative with respect to the cam angle, or to time."""
     return _derivative(shown, 3, "Jerk")
 
 

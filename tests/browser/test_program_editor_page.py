@@ -62,25 +62,47 @@ def test_a_handle_follows_the_pointer_and_the_rows_follow_the_handle(page: Page,
 
 
 def test_verdicts_follow_the_law_and_a_program_that_cannot_be_is_said(page: Page, editor: Locator) -> None:
-    expect(editor.locator(".camkit-missed").first).to_contain_text("180°: acceleration step")
+    expect(editor.get_by_role("status").first).to_have_text("✗ The motion is not smooth at 180°, 300°.")
+    expect(editor.locator(".camkit-transition .camkit-missed").first).to_contain_text("180°: acceleration step")
     segment(editor, 4).get_by_role("combobox", name="law").select_option("cycloidal")
     expect(editor.locator(".camkit-missed")).to_have_count(0)
     box = segment(editor, 2).get_by_role("textbox", name="angle, deg")
-    box.fill("200")
+    box.fill("390")
     box.press("Enter")
-    expect(editor.get_by_role("alert").filter(has_text="it can span at most 360 °")).to_be_visible()
-    expect(editor.locator("canvas").first).to_be_hidden()
+    expect(editor.get_by_role("alert").filter(has_text="the others it can be 356 °")).to_be_visible()
+    expect(editor.locator("canvas").first).to_be_visible()
     box.fill("80°")
     box.press("Enter")
-    expect(editor.locator("canvas").first).to_be_visible()
+    expect(segment(editor, 3).get_by_role("textbox", name="angle, deg")).to_have_value("55")
     assert kernel_value(page, "editor.program.segments[1].angle / deg") == pytest.approx(80)
 
 
+def test_undo_and_what_makes_a_transition_smooth(page: Page, editor: Locator) -> None:
+    editor.get_by_role("button", name="Make it smooth").first.click()
+    expect(editor.get_by_role("status").first).to_contain_text("continuous all around")
+    expect(editor.get_by_role("button", name="Make it smooth")).to_have_count(0)
+    editor.get_by_role("button", name="Undo").click()
+    expect(editor.get_by_role("status").first).to_contain_text("not smooth at 180°, 300°")
+    assert kernel_value(page, "editor.program == editor.start")
+
+
+def test_a_laws_number_is_typed_below_it(page: Page, editor: Locator) -> None:
+    segment(editor, 2).get_by_role("combobox", name="law").select_option("constant velocity with blends")
+    box = editor.get_by_role("textbox", name="blend")
+    expect(box).to_have_value("0.25")
+    box.fill("0,4")
+    box.press("Enter")
+    eventually(lambda: kernel_value(page, "editor.program.segments[1].law.blend") == 0.4)
+    segment(editor, 2).get_by_role("combobox", name="law").select_option("cycloidal")
+    expect(box).to_have_count(0)
+
+
 def test_segments_come_and_go(page: Page, editor: Locator) -> None:
-    segment(editor, 1).get_by_role("button", name="Remove").click()
+    segment(editor, 1).get_by_role("button", name="remove this segment").click()
     expect(segment(editor, 5)).to_have_count(0)
     expect(segment(editor, 1).get_by_role("textbox", name="lift, mm")).to_have_value("20")
-    editor.get_by_role("button", name="Add a segment").click()
+    expect(segment(editor, 1).get_by_role("textbox", name="angle, deg")).to_have_value("135")
+    segment(editor, 4).get_by_role("button", name="insert a segment after this one").click()
     expect(segment(editor, 5).get_by_role("combobox", name="kind")).to_have_value("1")
-    expect(segment(editor, 5).get_by_role("textbox", name="angle, deg")).to_have_value("45")
+    expect(segment(editor, 5).get_by_role("textbox", name="angle, deg")).to_have_value("30")
     expect(segment(editor, 5).get_by_role("textbox", name="lift")).to_be_hidden()

@@ -170,6 +170,8 @@ class Amount(Input):
     kind = "amount"
     value = traitlets.Float(0.0).tag(page=True)
     unit = traitlets.Unicode("").tag(page=True)
+    named = traitlets.Bool(False).tag(page=True)
+    """Whether its description stands before it, to be seen."""
 
 
 class Typed(Input):

@@ -128,6 +128,8 @@ class Button(Part):
     description = traitlets.Unicode("").tag(page=True)
     disabled = traitlets.Bool(False).tag(page=True)
     primary = traitlets.Bool(False).tag(page=True)
+    look = traitlets.Unicode("").tag(page=True)
+    """"icon": its description is a sign, and its tooltip what is read aloud."""
 
     def __init__(self, description: str, act: Callable[[], object], **given: object) -> None:
         self.act = act

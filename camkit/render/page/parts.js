@@ -55,9 +55,11 @@ export const PARTS = {
 
   button(_, { say }) {
     const element = make("button", { type: "button", onclick: () => say({}) });
-    return { element, show({ description, disabled, tooltip, primary }) {
+    return { element, show({ description, disabled, tooltip, primary, look }) {
       Object.assign(element, { textContent: description, disabled, title: tooltip });
       element.classList.toggle("camkit-primary", primary);
+      element.classList.toggle("camkit-icon", look === "icon");
+      if (look === "icon") element.setAttribute("aria-label", tooltip);
     } };
   },
 
@@ -133,6 +135,7 @@ export const PARTS = {
   },
 
   amount(_, { say, units }) {
+    const title = make("span", {});
     const box = make("input", { type: "text", inputmode: "decimal", autocomplete: "off", size: 8 });
     const unit = make("span", { class: "camkit-unit" }), refusal = make("div", { class: "camkit-refusal", role: "alert" });
     /** @type {any} */ let state = null;
@@ -146,8 +149,8 @@ export const PARTS = {
     };
     box.addEventListener("change", take);
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
-    return { element: make("span", { class: "camkit-amount" }, make("span", { class: "camkit-box" }, box, unit), refusal), show(now) {
-      state = now;
+    return { element: make("span", { class: "camkit-amount" }, title, make("span", { class: "camkit-box" }, box, unit), refusal), show(now) {
+      state = now; title.textContent = now.named ? now.description : "";
       box.value = box.defaultValue = told = written(); box.disabled = now.disabled; box.title = now.tooltip;
       const { unit: name } = shown();
       box.setAttribute("aria-label", name ? `${now.description}, ${name}` : now.description);

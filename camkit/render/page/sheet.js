@@ -192,7 +192,7 @@ const KINDS = {
     const inside = make("div", {}), folds = ["fold", "room"].includes(kind), name = make("summary", { tabindex: "0" });
     const element = folds ? make("details", { class: "camkit-fold", open: kind === "room" && innerHeight >= ROOM, ontoggle: () => sheet.draw() }, name, inside) : inside;
     return { element, inside, show(/** @type {any} */ { row, look, description, open }) {
-      inside.className = `camkit-group ${row ? "camkit-line" : ""} ${look && !folds ? `camkit-${look}` : ""}`;
+      inside.className = `camkit-group ${row ? "camkit-line" : ""} ${look && !folds ? look.replace(/\w+/g, "camkit-$&") : ""}`;
       if (folds) { name.textContent = description; element.open ||= open; }
       else if (description) { element.setAttribute("role", "group"); element.setAttribute("aria-label", description); }
     } };
