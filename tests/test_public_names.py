@@ -17,6 +17,7 @@ from test_kinds import BAD, CLASSES, FUNCTIONS, NOT_MADE_BY_HAND, outcome
 
 import camkit
 from camkit import Judgements, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
+from camkit.dynamics import ElasticTrain
 from camkit.linkage import Box
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
@@ -32,6 +33,7 @@ WINGS = [
     "motion",
     "cam",
     "linkage",
+    "dynamics",
     "machines",
     "panels",
     "study",
@@ -54,7 +56,7 @@ WINGS = [
 RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluation", "Step", "IntervalStep", "JudgementRange", "Minimum", "WinnerMap", "Indices"),
     *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "Still", "OnGrid", "Material"),
-    *("Evaluated", "Found", "Active", "Row", "Price"),
+    *("Evaluated", "Found", "Active", "Row", "Price", "Response", "SpeedSweep"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
@@ -238,6 +240,8 @@ GOOD = {
     "designs_on_plane.designs": lambda: {"a tube": camkit.UniversalJointShaft()},
     "tolerances": lambda: camkit.Tolerances(STUDY, {"base_radius": 0.001}, parts=64),
     "torque": lambda: np.ones(31),
+    "train": ElasticTrain,
+    "speeds": lambda: [20.0, 30.0],
     "trials": lambda: TRIALS[:2],
     "tubes": lambda: TUBES,
     "unit": lambda: "mm",

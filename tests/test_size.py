@@ -20,7 +20,7 @@ FILE, FUNCTION, MEDIAN, STEPS = 400, 40, 4, 3
 base of the package."""
 
 DEFAULTS = {
-    "CamAnalysis": {"bodies", "offers", "preload", "program", "stretch"},
+    "CamAnalysis": {"bodies", "closing_rate", "offers", "preload", "program", "speed", "stretch"},
     "FlatAnalysis": {"pitch"},
     "Kinked": {"kinks", "kinks_move"},
     "MotionProgram": {"waves"},

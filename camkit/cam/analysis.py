@@ -24,6 +24,7 @@ from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from . import bodies, statics
+from .corners import corners
 from .extremes import highest, lowest
 from .force_closure import ContactPair, contact_along, index_of_wear
 from .measures import number
@@ -31,9 +32,6 @@ from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
 """The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
-JUMP = 1e-6
-"""A jump of position or speed below this share of the largest one is rounding."""
-
 
 Kind = TypeVar("Kind", bound="CamAnalysis")
 
@@ -191,6 +189,16 @@ class CamAnalysis(ABC):
         return self.cam.load.preload
 
     @property
+    def closing_rate(self) -> Value:
+        """By how much `static_resistance` grows with the travel through the spring, N/m, or N m/rad for an arm."""
+        return self.cam.load.spring_rate
+
+    @property
+    def speed(self) -> Value:
+        """At which the cam turns, rad/s."""
+        return self.cam.load.speed
+
+    @property
     @abstractmethod
     def static_resistance(self) -> np.ndarray:
         """What resists the follower's travel besides inertia, N, or N m for an arm."""
@@ -314,15 +322,7 @@ class CamAnalysis(ABC):
 
         ``(..., k)``; the last one leads back to the first.  A leap of the follower itself counts as both ways.
         """
-        shown, program = self.resolved, self.program
-        first, last = self.resolution.first, self.resolution.last
-        s, v = (x - 0.0 * shown.cam_angle for x in shown.motion[:2])
-        leaps, jumps = (np.roll(x[..., first], -1, axis=-1) - x[..., last] for x in (s, v))
-        leaps = np.where(abs(leaps) > JUMP * abs(s).max(-1, keepdims=True), np.inf, 0.0)
-        real = abs(jumps) > JUMP * abs(v).max(-1, keepdims=True)
-        inside = program.periodic | (np.arange(len(first)) < len(first) - 1)
-        angle = np.roll(shown.cam_angle[..., first], -1, axis=-1)
-        return np.where(inside, np.where(real, jumps, 0.0), 0.0), np.where(inside, leaps, 0.0), angle
+        return corners(self.resolved, self.resolution, self.program)
 
     def corner(self, way: int) -> Extreme:
         """The largest jump of the follower's speed, upwards (``way`` = 1) or downwards (-1), m/rad or 1; 0: none."""

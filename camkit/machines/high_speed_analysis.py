@@ -182,6 +182,17 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return preload(self.cam.swing, self._rate) if preload else 0.0
 
     @property
+    def closing_rate(self) -> Value:
+        """Rate of the closing spring, N m/rad; 0 if the load has none."""
+        rate = getattr(self.cam.load, "spring_rate", None)
+        return rate(self._rate) if rate else 0.0
+
+    @property
+    def speed(self) -> Value:
+        """At which the cam turns, as a share of the rated speed."""
+        return self.cam.speed
+
+    @property
     def way(self) -> Array:
         """Of the slider that the arm lifts, from its lowest position, m."""
         return self.cam.load.way(self.motion, self.cam.swing)

@@ -35,6 +35,10 @@ class InertialSpringLoad(Design):
         spring = (self.closing * swing + motion.s) * spring_factor
         return self.inertia_speed2 * (speed**2 * motion.a + spring)
 
+    def spring_rate(self, spring_factor: Value) -> Value:
+        """Of the closing spring, N m/rad."""
+        return self.inertia_speed2 * spring_factor
+
     def preload(self, swing: Array, spring_factor: Value) -> Array:
         """Torque of the spring before the arm moves, N m."""
         return self.inertia_speed2 * self.closing * swing * spring_factor

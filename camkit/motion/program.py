@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..geometry import end_to_end
-from ..quantities import Declared, Quantity, certain, floats, text_if, unless
+from ..quantities import Declared, Quantity, certain, floats, known, text_if, unless
 from ..quantities.kinds import a_number, finite, listed, numbers, refuse_arguments, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import deg
@@ -299,11 +299,31 @@ class MotionProgram(Declared):
         begun = [x >= edge - SAME_JOINT for edge in self.starts[1:-1]]
         over, ahead = (*map(certain, begun), False), (False, *(certain(np.logical_not(here)) for here in begun))
         first, *others = [i for i in range(len(self.segments)) if not (over[i] or ahead[i])] or [0]
+        if others and known(x) and all(map(known, begun)):
+            return self._if_possible(*self._column_by_column(x, begun, [first, *others]))
         motion = self._piece(first, x)
         for i in others:
             pairs = zip(self._piece(i, x), motion, strict=True)
             motion = Kinematics(*(np.where(begun[i - 1], *pair) for pair in pairs))
         return self._if_possible(*np.broadcast_arrays(*motion, x)[:4])
+
+    def _column_by_column(self, x: Array, begun: list[Array], segments: list[int]) -> tuple[Array, ...]:
+        """The same, each segment asked at those cam angles only at which any member of a population is in it."""
+        whole = np.ones(1, dtype=bool)
+        here = [whole, *begun], [*(np.logical_not(ahead) for ahead in begun), whole]
+        inside = [np.atleast_2d(late & early).any(0) for late, early in zip(*here, strict=True)]
+        pieces = []
+        for i in segments:
+            columns = np.flatnonzero(np.broadcast_to(inside[i], x.shape[-1:]))
+            known_at = x if len(columns) == x.shape[-1] else x[..., columns]
+            pieces.append((i, columns, np.broadcast_arrays(*self._piece(i, known_at), known_at)[:4]))
+        shape = np.broadcast_shapes(*(values[0].shape[:-1] for *_, values in pieces), *(b.shape[:-1] for b in begun))
+        motion = tuple(np.full((*shape, x.shape[-1]), np.nan) for _ in range(4))
+        for i, columns, values in pieces:
+            mine = np.broadcast_to(begun[i - 1] if i else np.True_, (*shape, x.shape[-1]))[..., columns]
+            for found, value in zip(motion, values, strict=True):
+                found[..., columns] = np.where(mine, value, found[..., columns])
+        return motion
 
     def _piece(self, i: int, x: Array) -> Kinematics:
         """What segment ``i`` says at the cam angles ``x``; before it begins and after it ends it rests."""

@@ -1,0 +1,100 @@
+"""What drives a train over a turn of the cam, as a rigid follower's analysis has it, at even cam angles."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..extrema import raised
+from ..motion.closing import TURN
+from ..quantities import unless
+from ..quantities.applied import applied
+from ..quantities.types import Array, Value
+from ..units import in_unit
+
+
+class Driven(NamedTuple):
+    """The cam's motion and the load at even cam angles from 0: ``(n,)`` or ``(p, n)``; the rest ``(1,)`` or ``(p, 1)``.
+
+    Lengths in m, forces in N, masses in kg; of an arm angles in rad, torques in N m, moments of inertia in kg m^2.
+    """
+
+    cam_angle: Array
+    travel: Array
+    """``s``: from the cam angle 0."""
+    velocity: Array
+    """``v``: by the cam angle, as are its derivatives."""
+    acceleration: Array
+    load: Array
+    """``q``: what resists besides inertia and the return spring, less what does at the cam angle 0."""
+    lever: Array
+    """Force along the travel that a contact force of 1 N carries."""
+    preload: Array
+    """``N_0``: what resists at the cam angle 0."""
+    mass: Array
+    """Of the load, all of it."""
+    rate: Array
+    """``k_s``: of the return spring."""
+    speed: Array
+    """Of the cam, rad/s."""
+    dwells: tuple[tuple[Array, Array], ...]
+    """From which cam angle to which the follower rests."""
+
+
+def driven(analysis: Any, samples: int) -> Driven:
+    """What drives a train, from the ``analysis`` of any cam with one follower.
+
+    ``ValueError`` (``nan`` in a population) for a motion that is shorter than a turn, or whose position or velocity
+    jumps: no train can follow that.
+    """
+    with applied("an elastic train", analysis):
+        motion, angle = analysis.cam.motion, TURN * np.arange(samples) / samples
+        possible = _possible(analysis)
+        at = analysis.at(angle)
+        s, v, w, _ = at.motion
+        static, rate = np.where(possible, at.static_resistance, np.nan), _column(at.closing_rate)
+        travel, preload = s - s[..., :1], static[..., :1]
+        load = static - preload - rate * travel
+        still = (i for i, segment in enumerate(motion.segments) if segment.still)
+        dwells = tuple((_column(motion.starts[i]), _column(motion.starts[i + 1])) for i in still)
+        mass, speed = _column(at.inertia), _column(at.speed)
+        return Driven(angle, travel, v, w, load, at.lever, preload, mass, rate, speed, dwells)
+
+
+def _column(value: Value) -> Array:
+    """A number of a design, ``(1,)`` or ``(p, 1)``."""
+    return np.atleast_1d(value)[..., :1]
+
+
+def _possible(analysis: Any) -> Array:
+    """Whether a train can follow, ``(1,)`` or ``(p, 1)``."""
+    periodic = np.atleast_1d(analysis.cam.motion.periodic)
+    if refuse := unless(periodic.all() if periodic.ndim == 1 else periodic):
+        span = in_unit(analysis.cam.motion.span, "deg")
+        refuse(f"the motion program spans {span:.6g} deg; for steady motion it must span a full turn of 360 deg")
+    up, down = (analysis.corner(way) for way in (1, -1))
+    jump, place = np.maximum(up.value, down.value), np.where(up.value > down.value, up.cam_angle, down.cam_angle)
+    if refuse := unless(np.logical_not(jump > 0)):
+        what = "position" if np.isinf(jump) else "velocity"
+        refuse(
+            f"the {what} of the follower jumps at {in_unit(float(place), 'deg'):.6g} deg of the cam; an elastic train "
+            "needs a motion whose position and velocity are continuous"
+        )
+    return periodic & np.expand_dims(np.logical_not(jump > 0), -1) & analysis.buildable
+
+
+def top(values: Array) -> Array:
+    """The largest of values at even cam angles of a turn, with the parabola through three neighbours.
+
+    >>> phi = TURN * np.arange(24) / 24
+    >>> print(f"{top(np.cos(phi - 0.1)):.5f}")
+    0.99993
+    """
+    around = np.concatenate([values[..., -1:], values, values[..., :1]], axis=-1)
+    return raised(around, np.ones(around.shape[-1], dtype=bool))[..., 1:-1].max(-1)
+
+
+def bottom(values: Array) -> Array:
+    """The least of them."""
+    return -top(-values)

@@ -1,0 +1,311 @@
+"""Steady motion of an elastic train behind a cam that turns evenly: a Fourier series, by one transform of s and q.
+
+With the deviation ``z = s - x`` a train of one mass has
+
+    Z_n = [(k_s - m n^2 omega^2 + i n omega c_s) S_n + Q_n] / D_n
+    D_n = k_f + k_s - m n^2 omega^2 + i n omega (c_f + c_s)
+
+and the force ``T_n = (k_f + i n omega c_f) Z_n``; chains and springs with surge follow in the same way (see
+`camkit.dynamics.trains`).  With 720 samples the force is right to 1e-6 of its peak for motions whose acceleration is
+continuous, and to 2e-4 where it jumps.
+
+Source: Norton, Cam Design and Manufacturing Handbook (dynamics of cam systems); Koster, Vibrations of Cam Mechanisms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..extrema import raised
+from ..quantities import certain, counted, unless
+from ..quantities.kinds import a_number
+from ..quantities.types import Array, Value
+from ..units import in_unit
+from .driven import Driven, bottom, driven, top
+from .trains import Passed, Train, passed
+
+LEAST, ALONE, MOST = 720, 11520, 46080
+"""Samples of a turn without asking: of several designs or speeds at least, of one at one speed at least, at most."""
+PER_PERIOD = 20
+"""Samples of a natural period, at least."""
+AT_RESONANCE = 1e-9
+"""Nearer to resonance than this, over the static stiffness, an undamped train has no steady motion."""
+FASTEST = 1e9
+"""A speed (rad/s) above this is a slip."""
+
+
+def respond(train: Train, analysis: Any, speed: Value | None = None, samples: int | None = None) -> Response:
+    """See `Train.follow`."""
+    turns = None if speed is None else a_speed(speed)
+    if samples is not None:
+        count = counted(samples, "samples of a turn", 8, MOST)
+        return _response(train, driven(analysis, count + count % 2), turns)
+    found = _response(train, driven(analysis, LEAST), turns)
+    alone = found.train_force.ndim == 1
+    count = max(enough(found.natural_frequency, found.speed), ALONE if alone else LEAST)
+    return found if count == LEAST else _response(train, driven(analysis, count), turns)
+
+
+def a_speed(speed: Value) -> Value:
+    """A speed of the cam, rad/s; ``ValueError`` for what is none."""
+    must = f"be a finite number above 0 and at most {FASTEST:g} rad/s"
+    return a_number(speed, "the speed of the cam", must, lambda w: (w > 0) & (w <= FASTEST))
+
+
+def enough(frequency: Value, speed: Value) -> int:
+    """How many samples of a turn show the natural frequency; ``ValueError`` where that would be too many."""
+    ratio = np.nanmax(np.atleast_1d(frequency)[..., None] / speed, initial=0.0)
+    count = LEAST * 2 ** max(0, int(np.ceil(np.log2(max(PER_PERIOD * ratio, 1) / LEAST))))
+    if count > MOST:
+        raise ValueError(
+            f"the natural frequency of the train is {ratio:.6g} times the speed of the cam; it can be at most "
+            f"{MOST // PER_PERIOD} times: a slower cam moves the train as if it stood still"
+        )
+    return count
+
+
+def _response(train: Train, given: Driven, speed: Value | None) -> Response:
+    _refuse_mass(train, given)
+    turns = given.speed if speed is None else np.atleast_1d(speed)
+    if refuse := unless(np.all(turns > 0) if turns.size == 1 else turns > 0):
+        refuse("the cam is at rest; for steady motion its speed must be above 0 rpm")
+    response = Response(train, given, np.where(turns > 0, turns, np.nan))
+    response.refuse_resonance()
+    return response
+
+
+def _refuse_mass(train: Train, given: Driven) -> None:
+    """``ValueError`` in a sentence for one load that has no mass left for the end of the train."""
+    rest = last_mass(train, given)
+    if refuse := unless(np.all(rest > 0) if rest.size == 1 else rest > 0):
+        parts = float((given.mass - rest)[0])
+        refuse(
+            f"the load has a mass of {float(given.mass[0]):.6g} and the train's parts before its end {parts:.6g} "
+            "(kg, of an arm kg m^2); the load must have more"
+        )
+
+
+def last_mass(train: Train, given: Driven) -> Array:
+    """``m``: what the train's parts leave of the load's mass, ``(1,)`` or ``(p, 1)``."""
+    return given.mass - train.cam_side_mass - sum(train.inner_masses)
+
+
+@dataclass(frozen=True)
+class Response:
+    """Steady motion of a `Train` at even cam angles, ``(n,)``, or ``(p, n)`` of a population or of ``p`` speeds.
+
+    Numbers are one or ``(p,)``.  A motion in which ``least_force`` is below 0 is formal: the follower leaves the cam
+    (see `camkit.dynamics.simulate`).
+    """
+
+    train: Train
+    driven: Driven = field(repr=False)
+    speed: Array
+    """Of the cam, rad/s, ``(1,)`` or ``(p, 1)``."""
+
+    @property
+    def cam_angle(self) -> Array:
+        """Even, from 0 to below 360 deg, rad."""
+        return self.driven.cam_angle
+
+    # ---------------------------------------------------------------- by harmonics
+
+    @cached_property
+    def _frequency(self) -> Array:
+        """``n omega``."""
+        return np.arange(len(self.cam_angle) // 2 + 1) * self.speed
+
+    @cached_property
+    def _lift(self) -> Array:
+        return np.fft.rfft(self.driven.travel)
+
+    @cached_property
+    def _passed(self) -> Passed:
+        given = self.driven
+        mass = last_mass(self.train, given)
+        load = np.fft.rfft(given.load)
+        return passed(self.train, np.where(mass > 0, mass, np.nan), given.rate, self._frequency, load, self._lift)
+
+    def _in_time(self, series: Array) -> Array:
+        values = np.fft.irfft(series, len(self.cam_angle))
+        return values if self._hit is None else np.where(self._hit.any(-1, keepdims=True), np.nan, values)
+
+    @cached_property
+    def _hit(self) -> Array | None:
+        """Which harmonics that are there are at resonance; ``None`` where every spring has a damper."""
+        dampers = [c for _, c in self.train.springs]
+        if all(certain(c > 0) for c in dampers):
+            return None
+        stiffness = self.train.springs[0][0] + self.driven.rate
+        there = abs(self._lift) > AT_RESONANCE * abs(self._lift).max(-1, keepdims=True)
+        return (abs(self._passed.whole) < AT_RESONANCE * stiffness) & there
+
+    def refuse_resonance(self) -> None:
+        """``ValueError`` in a sentence if an undamped train is at resonance with a harmonic that is there."""
+        if self._hit is not None and self._hit.ndim == 1 and self._hit.any():
+            raise ValueError(
+                f"harmonic {int(np.argmax(self._hit))} of the motion is at resonance with the undamped train at "
+                f"{in_unit(float(self.speed[0]), 'rpm'):.6g} rpm; give the train some damping or the cam another speed"
+            )
+
+    @property
+    def harmonics(self) -> Array:
+        """Amplitudes ``2 |S_n| / samples`` of the lift, m or rad, by number ``n``; that of 0 is twice the mean."""
+        return 2 * abs(self._lift) / len(self.cam_angle)
+
+    # ---------------------------------------------------------------- over the turn
+
+    @cached_property
+    def _dynamic(self) -> Array:
+        """``T``: the train's force less ``N_0``."""
+        return self._in_time(self._passed.force)
+
+    @cached_property
+    def train_force(self) -> Array:
+        """``N_0 + T``: with which the first spring and its damper press, N or N m; 0 where it is slack."""
+        return self.driven.preload + self._dynamic
+
+    @cached_property
+    def position(self) -> Array:
+        """``x``: of the last mass, from its assembled rest, m or rad."""
+        return self._in_time(self._passed.end)
+
+    @cached_property
+    def acceleration(self) -> Array:
+        """``x''``: of the last mass by time, m/s^2 or rad/s^2, from the forces on it."""
+        return self._in_time(-(self._frequency**2) * self._passed.end)
+
+    @cached_property
+    def resistance(self) -> Array:
+        """``N = N_0 + T + m_0 omega^2 w``: what the cam has to overcome along the travel, N or N m."""
+        return self.train_force + self.train.cam_side_mass * self.speed**2 * self.driven.acceleration
+
+    @cached_property
+    def rigid_resistance(self) -> Array:
+        """The same of a rigid train without damping, ``N_0 + k_s s + q + (m + m_0) omega^2 w``."""
+        given = self.driven
+        static = given.preload + given.rate * given.travel + given.load
+        return static + given.mass * self.speed**2 * given.acceleration
+
+    @cached_property
+    def contact_force(self) -> Array:
+        """Between cam and follower along the contact normal, N."""
+        return self.resistance / self.driven.lever
+
+    @property
+    def rigid_contact_force(self) -> Array:
+        """The same of a rigid train without damping."""
+        return self.rigid_resistance / self.driven.lever
+
+    @cached_property
+    def cam_torque(self) -> Array:
+        """``N v``: on the cam without friction, N m."""
+        return self.resistance * self.driven.velocity
+
+    # ---------------------------------------------------------------- numbers
+
+    @cached_property
+    def _modes(self) -> tuple[Array, Array]:
+        return natural_modes(self.train, last_mass(self.train, self.driven), self.driven.rate)
+
+    @property
+    def natural_frequencies(self) -> Array:
+        """Of the train with its end on the cam, the lowest first, rad/s: ``(k,)`` or ``(p, k)``."""
+        return self._modes[0]
+
+    @property
+    def natural_frequency(self) -> Value:
+        """``omega_n``: the lowest of them, rad/s; of one mass ``sqrt((k_f + k_s) / m)``."""
+        return self._modes[0][..., 0]
+
+    @property
+    def damping_ratio(self) -> Value:
+        """``zeta`` of the lowest mode; of one mass ``(c_f + c_s) / (2 sqrt(m (k_f + k_s)))``."""
+        return self._modes[1][..., 0]
+
+    @property
+    def max_force(self) -> Value:
+        """The largest contact force, N."""
+        return top(self.contact_force)
+
+    @property
+    def least_force(self) -> Value:
+        """The least contact force, N; below 0 the follower leaves the cam, and this motion is formal."""
+        return bottom(self.contact_force)
+
+    @property
+    def contact_margin(self) -> Value:
+        """The least of ``N`` over ``N_0``: what is left of the preload."""
+        return bottom(self.resistance) / self.driven.preload[..., 0]
+
+    @property
+    def dynamic_factor(self) -> Value:
+        """``K_d``: the largest contact force over that of a rigid train, wherever in the turn either stands."""
+        return self.max_force / top(self.rigid_contact_force)
+
+    @property
+    def max_acceleration(self) -> Value:
+        """The largest acceleration of the last mass, m/s^2 or rad/s^2."""
+        return top(self.acceleration)
+
+    @property
+    def rest(self) -> Array:
+        """Where the last mass would stand if the cam stood still, ``(k_f s - q) / (k_f + k_s)``, m or rad."""
+        k, given = self.train.static_stiffness, self.driven
+        return (k * given.travel - given.load) / (k + given.rate)
+
+    @property
+    def dwell_vibration(self) -> Array:
+        """The largest ``|x - rest|`` in each dwell, m or rad, the dwells last; empty where there is none."""
+        away = abs(self.position - self.rest)
+        found = [_within(self.cam_angle, away, *dwell) for dwell in self.driven.dwells]
+        return np.stack(found, axis=-1) if found else np.zeros((*away.shape[:-1], 0))
+
+
+def _within(angle: Array, values: Array, start: Array, end: Array) -> Array:
+    """The largest of ``values`` in a dwell, with the tops of parabolas whose three samples are all in it."""
+    hair = 1e-9
+    inside = np.atleast_1d((angle >= start - hair) & (angle <= end + hair))
+    some = np.flatnonzero(np.atleast_2d(inside).any(0))
+    if not len(some):
+        return np.zeros(values.shape[:-1])
+    here = slice(some[0], some[-1] + 1)
+    mine = np.broadcast_to(inside, values.shape)[..., here]
+    held = np.where(mine, values[..., here], 0.0)
+    deep = mine & np.roll(mine, 1, axis=-1) & np.roll(mine, -1, axis=-1)
+    return np.max(np.where(deep, raised(held, True), held), axis=-1)
+
+
+def natural_modes(train: Train, mass: Array, rate: Array) -> tuple[Array, Array]:
+    """Natural frequencies (rad/s) of a train with its end on the cam, the lowest first, and their damping ratios.
+
+    A return spring counts with its rate alone.  ``(k,)``, or ``(p, k)``; ``nan`` where the load has no mass left.
+    """
+    masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.inner_masses, mass)), rate[..., 0])[:-1]
+    M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
+    stiff, rub = (_series_matrix([part[i] for part in train.springs], end)
+                  for i, end in ((0, rate), (1, train.ground_damping)))  # fmt: skip
+    scale = 1 / np.sqrt(M[..., :, None] * M[..., None, :])
+    given = np.broadcast_to(stiff * scale, np.broadcast_shapes(np.shape(stiff), scale.shape))
+    possible = np.isfinite(given).all((-2, -1), keepdims=True)
+    square, shape = np.linalg.eigh(np.where(possible, given, np.eye(given.shape[-1])))
+    square, shape = np.where(possible[..., 0], square, np.nan), np.where(possible, shape, np.nan)
+    frequency = np.sqrt(square)
+    damping = ((rub * scale) @ shape * shape).sum(-2)
+    return frequency, damping / (2 * frequency)
+
+
+def _series_matrix(parts: list[Value], end: Value) -> Array:
+    """Of springs (or dampers) in a row from the cam to the last mass, and one from there to the frame."""
+    each = np.broadcast_arrays(*(np.atleast_1d(x)[..., 0] for x in (*parts, end)))
+    n = len(parts)
+    rows = [[0.0 * each[0]] * n for _ in range(n)]
+    for i in range(n):
+        rows[i][i] = each[i] + each[i + 1]
+        if i:
+            rows[i][i - 1] = rows[i - 1][i] = -each[i]
+    return np.stack([np.stack(r, axis=-1) for r in rows], axis=-2)
