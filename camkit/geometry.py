@@ -63,6 +63,67 @@ class Disc(Body):
         return np.stack([_at(value, i) for value in (self.x, self.y)])
 
 
+@dataclass(frozen=True)
+class Shape(ABC):
+    """A part of a mechanism in space, to scale, with its path; names and parts are those of a `Body`."""
+
+    name: str
+    part: str
+
+    @abstractmethod
+    def at(self, i: SupportsIndex) -> np.ndarray:
+        """Its points at position ``i``, machine's frame, ``(3, ...)``, m."""
+
+    @property
+    @abstractmethod
+    def extent(self) -> tuple[Value, Value, Value]:
+        """How far it ever is from the z axis, and between which heights, m."""
+
+
+@dataclass(frozen=True)
+class Cylinder(Shape):
+    """A round bar of a radius (m) between the middles of its ``ends``, ``(3, 2)`` or ``(3, 2, n)`` for n positions."""
+
+    radius: Value
+    ends: Array
+
+    def at(self, i: SupportsIndex) -> np.ndarray:
+        """The middles of its ends at position ``i``, ``(3, 2)``, m."""
+        return self.ends if np.ndim(self.ends) < 3 else vector(*(_at(part, i) for part in self.ends))
+
+    @property
+    def extent(self) -> tuple[Value, Value, Value]:
+        """As if its radius were at right angles to the z axis."""
+        x, y, z = self.ends
+        return np.max(np.hypot(x, y)) + self.radius, np.min(z), np.max(z)
+
+
+@dataclass(frozen=True)
+class Strip(Shape):
+    """A strip of surface between two ``edges`` ``(3, 2, k)`` on a body that turns about the z axis by ``angle`` (rad).
+
+    Its outer side alone is seen.  Along the edges, from the first to the second, outwards: with ``hand`` +1 these
+    directions are right-handed, with -1 left-handed.
+    """
+
+    edges: Array
+    cut: Value | None = None
+    """At which of the ``k`` places it is cut away; ``None``: nowhere."""
+    angle: Value = field(default=0.0, kw_only=True)
+    hand: Value = field(default=1, kw_only=True)
+
+    def at(self, i: SupportsIndex) -> np.ndarray:
+        """Its edges at position ``i``, ``(3, 2, k)``, m."""
+        x, y, z = self.edges
+        return vector(*rotated(vector(x, y), _at(self.angle, i)), z)
+
+    @property
+    def extent(self) -> tuple[Value, Value, Value]:
+        """Of both edges."""
+        x, y, z = self.edges
+        return np.max(np.hypot(x, y)), np.min(z), np.max(z)
+
+
 def _at(value: Value, i: Any) -> Value:
     """A number, or that of several which stands for position ``i``."""
     if not np.ndim(value):

@@ -25,6 +25,7 @@ DEFAULTS = {
     "Kinked": {"kinks", "kinks_move"},
     "MotionProgram": {"waves"},
     "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
+    "RollerAnalysis": {"path"},
     "Segment": {"reach"},
     "SlidingAnalysis": {"start_height"},
     "Study": {"nominal"},

@@ -1,7 +1,16 @@
-"""Disk cams with a follower on a straight guide or an arm, with a roller or a flat face; their loads and measures."""
+"""Disk and barrel cams with a follower on a straight guide or an arm, a roller or a flat face; loads and measures."""
 
 from ..data.track_rollers import track_rollers
 from .analysis import CamAnalysis
+from .barrel import (
+    BarrelAnalysis,
+    BarrelCam,
+    OscillatingBarrelAnalysis,
+    OscillatingBarrelCam,
+    bottom_pressure_angle,
+    peak_skid,
+    rolling_cone,
+)
 from .flat_analysis import FlatAnalysis
 from .follower_measures import (
     face_width,
@@ -54,6 +63,8 @@ from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
 
 __all__ = [
     "ArmLoad",
+    "BarrelAnalysis",
+    "BarrelCam",
     "CamAnalysis",
     "CamOutline",
     "ConjugatePair",
@@ -66,6 +77,8 @@ __all__ = [
     "Friction",
     "MeasuredOutline",
     "NoContact",
+    "OscillatingBarrelAnalysis",
+    "OscillatingBarrelCam",
     "OscillatingFlatAnalysis",
     "OscillatingFlatCam",
     "OscillatingRollerAnalysis",
@@ -82,6 +95,7 @@ __all__ = [
     "arm_acceleration",
     "arm_travel",
     "base_radius",
+    "bottom_pressure_angle",
     "cam_from_outline",
     "contact_along",
     "face_width",
@@ -100,10 +114,12 @@ __all__ = [
     "peak_acceleration",
     "peak_force",
     "peak_pressure",
+    "peak_skid",
     "peak_torque",
     "peak_wear",
     "preload_needed",
     "published_mean_efficiency",
+    "rolling_cone",
     "torque_balance",
     "track_rollers",
     "travel",

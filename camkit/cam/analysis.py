@@ -275,6 +275,11 @@ class CamAnalysis(ABC):
         """Points of the machine's frame as they lie on the cam at each cam angle."""
         return rotated(points, -self.turn)
 
+    def surface_velocity(self, point: statics.Vector) -> statics.Vector:
+        """Velocity of the cam's surface at ``point``, per speed of the cam, m."""
+        sigma = self.cam.rotation
+        return -sigma * point[1], sigma * point[0]
+
     @cached_property
     def contact_force(self) -> np.ndarray:
         """Force between cam and follower without friction, N; < 0 where only a groove's outer flank can give it."""

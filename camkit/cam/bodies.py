@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import Body, Disc, Outline, polar_angle
+from ..geometry import Body, Cylinder, Disc, Outline, Shape, Strip, polar_angle, vector
 from ..quantities import refuse_population
 from ..quantities.types import Array, Value
 
@@ -17,21 +17,58 @@ PIN = np.zeros((2, 1))
 def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
     """The cam: solid or groove, pitch curve where it is another, inner flank, a ``groove``'s outer flank, the axis."""
     refuse_population(analysis, "what is drawn")
-    inner, outer = analysis.profile, analysis.outer_profile
-    solid = np.concatenate([inner, outer[:, ::-1]], axis=1) if groove else inner
-    turned = {"angle": analysis.turn}
+    solid = _between_flanks(analysis) if groove else analysis.profile
+    return *_lines(analysis, groove, solid, angle=analysis.turn), Outline("", "axis", PIN)
+
+
+def unrolled(analysis: Any, groove: bool, low: Value, high: Value) -> tuple[Body, ...]:
+    """A drum unrolled, at rest: its ends at ``low`` and, with a ``groove``, ``high``, its groove, or its end face."""
+    refuse_population(analysis, "what is drawn")
+    x = analysis.profile[0]
+    below = np.stack([np.stack([x[-1], x[0]]), np.stack([low, low])])
+    solid = _between_flanks(analysis) if groove else np.concatenate([analysis.profile, below], axis=1)
+    start, end = 0.0 * low, analysis.period[0]
+    corners = ((start, end, end, start, start), (low, low, high, high, low)) if groove else ((start, end), (low, low))
+    return Outline("", "guide", np.stack([np.stack(places) for places in corners])), *_lines(analysis, groove, solid)
+
+
+def drum(analysis: Any, groove: bool, low: Value, high: Value) -> tuple[Shape, ...]:
+    """A drum in space from ``low`` to ``high``, with its ``groove`` or its end face."""
+    refuse_population(analysis, "what is drawn")
+    outer, inner = analysis.cam.surface_radius, analysis.cam.bottom_radius
+    turned = {"angle": -analysis.turn, "hand": analysis.cam.rotation}
+    lip, inside = analysis.in_space(outer, 1), analysis.in_space(inner, 1)
+
+    def strip(part: str, first: Array, second: Array, cut: Value | None = None) -> Strip:
+        return Strip("", part, np.stack([first, second], axis=1), cut, **turned)
+
+    if groove:
+        axis = vector(np.zeros(2), 0.0, np.stack([low, high]))
+        mouth = strip("flank", lip, analysis.in_space(outer, -1), analysis.undercut | analysis.outer_undercut)
+        return Cylinder("", "body", outer, axis), mouth
+    foot, floor = (vector(points[0], points[1], low) for points in (lip, inside))
+    face = strip("flank", lip, inside, analysis.undercut)
+    return strip("body", inside, floor), face, strip("body", foot, lip)
+
+
+def _between_flanks(analysis: Any) -> Array:
+    return np.concatenate([analysis.profile, analysis.outer_profile[:, ::-1]], axis=1)
+
+
+def _lines(analysis: Any, groove: bool, solid: Array, angle: Value = 0.0) -> tuple[Body, ...]:
+    """What is ``solid``, the pitch curve where it is another, and every flank with what is cut of it."""
+    inner, turned = analysis.profile, {"angle": angle}
     return (
         Outline("", "body", solid, **turned),
         *(() if analysis.pitch is inner else (Outline("", "pitch", analysis.pitch, **turned),)),
         Outline("", "profile", inner, analysis.undercut, **turned),
-        *([Outline("", "flank", outer, analysis.outer_undercut, **turned)] if groove else ()),
-        Outline("", "axis", PIN),
+        *([Outline("", "flank", analysis.outer_profile, analysis.outer_undercut, **turned)] if groove else ()),
     )
 
 
 def rocker(name: str, pivot: Array, end: Value) -> tuple[Body, ...]:
-    """An arm from its pivot ``(2,)`` to its end ``(2, n)``, m."""
-    away = end - np.reshape(pivot, (2, 1))
+    """An arm from its pivot, ``(2,)`` or ``(2, n)``, to its end ``(2, n)``, m."""
+    away = end - np.reshape(pivot, (2, -1))
     length = np.hypot(*away)[..., :1]
     place = {"x": pivot[0], "y": pivot[1]}
     points = np.stack([np.append(0.0, length), np.zeros(2)])
@@ -39,8 +76,8 @@ def rocker(name: str, pivot: Array, end: Value) -> tuple[Body, ...]:
 
 
 def stem(name: str, mouth: Array, foot: Array) -> tuple[Body, ...]:
-    """The stem of a sliding follower on its foot ``(2, n)``: it reaches the mouth ``(2,)`` of its guide, m."""
-    reach = mouth[1] - foot[1].min(axis=-1)
+    """The stem of a sliding follower on its foot ``(2, n)``: it reaches the mouth of its guide, ``(2,)`` or more, m."""
+    reach = np.max(mouth[1]) - foot[1].min(axis=-1)
     points = np.stack([np.zeros(2), np.append(0.0, reach)])
     return Outline(name, "arm", points, x=foot[0], y=foot[1]), Outline(name, "pivot", PIN, x=mouth[0], y=mouth[1])
 

@@ -37,10 +37,10 @@ def face_envelope(profile: np.ndarray, normals: np.ndarray) -> list[Flank]:
     return [_joined(flank) if _same(normals[:, 0], normals[:, -1]) else flank]
 
 
-def roller_envelope(theory: dict[str, np.ndarray], pitch: np.ndarray, radius: float) -> list[Flank]:
-    """The flanks by name under a roller whose centre runs along ``pitch``, ``(2, n)``."""
+def roller_envelope(theory: dict[str, np.ndarray], pitch: np.ndarray, radius: float, period: Value) -> list[Flank]:
+    """The flanks by name under a roller whose centre runs along ``pitch``, ``(2, n)``, and on after a ``period``."""
     found = [_with_corners(name, points, pitch, radius) for name, points in theory.items()]
-    if len(theory) > 1 and not _same(pitch[:, 0], pitch[:, -1]):
+    if len(theory) > 1 and not _same(pitch[:, 0] + period, pitch[:, -1]):
         inner = theory["profile"]
         found += [_groove_end(inner[:, k], pitch[:, k], pitch[:, k] - pitch[:, j]) for k, j in ((0, 1), (-1, -2))]
     return found

@@ -174,10 +174,12 @@ def flanks(analysis: Any) -> Flanks:
     if normals is not None:
         return Flanks({"profile": profile}, angle, Face(normals, profile), face_envelope(profile, normals))
     pitch, radius = analysis.pitch, float(np.ravel(analysis.cam.roller_radius)[0])
+    period = getattr(analysis, "period", np.zeros(2))  # of a cam that is drawn unrolled
     theory = {"profile": profile}
     if np.isfinite(analysis.outer_profile).all():
         theory["outer profile"] = analysis.outer_profile
-    return Flanks(theory, angle, Roller(pitch, radius), roller_envelope(theory, pitch, radius))
+    centres = np.hstack([pitch + turn * period[:, None] for turn in ((0, -1, 1) if period.any() else (0,))])
+    return Flanks(theory, angle, Roller(centres, radius), roller_envelope(theory, pitch, radius, period))
 
 
 def _runs(where: np.ndarray, closed: bool) -> list[np.ndarray]:

@@ -14,6 +14,7 @@ pressure angle of 88 deg.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 
 import numpy as np
 
@@ -32,8 +33,9 @@ def gap(path: Callable[[Array], Array], span: Value, radius: Value, rough: bool 
     Only a gap below a quarter of the radius is looked at more closely; a larger one is an estimate from above.
     A ``rough`` look is at fewer places and once around the nearest.
 
-    ``path`` gives its points ``(2, ..., n)`` at ``(..., n)`` places from 0 to ``span``.  Where nothing lies side by
-    side the neighbours along the curve are the nearest, and the gap is about ``(pi - 2) radius``.
+    ``path`` gives its points ``(2, ..., n)``, or ``(3, ..., n)`` in space, at ``(..., n)`` places from 0 to ``span``.
+    Where nothing lies side by side the neighbours along the curve are the nearest, and the gap is about
+    ``(pi - 2) radius``.
 
     >>> def hairpin(t):  # down one side and up the other, 30 mm apart, around a half circle
     ...     bend = np.clip(t - 100, 0, 15 * np.pi) / 15
@@ -43,21 +45,22 @@ def gap(path: Callable[[Array], Array], span: Value, radius: Value, rough: bool 
     2.000, 0.000
     """
     places, rounds = (ROUGH, 1) if rough else (COARSE, ROUNDS)
-    x, y = path(span * np.linspace(0, 1, places))
-    along = np.concatenate([0 * x[..., :1], np.cumsum(np.hypot(np.diff(x), np.diff(y)), axis=-1)], axis=-1)
-    pair, least = _nearest(x, y, along, radius)
+    points = path(span * np.linspace(0, 1, places))
+    steps = np.cumsum(reduce(np.hypot, np.diff(points)), axis=-1)
+    along = np.concatenate([0 * steps[..., :1], steps], axis=-1)
+    pair, least = _nearest(points, along, radius)
     close = least < 2.25 * radius + np.diff(along).max(-1, keepdims=True) / 4
     if not certain(np.logical_not(close)):
         least = np.where(close, _closer(path, span, radius, along, pair, least, rounds), least)
     return np.where(np.isnan(along[..., -1:]), np.nan, least - 2 * radius)[..., 0][()]
 
 
-def _nearest(x: Array, y: Array, along: Array, radius: Value) -> tuple[Array, Array]:
+def _nearest(points: Array, along: Array, radius: Value) -> tuple[Array, Array]:
     """The nearest two places ``(2, ..., 1)``, in coarse steps, that are not neighbours along the curve; how near, m."""
     nearest, firsts = [], []
     for k in range(1, along.shape[-1]):  # in parts that fit into the processor's own memory
         i, j = (..., slice(None, -k)), (..., slice(k, None))
-        near = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
+        near = ((points[j] - points[i]) ** 2).sum(0)
         near = np.where(along[j] - along[i] >= np.pi * radius, near, np.inf)
         firsts.append(np.argmin(near, axis=-1))
         nearest.append(near.min(-1))
@@ -75,9 +78,9 @@ def _closer(
     last, around, reach = along.shape[-1] - 1, np.linspace(-1, 1, FINE), 1.0
     for _ in range(rounds):
         t, u = np.clip(pair + reach * around, 0, last)
-        px, py = path(np.concatenate([t, u], axis=-1) * span / last)
+        points = path(np.concatenate([t, u], axis=-1) * span / last)
         apart = _between(along, u)[..., None, :] - _between(along, t)[..., :, None]
-        near = np.hypot(*(p[..., :FINE, None] - p[..., None, FINE:] for p in (px, py)))
+        near = reduce(np.hypot, points[..., :FINE, None] - points[..., None, FINE:])
         near = np.where(apart >= np.pi * np.expand_dims(radius, -1), near, np.inf)
         near = near.reshape(*near.shape[:-2], FINE * FINE)
         best = np.argmin(near, axis=-1)[..., None]

@@ -31,6 +31,10 @@ class RollerAnalysis(CamAnalysis):
     def curvature(self) -> np.ndarray:
         """Curvature of the pitch curve, convex > 0, 1/m."""
 
+    def bend(self, side: Value) -> Array:
+        """Curvature of the pitch curve as seen from the inner flank (``side`` +1) or from the outer one (-1), 1/m."""
+        return side * self.curvature
+
     @cached_property
     def profile_curvature(self) -> np.ndarray:
         """Curvature of the inner flank (the plate cam), convex > 0, 1/m."""
@@ -44,12 +48,12 @@ class RollerAnalysis(CamAnalysis):
     @cached_property
     def undercut(self) -> np.ndarray:
         """Where the roller would cut away the inner flank: ``r_T kappa >= 1``."""
-        return self.cam.roller_radius * self.curvature >= 1
+        return self.cam.roller_radius * self.bend(1) >= 1
 
     @cached_property
     def outer_undercut(self) -> np.ndarray:
         """Where the roller would cut away a groove's outer flank: ``-r_T kappa >= 1``; nowhere on a plate."""
-        return (-self.cam.roller_radius * self.curvature >= 1) & self.groove
+        return (self.cam.roller_radius * self.bend(-1) >= 1) & self.groove
 
     @cached_property
     def profile_margin(self) -> Extreme:
@@ -100,7 +104,7 @@ class RollerAnalysis(CamAnalysis):
         motion = self.cam.motion
         if not self.groove or certain(motion.periodic):
             return np.where(self.buildable[..., 0], np.inf, np.nan)[()]
-        found = groove.gap(lambda angle: self.at(angle).pitch, motion.span, self.cam.roller_radius, self.rough)
+        found = groove.gap(lambda angle: self.at(angle).path, motion.span, self.cam.roller_radius, self.rough)
         return np.where(number(motion.periodic) & np.isfinite(found), np.inf, found)[()]
 
     def contact_point(self, flank: Value = 1) -> np.ndarray:
@@ -136,12 +140,17 @@ class RollerAnalysis(CamAnalysis):
         """``1 / (r_T (1 -+ r_T kappa))``: on the inner flank, on the outer one where the force is negative."""
         r, flank = self.cam.roller_radius, self.loaded_flank
         with np.errstate(divide="ignore", invalid="ignore"):
-            return 1 / (r * (1 - flank * r * self.curvature))
+            return 1 / (r * (1 - r * self.bend(flank)))
 
     @cached_property
     def pitch(self) -> np.ndarray:
         """Pitch curve: the roller's centre as the cam sees it, m."""
         return self.on_cam(self.roller_centre)
+
+    @property
+    def path(self) -> np.ndarray:
+        """Where the roller's centre runs in the cam, in the plane or in space, for the distance of its parts, m."""
+        return self.pitch
 
     @cached_property
     def profile(self) -> np.ndarray:
@@ -156,8 +165,8 @@ class RollerAnalysis(CamAnalysis):
 
 
 def _convex(analysis: RollerAnalysis) -> Array:
-    return analysis.curvature
+    return analysis.bend(1)
 
 
 def _concave(analysis: RollerAnalysis) -> Array:
-    return -analysis.curvature
+    return analysis.bend(-1)

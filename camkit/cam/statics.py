@@ -142,15 +142,15 @@ class Push(NamedTuple):
 
 def push(analysis: CamAnalysis, flank: Value) -> Push:
     """A push by the inner flank (``flank`` +1) or by a groove's outer flank (-1), element by element."""
-    x, y = point = analysis.contact_point(flank)
-    (nx, ny), sigma = analysis.normal, analysis.cam.rotation
-    vx, vy = analysis.bearing.velocity_at(point)
-    past_x, past_y = -sigma * y - vx, sigma * x - vy  # velocity of the cam's surface past the follower
+    point = analysis.contact_point(flank)
+    nx, ny = analysis.normal
+    (sx, sy), (vx, vy) = analysis.surface_velocity(point), analysis.bearing.velocity_at(point)
+    past_x, past_y = sx - vx, sy - vy  # velocity of the cam's surface past the follower
     with np.errstate(divide="ignore", invalid="ignore"):
         along = np.sin(analysis.lean) / np.hypot(past_x, past_y)
     normal = flank * np.cos(analysis.lean)
     force = normal * nx + along * past_x, normal * ny + along * past_y
-    torque = sigma * (x * force[1] - y * force[0]) + analysis.cam.friction.cam_axis
+    torque = sx * force[0] + sy * force[1] + analysis.cam.friction.cam_axis
     return Push(analysis.bearing.share(point, force), torque, normal, point, force)
 
 

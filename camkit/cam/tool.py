@@ -27,7 +27,7 @@ def _near(points: np.ndarray) -> cKDTree:
 
 @dataclass(frozen=True)
 class Roller:
-    """Rollers at ``centres`` ``(2, n)``, or none: ``radius`` 0 cuts nothing away."""
+    """Rollers at ``centres`` ``(2, n)``, those of the rows first, or none: ``radius`` 0 cuts nothing away."""
 
     centres: np.ndarray
     radius: float

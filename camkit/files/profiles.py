@@ -49,7 +49,8 @@ def profile_csv(analysis: Any) -> str:
 
     Of an analysis that covers a part of the cam it takes the ``whole``.  Where the cam is undercut, the flank is what
     the tool leaves of it (see `flanks`): the column ``undercut`` names the flanks that are cut away at a row's cam
-    angle, their points stand on the corner that is left, and the columns ``theory`` hold what was asked for.
+    angle, their points stand on the corner that is left, and the columns ``theory`` hold what was asked for.  Of a drum
+    these are unrolled; its groove in space, both ends of every flank, stands in columns of its own.
 
     >>> from camkit import DoorHandleCam, TranslatingRollerCam
     >>> print(profile_csv(TranslatingRollerCam().analyse(361)).splitlines()[0])
@@ -80,16 +81,16 @@ def _profile_columns(analysis: Any) -> dict[str, Array]:
         rows = range(len(columns["stretch"]))
         columns["undercut"] = [" and ".join(flank for flank, lost in away.items() if lost[k]) for k in rows]
         columns |= _point_columns({f"theory {flank}": points for flank, points in made.theory.items()})
-    return columns
+    return columns | _point_columns(getattr(analysis, "points_in_space", {}))
 
 
 def _point_columns(curves: Mapping[str, np.ndarray]) -> dict[str, Array]:
-    """Two columns for each curve, in mm, but for a curve that is not there."""
+    """Two columns for each curve, of one in space three, in mm, but for a curve that is not there."""
     return {
         f"{name.replace(' ', '_')}_{axis}_mm": in_unit(values, "mm")
         for name, points in curves.items()
         if np.isfinite(points).any()
-        for axis, values in zip("xy", points, strict=True)
+        for axis, values in zip("xyz", points, strict=False)
     }
 
 
@@ -97,7 +98,8 @@ def profile_dxf(analysis: Any) -> str:
     """The profile of a cam as a DXF drawing in mm, the cam axis at the origin, for CAD and machine tools.
 
     Pitch curve, profile, a groove's outer profile and the ends of an open groove are polylines on layers of these
-    names, closed where the curve is, through the points at which it was analysed.  Of a cam that is undercut the
+    names, closed where the curve is, through the points at which it was analysed; of a drum they are unrolled at its
+    mean radius.  Of a cam that is undercut the
     profile is what the tool leaves (see `flanks`); what was asked for besides is on the layer ``FAULT``, with a
     sentence.  Written by ezdxf.
 

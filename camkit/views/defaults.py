@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import cam, event, intervals, shafts, sizes, space
+from . import cam, development, event, intervals, shafts, sizes, space
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
     "bodies": cam.mechanism,
+    "development": development.development,
+    "shapes": development.in_space,
     "motion": cam.motion,
     "pressure_angle": cam.pressure_angle,
     "contact_force": cam.contact_force,

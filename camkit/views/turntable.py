@@ -65,7 +65,8 @@ class Turntable:
         """Put a mark into the drawing at a height."""
         self.drawn.append(replace(mark, height=height))
 
-    def _height(self, near: Array) -> float:
+    def height_of(self, near: Array) -> float:
+        """How high in the drawing what lies ``near`` the viewer is."""
         return NEAR + 4 * np.mean(near) / self.radius
 
     def path(self, key: str, points: ArrayLike, at: float = 3.0, **style: Unpack[LineStyle]) -> None:
@@ -76,18 +77,18 @@ class Turntable:
     def bar(self, key: str, points: ArrayLike, **style: Unpack[LineStyle]) -> None:
         """A thick line through ``points`` ``(3, n)``, before what lies behind it."""
         x, y, near = self.seen(points)
-        self.put(self._height(near), Line(key, x, y, **style))
+        self.put(self.height_of(near), Line(key, x, y, **style))
 
     def link(self, key: str, ends: ArrayLike, **style: Unpack[MarkStyle]) -> None:
         """A thick line that parts what lies behind it."""
         x, y, near = self.seen(ends)
-        self.put(self._height(near) - 0.01, Line(f"{key} edge", x, y, role="paper", stroke="solid"))
-        self.put(self._height(near), Line(key, x, y, stroke="arm", **style))
+        self.put(self.height_of(near) - 0.01, Line(f"{key} edge", x, y, role="paper", stroke="solid"))
+        self.put(self.height_of(near), Line(key, x, y, stroke="arm", **style))
 
     def ball(self, key: str, point: ArrayLike, size: float, fill: str = "full", **style: Unpack[MarkStyle]) -> None:
         """A round mark at ``point`` ``(3,)``, above the links that it joins."""
         x, y, near = self.seen(point)
-        self.put(self._height(near) + 2.5, Points(key, x, y, size=size, fill=fill, **style))
+        self.put(self.height_of(near) + 2.5, Points(key, x, y, size=size, fill=fill, **style))
 
     def arrow(self, key: str, start: Array, along: Array, **style: Unpack[LineStyle]) -> None:
         """An arrow from ``start``, ``along`` being direction and length."""
