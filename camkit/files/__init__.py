@@ -3,6 +3,7 @@
 from .cells import TableQuestion
 from .decisions import Decision
 from .designs import Read, from_json, read, read_json, to_json, write
+from .motion_tables import electronic_cam_csv, motion_csv
 from .motions import read_motion
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
@@ -12,7 +13,9 @@ __all__ = [
     "Read",
     "Session",
     "TableQuestion",
+    "electronic_cam_csv",
     "from_json",
+    "motion_csv",
     "profile_csv",
     "profile_dxf",
     "read",

@@ -1,4 +1,4 @@
-"""Files: a design, a front or a whole session as JSON with units in the names.
+"""Files: a design, a motion program, a front or a whole session as JSON with units in the names.
 
 Every file says which schema it follows and carries a digest of its content.  A file that is damaged, of another kind
 or of another schema is refused by a ``ValueError`` in a sentence, and nothing of it is used; one that was edited, or
@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from ..motion import MotionProgram
 from ..quantities import Design, Measure
 from ..quantities.applied import a_path
 from ..quantities.kinds import kind_words, refuse_arguments, shown
@@ -24,6 +27,8 @@ from .json_file import MOST_BYTES, content_of, digest_remarks, signed, text_of
 from .sessions import Session, decision_entry, decision_of, entries, front_entry, session_entry, session_of
 
 SCHEMA = "camkit/1"
+HELD: dict[str, type] = {"design": Design, "program": MotionProgram}
+"""What stands alone in a file, by the entry that holds it."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +40,10 @@ class Read:
 
 
 def write(thing: object, path: str | Path) -> None:
-    """Write a design, a front or a `Session` to a JSON file; one that is there stays until the new one is whole."""
+    """Write a design, a motion program, a front or a `Session` to a JSON file.
+
+    One that is there stays until the new one is whole.
+    """
     text, path = to_json(thing), a_path(path)
     remove_parts(path)
     write_whole(path, text.encode())
@@ -47,7 +55,7 @@ def read(
     measures: Sequence[Measure] = (),
     tell: Callable[[str], object] = print,
 ) -> Any:
-    """Read a design, a front or a `Session` from a JSON file; ``tell`` is called with each remark.
+    """Read a design, a motion program, a front or a `Session` from a JSON file; ``tell`` is called with each remark.
 
     ``kind`` and ``measures`` are those of `read_json`.
     """
@@ -62,7 +70,7 @@ def read(
 
 
 def to_json(thing: Any) -> str:
-    """A design, a front or a `Session` as JSON text.
+    """A design, a motion program, a front or a `Session` as JSON text.
 
     >>> from camkit import DoorHandleCam
     >>> from_json(to_json(DoorHandleCam(lift_arm=0.048))).lift_arm
@@ -81,8 +89,9 @@ def to_json(thing: Any) -> str:
 
 def _kind_and_measures(thing: Any) -> tuple[type, tuple[Measure, ...]]:
     """What a thing is to be read as, and with which measures."""
-    if isinstance(thing, Design):
-        return Design, ()
+    for kind in (Design, MotionProgram):
+        if isinstance(thing, kind):
+            return kind, ()
     study = thing.front.study if isinstance(thing, Decision) else thing.study
     return Decision if isinstance(thing, Decision) else Session, study.measures
 
@@ -90,17 +99,27 @@ def _kind_and_measures(thing: Any) -> tuple[type, tuple[Measure, ...]]:
 def _content(thing: object) -> dict[str, object]:
     if isinstance(thing, Design):
         return {"design": entry_of(thing)}
+    if isinstance(thing, MotionProgram):
+        return {"program": _program_entry(thing)}
     if isinstance(thing, Session):
         return {"session": session_entry(thing)}
     if isinstance(thing, Front):
         return {"front": front_entry(thing, thing.study)}
     if isinstance(thing, Decision):
         return {"decision": decision_entry(thing)}
-    raise ValueError(f"this is {shown(thing)}; a design, a front, a Session or a Decision can be saved")
+    raise ValueError(
+        f"this is {shown(thing)}; a design, a motion program, a front, a Session or a Decision can be saved"
+    )
+
+
+def _program_entry(program: MotionProgram) -> object:
+    if np.ndim(program.possible):
+        raise ValueError("this is a population; one motion program can be saved")
+    return entry_of(program, "motion program")
 
 
 def from_json(file: str | bytes, kind: type | None = None, measures: Sequence[Measure] = ()) -> Any:
-    """The design, front or `Session` that `to_json` wrote; `read_json` says as well what is to be remarked about it."""
+    """The design, motion program, front or `Session` that `to_json` wrote; `read_json` says its remarks as well."""
     return read_json(file, kind, measures).thing
 
 
@@ -126,9 +145,11 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
         raise ValueError(f"the file follows the schema {shown(content['schema'])}; this camkit reads {SCHEMA!r}")
     if "work" in content:  # a session of 0.1.0
         content = {"session" if name == "work" else name: value for name, value in content.items()}
-    held = [name for name in ("design", "session", "front", "decision") if name in content]
+    held = [name for name in ("design", "program", "session", "front", "decision") if name in content]
     if len(held) != 1 or len(content) != 2:
-        raise ValueError("the file is damaged: beside its schema it must hold one design, one study, front or decision")
+        raise ValueError(
+            "the file is damaged: beside its schema it must hold one design, program, study, front or decision"
+        )
     reading = Reading()
     try:
         thing = _thing(held[0], content[held[0]], reading, kind, measures)
@@ -140,7 +161,7 @@ def read_json(file: str | bytes, kind: type | None = None, measures: Sequence[Me
 
 
 def _thing(held: str, entry: object, reading: Reading, kind: type | None, measures: Sequence[Measure]) -> object:
-    if held == "design":
+    if held in HELD:
         return reading.thing(mapping(entry, held), kind or object)
     if held == "decision":
         return decision_of(entry, reading, measures)
@@ -149,8 +170,9 @@ def _thing(held: str, entry: object, reading: Reading, kind: type | None, measur
 
 
 def _refuse_other(thing: object, held: str, kind: type | None) -> None:
-    if not isinstance(thing, kind or (Design if held == "design" else object)):
-        raise ValueError(f"the file holds {_said(type(thing))}; {_said(kind or Design)} is wanted here")
+    wanted = kind or HELD.get(held, object)
+    if not isinstance(thing, wanted):
+        raise ValueError(f"the file holds {_said(type(thing))}; {_said(wanted)} is wanted here")
 
 
 def _said(kind: type) -> str:

@@ -59,6 +59,7 @@ def read_motion(
     lift_unit: str | None = None,
     rest: bool | None = None,
     tolerance: float | None = None,
+    advance: float = 0.0,
 ) -> TableMotion:
     """The motion in a table: CSV or another text, or a workbook (XLSX), by its path or as the bytes of the file.
 
@@ -67,10 +68,11 @@ def read_motion(
     ``delimiter`` (one of ``; , |``, tab and blank), ``decimal`` (point or comma), ``sheet``, ``columns`` (of angle
     and lift, counted from 1), ``angle_unit`` (``deg``, ``rad``, ``crank deg``), ``lift_unit`` (``mm``, ``in``, ``thou``
     and others).  Cam angles are those of the table, modulo a turn, where the motion goes around one (see
-    `camkit.motion.motion_from_table`, also for ``rest`` and for ``tolerance``, in m or rad).
+    `camkit.motion.motion_from_table`, also for ``rest`` and for ``tolerance`` and ``advance``, in m or rad).
 
-    Rows that end in POLY5 or POLY7 are a controller's: angle, lift and its derivatives by that angle, ``v, a`` or
-    ``v, a, j``, of polynomials between them, which are taken exactly; so are those for which ``columns`` names these.
+    Rows that end in POLY5, POLY7 or, with a velocity, in CUBIC are a controller's: angle, lift and its derivatives by
+    that angle, ``v`` or ``v, a`` or ``v, a, j``, of polynomials between them, which are taken exactly; so are those for
+    which ``columns`` names these.  Of a turn that does not come back they say themselves by how much it goes on.
 
     The result is a motion program of any cam, with its ``remarks``, ``noise``, ``bad_rows`` and ``criterion``.
 
@@ -87,13 +89,7 @@ def read_motion(
     refuse_arguments(read_motion, locals())
     _refuse_answers(delimiter, decimal, angle_unit, lift_unit)
     cells = cells_of(_bytes(path), delimiter, decimal, sheet)
-    if not (2 if cells.behind[0] or columns else LEAST_ROWS) <= len(cells.rows) <= MOST_ROWS:
-        raise ValueError(f"the table has {len(cells.rows)} rows; it needs {LEAST_ROWS} to {MOST_ROWS} of them")
-    table = np.array(cells.rows, dtype=float)
-    if not (abs(table) < LARGEST).all():
-        row = int(np.argmin((abs(table) < LARGEST).all(1)))
-        raise ValueError(f"line {cells.lines[row]} of the table holds a number that no cam can have")
-    words = _words(cells)
+    table, words = _numbers(cells, 2 if cells.behind[0] or columns else LEAST_ROWS), _words(cells)
     at = _columns(cells, words, columns, table)
     x, angle_said = _angles(table[:, at.angle], angle_unit, words[at.angle] or words[-1])
     unit, lift_said = _lift_unit(lift_unit, words[at.lift] or words[-1])
@@ -107,7 +103,14 @@ def read_motion(
     digit = LIFTS[unit] * _digit([row[at.lift] for row in cells.rows])
     said = ", ".join(part for part in (cells.how, angle_said, lift_said, *turned, *_kinds(cells)) if part)
     return motion_from_table(
-        x * deg, y * LIFTS[unit], shown_in, digit=digit, rest=rest, tolerance=tolerance, said=f"{said}, "
+        x * deg,
+        y * LIFTS[unit],
+        shown_in,
+        digit=digit,
+        rest=rest,
+        tolerance=tolerance,
+        advance=advance,
+        said=f"{said}, ",
     )
 
 
@@ -130,6 +133,17 @@ def _bytes(path: str | Path | bytes) -> bytes:
         return path
     with a_path(path).open("rb") as file:
         return file.read(MOST_BYTES + 1)
+
+
+def _numbers(cells: Cells, least: int) -> Array:
+    """The numbers of the rows, if there are enough of them, and none is absurd."""
+    if not least <= len(cells.rows) <= MOST_ROWS:
+        raise ValueError(f"the table has {len(cells.rows)} rows; it needs {LEAST_ROWS} to {MOST_ROWS} of them")
+    table = np.array(cells.rows, dtype=float)
+    if not (abs(table) < LARGEST).all():
+        row = int(np.argmin((abs(table) < LARGEST).all(1)))
+        raise ValueError(f"line {cells.lines[row]} of the table holds a number that no cam can have")
+    return table
 
 
 def _words(cells: Cells) -> list[str]:
@@ -156,7 +170,7 @@ def _columns(cells: Cells, words: Sequence[str], given: Sequence[int] | None, ta
                 "five with v, a and j of a controller's polynomials"
             )
         return _Columns(given[0] - 1, given[1] - 1, tuple(i - 1 for i in given[2:]))
-    if count in (4, 5) and any(re.match(rf"poly\D*{2 * count - 3}", word.lower()) for word in _ways(cells)):
+    if _by_polynomials(cells, words):
         return _Columns(0, 1, tuple(range(2, count)))
     plain = [i for i in range(count) if not re.search(_OTHER, words[i])]
     angles = [i for i in plain if re.search(_ANGLE, words[i])]
@@ -182,6 +196,13 @@ def _pairs(table: Array, words: Sequence[str]) -> dict[str, tuple[int, int]]:
     ]
     pairs = [(i, k) for i in np.flatnonzero(goes).tolist() for k in np.flatnonzero(moves).tolist() if i != k]
     return {f"angle in column {each[i]}, lift in column {each[k]}": (i + 1, k + 1) for i, k in pairs[:MOST_PAIRS]}
+
+
+def _by_polynomials(cells: Cells, words: Sequence[str]) -> bool:
+    """Whether rows hold the derivatives of a controller's polynomials, and end in their name."""
+    count = len(cells.rows[0])
+    way = {3: "cubic", 4: r"poly\D*5", 5: r"poly\D*7"}.get(count, "$.")
+    return any(re.match(way, word.lower()) for word in _ways(cells)) and (count > 3 or bool(re.match("v", words[2])))
 
 
 def _unit(words: str, offered: Sequence[str]) -> str | None:

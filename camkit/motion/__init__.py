@@ -1,5 +1,6 @@
 """Motion laws and motion programs: how a follower should move, before there is a cam."""
 
+from .controller import controller_error, controller_rows
 from .families.constant_velocity import ConstantVelocity
 from .families.free import Degree9, FreePolynomial
 from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
@@ -68,6 +69,8 @@ __all__ = [
     "TableLaw",
     "TableMotion",
     "Transition",
+    "controller_error",
+    "controller_rows",
     "motion_from_table",
     "motion_in",
     "residual_vibration",

@@ -17,10 +17,10 @@ from ..quantities.kinds import a_number, listed, numbers, refuse_arguments, refu
 from ..quantities.types import Array, Value
 from ..units import deg, factor, in_unit
 from .closing import TURN
+from .controller import hermite
 from .families.free import piecewise
 from .law import Kinematics
 from .program import MotionProgram
-from .resolution import between
 from .segments import Dwell, Segment, _refuse_angle, _refuse_name
 from .smoothing import BadRow, Rows, Smoothed
 
@@ -147,7 +147,7 @@ class TableMotion(MotionProgram):
         """
         x, y = np.unwrap(np.array(self.row_angles)), np.array(self.row_levels)
         if self.periodic and len(self.segments) == 1:
-            x, y = np.concatenate([x, x[:k] + TURN]), np.concatenate([y, y[:k]])
+            x, y = np.concatenate([x, x[:k] + TURN]), np.concatenate([y, y[:k] + self.advance])
         values = y
         for order in range(1, k + 1):
             values = order * np.diff(values) / (x[order:] - x[: len(x) - order])
@@ -163,6 +163,7 @@ def motion_from_table(
     digit: float = 0.0,
     rest: bool | None = None,
     tolerance: float | None = None,
+    advance: float = 0.0,
     said: str = "",
 ) -> TableMotion:
     """The motion through rows of cam ``angle`` (rad, increasing) and ``level`` (m or rad), smoothed.
@@ -173,8 +174,9 @@ def motion_from_table(
     rest as far as the rows agree with it: cross-validation is no worse for it.
 
     ``digit`` is what the levels are rounded to: less is not smoothed away.  ``tolerance`` takes the smoothest
-    curve that passes every good row so closely, in place of cross-validation.  ``said`` begins the first remark, and
-    ``unit`` is that of the follower in all of them.
+    curve that passes every good row so closely, in place of cross-validation.  ``advance`` (m or rad) is by how much
+    the follower is further after each turn, of rows of a turn that do not come back.  ``said`` begins the first remark,
+    and ``unit`` is that of the follower in all of them.
 
     >>> lobe = motion_from_table(np.radians([-60, -40, -20, 0, 20, 40, 60]), [0, 3e-3, 8e-3, 1e-2, 8e-3, 3e-3, 0])
     >>> [segment.name or type(segment).__name__ for segment in lobe.segments], round(float(lobe(0.0).s), 4)
@@ -186,18 +188,17 @@ def motion_from_table(
     factor(unit)
     digit = float(a_number(digit, "the digit", "be 0 or more", lambda value: value >= 0))
     (x, y), count, size = _refused(angle, level), np.size(angle), float(np.ptp(level))
-    near = None
-    if tolerance is not None:
-        near = float(a_number(tolerance, "the tolerance", "be above 0", lambda value: value > 0))
-    x, y, ends = _ends(x, y, max(LEVEL * size, 2 * digit))
-    _refuse_gap(x)
+    near = None if tolerance is None else float(a_number(tolerance, "the tolerance", "be above 0", lambda x: x > 0))
+    advance = float(a_number(advance, "the advance of the table"))
+    x, y, ends = _ends(x, y - advance * (x - x[0]) / TURN, max(LEVEL * size, 2 * digit))
+    _refuse_gap(x, advance, ends)
     turned = np.mod(x, TURN) if ends == "turn" else x - x[0]
     order, span = np.argsort(turned, kind="stable"), TURN if ends == "turn" else float(x[-1] - x[0])
     rows = Rows(turned[order] / span, y[order] / size, min(max(digit / size, 1e-9), 1.0), ends, 0, near and near / size)
     found = _smoothed(rows, rest)
     off = zip(order[list(found.bad)], found.off, strict=True)
-    knots, begins = np.arange(found.powers.shape[1]) / found.powers.shape[1], 0.0 if ends == "turn" else float(x[0])
-    segments, start = _segments(knots, found.powers * size, begins, span, ends != "free")
+    knots, powers = _curve(found, size, advance, float(x[0]))
+    segments, start = _segments(knots, powers, 0.0 if ends == "turn" else float(x[0]), span, ends != "free")
     motion = TableMotion(
         segments,
         start,
@@ -205,10 +206,23 @@ def motion_from_table(
         bad_rows=tuple(sorted(BadRow(int(i) + 1, float(x[i]), far * size) for i, far in off)),
         criterion=_criterion(found, near, digit, unit),
         row_angles=tuple((turned if ends == "free" else np.mod(x, TURN)).tolist()),
-        row_levels=tuple(y.tolist()),
+        row_levels=tuple((y + advance * (turned - x[0]) / TURN).tolist()),
         unit=unit,
+        advance=advance,
     )
+    y = y + advance * (x - x[0]) / TURN
     return motion.replace(remarks=tuple(_remarks(motion, x, y, ends, said + f"{count} rows")))
+
+
+def _curve(found: Smoothed, size: float, advance: float, first: float) -> tuple[Array, Array]:
+    """Where the pieces of the curve begin and what stands before their powers; with it goes an ``advance`` in a turn.
+
+    It is a straight line from the angle of the ``first`` row on, which changes nothing that is smoothed.
+    """
+    powers = found.powers * size
+    knots = np.arange(powers.shape[1]) / powers.shape[1]
+    powers[:2] += advance * np.stack([knots - first / TURN, np.ones(len(knots))])
+    return knots, powers
 
 
 def _smoothed(rows: Rows, rest: bool | None) -> Smoothed:
@@ -250,7 +264,10 @@ def _ends(x: Array, y: Array, close: float) -> tuple[Array, Array, str]:
         raise ValueError(f"the table spans {_deg(span)}; a motion has at most one turn of the cam")
     if span >= TURN - 0.01 * steps.min():
         if abs(y[-1] - y[0]) > max(close, abs(y[1] - y[0])):
-            raise ValueError(f"after a turn the table is {y[-1] - y[0]:.6g} from its start; it must come back to it")
+            raise ValueError(
+                f"after a turn the table is {y[-1] - y[0]:.6g} from its start; it must come back to it, or say by its "
+                "advance how far it goes on with each turn"
+            )
         return x[:-1], y[:-1], "turn"
     step_over = 3 * abs(np.diff(y)).max() + close
     if TURN - span <= GAP * steps.max() and abs(y[-1] - y[0]) <= step_over:
@@ -258,8 +275,10 @@ def _ends(x: Array, y: Array, close: float) -> tuple[Array, Array, str]:
     return x, y, "level" if abs(y[-1] - y[0]) <= close else "free"
 
 
-def _refuse_gap(x: Array) -> None:
-    """Where rows are missing nobody knows what the follower does."""
+def _refuse_gap(x: Array, advance: float, ends: str) -> None:
+    """Where rows are missing nobody knows what the follower does, nor where a part of a turn goes on."""
+    if advance and ends != "turn":
+        raise ValueError(f"the table spans {_deg(x[-1] - x[0])}; only rows of a whole turn can go on by an advance")
     steps = np.diff(x)
     if steps.max() > max(HOLE * float(np.median(steps)), HOLE * deg):
         row = int(np.argmax(steps)) + 1
@@ -322,12 +341,12 @@ def motion_from_points(angle: Array, given: Sequence[Array], unit: str, said: st
     if (leap := abs(np.diff(s)[~goes]) > SAME * size).any():
         raise ValueError(f"row {np.flatnonzero(~goes)[np.argmax(leap)] + 2} leaps to another level at the same angle")
     closed = abs(s[-1] - s[0]) <= SAME * size
-    if span > TURN + 1e-6 or (span > TURN - 1e-6 and not closed):
-        away = f"{_deg(span)} and {s[-1] - s[0]:.6g} from its start"
-        raise ValueError(f"the table ends {away}; it must span a turn at most, and come back in one")
+    if span > TURN + 1e-6:
+        raise ValueError(f"the table spans {_deg(span)}; it must span a turn at most")
+    advance = 0.0 if closed or span < TURN - 1e-6 else float(s[-1] - s[0])
     first, second = ([row[:-1][goes] for row in given], [row[1:][goes] for row in given])
     second[0] = np.where(np.arange(goes.sum()) == goes.sum() - 1, s[0] if closed else s[-1], second[0])
-    pieces = _quintic(first, second, step[goes]) if len(given) == 3 else _of_degree_7(first, second, step[goes])
+    pieces = hermite(first, second, step[goes])
     knots, powers = (
         (angle[:-1][goes] - angle[0]) / span,
         pieces * (span / step[goes]) ** np.arange(len(pieces))[:, None],
@@ -336,20 +355,9 @@ def motion_from_points(angle: Array, given: Sequence[Array], unit: str, said: st
     segments, start = _segments(knots, powers, float(angle[0]), span, closed)
     criterion = f"polynomials of degree {len(pieces) - 1} between the rows, as the controller runs them"
     begins = "" if closed or angle[0] == 0 else f"; cam angle 0 is the first row, at {_deg(angle[0])}"
-    return TableMotion(
-        segments, start, (f"{said}{len(angle)} rows: {criterion}{begins}",), criterion=criterion, unit=unit
-    )
-
-
-def _quintic(first: Sequence[Array], second: Sequence[Array], step: Array) -> Array:
-    """What stands before the powers of a share of each step: VDI 2143 part 1, ``s, v, a`` at both ends."""
-    (s, v, a), (s1, v1, a1) = ([row * step**k for k, row in enumerate(rows)] for rows in (first, second))
-    d, e, f = s1 - s - v - a / 2, v1 - v - a, a1 - a
-    return np.stack([s, v, a / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2])
-
-
-def _of_degree_7(first: Sequence[Array], second: Sequence[Array], step: Array) -> Array:
-    return np.asarray(between(Kinematics(*first), Kinematics(*second), step))
+    on = f"; it goes on by {in_unit(advance, unit):.6g} {unit} with each turn" if advance else ""
+    remarks = (f"{said}{len(angle)} rows: {criterion}{begins}{on}",)
+    return TableMotion(segments, start, remarks, criterion=criterion, unit=unit, advance=advance)
 
 
 def _deg(angle: float) -> str:
@@ -369,7 +377,8 @@ def _criterion(found: Smoothed, tolerance: float | None, digit: float, unit: str
 def _remarks(motion: TableMotion, x: Array, y: Array, ends: str, said: str) -> list[str]:
     unit, (low, high) = motion.unit, (in_unit(float(level), motion.unit) for level in (y.min(), y.max()))
     kind = {
-        "turn": "a whole turn, which goes on smoothly over its end",
+        "turn": "a whole turn, which goes on smoothly over its end"
+        + (f", {in_unit(motion.advance, unit):.6g} {unit} further with each" if motion.advance else ""),
         "level": f"its ends are level, so a dwell of {_deg(TURN - (x[-1] - x[0]))} closes the turn",
         "free": f"a motion over {_deg(x[-1] - x[0])} with ends as the rows have them"
         + ("" if abs(x[0]) < 1e-9 else f"; cam angle 0 is the first row, at {_deg(x[0])}"),

@@ -319,7 +319,7 @@ REFUSALS = [
     (lambda: from_json('{"schema": "camkit/2"}'),
      "the file follows the schema 'camkit/2'; this camkit reads 'camkit/1'"),
     (lambda: from_json('{"schema": "camkit/1"}'), 
-     "the file is damaged: beside its schema it must hold one design, one study, front or decision"),
+     "the file is damaged: beside its schema it must hold one design, program, study, front or decision"),
     (lambda: a_file(kind="Boat"), "the file names a 'Boat', which this camkit does not know"),
     (lambda: a_file(wing=3), "the file has 'wing', which a door handle cam does not have"),
     (lambda: a_file(**{"lift_arm [mm]": "50"}),
