@@ -299,6 +299,9 @@ GOOD = {
     "motion_from_outline.follower": lambda: CAM,
     "motion_from_table.angle": lambda: np.linspace(0.0, 2.0, 9),
     "motion_from_table.level": lambda: np.linspace(0.0, 2.0, 9) ** 2,
+    "read_outline.path": lambda: "\n".join(
+        f"{np.cos(t) * 40} {np.sin(t) * 40 - 9}" for t in np.linspace(0, 6.2, 60)
+    ).encode(),
     "read_motion.path": lambda: b"0;1\n60;3\n120;4\n180;3\n240;2\n300;2\n",
     "departure.target": lambda: 0.5,
     "failures.study": lambda: STUDY.under({"base_radius": 0.001}),

@@ -5,6 +5,7 @@ from .decisions import Decision
 from .designs import Read, from_json, read, read_json, to_json, write
 from .motion_tables import electronic_cam_csv, motion_csv
 from .motions import read_motion
+from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
 
@@ -21,6 +22,7 @@ __all__ = [
     "read",
     "read_json",
     "read_motion",
+    "read_outline",
     "table_csv",
     "to_json",
     "write",

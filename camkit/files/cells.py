@@ -61,22 +61,35 @@ class Cells:
     """The line that is no row, where rows should go on."""
 
 
-def cells_of(data: bytes, delimiter: str | None, decimal: str | None, sheet: str | None) -> Cells:
-    """The table in the bytes of a file; ``ValueError`` in a sentence where there is none, or more than one."""
+def cells_of(
+    data: bytes,
+    delimiter: str | None,
+    decimal: str | None,
+    sheet: str | None,
+    of: str = "a motion",
+    in_each: str = "an angle and a lift",
+) -> Cells:
+    """The table in the bytes of a file; ``ValueError`` in a sentence where there is none, or more than one.
+
+    ``of`` what it is a table, and what a row has ``in_each``, stand in the sentences.
+    """
     if len(data) > MOST_BYTES:
-        raise ValueError(f"the file has more than {MOST_BYTES // 10**6} million bytes; no table of a motion has")
+        raise ValueError(f"the file has more than {MOST_BYTES // 10**6} million bytes; no table of {of} has")
     if data[:4] == b"PK\x03\x04":
         return _workbook(data, sheet)
-    lines = _text(data).translate(_MINUS).splitlines()
+    lines = _text(data, of).translate(_MINUS).splitlines()
     if len(lines) > MOST_LINES:
-        raise ValueError(f"the file has {len(lines)} lines; a table of a motion has at most {MOST_LINES}")
+        raise ValueError(f"the file has {len(lines)} lines; a table of {of} has at most {MOST_LINES}")
     ways = [(d, p) for d in DELIMITERS for p in DECIMALS if d != p and delimiter in (None, d) and decimal in (None, p)]
-    tried = [_table([_split(line, d) for line in lines], p, f"{DELIMITERS[d]} and {DECIMALS[p]}") for d, p in ways]
-    found = [table for table in tried if table]
+    found: list[Cells] = []
+    for words in (0, 1):  # rows may begin with a word
+        tried = [
+            _table([_split(line, d)[words:] for line in lines], p, f"{DELIMITERS[d]} and {DECIMALS[p]}")
+            for d, p in ways
+        ]
+        found = found or [table for table in tried if table]
     if not found:
-        raise ValueError(
-            "the file has no rows of two numbers or more; a table of a motion has an angle and a lift in each"
-        )
+        raise ValueError(f"the file has no rows of two numbers or more; a table of {of} has {in_each} in each")
     return _whole(max(found, key=lambda table: (len(table.rows), len(table.rows[0]))))
 
 
@@ -89,11 +102,11 @@ def _whole(found: Cells) -> Cells:
     return found
 
 
-def _text(data: bytes) -> str:
+def _text(data: bytes, of: str) -> str:
     """Text by its byte order mark, as bare UTF-16, as UTF-8, or as Windows-1252."""
     for start, kind in (*BINARY.items(), (b"\xd0\xcf\x11\xe0", "an Excel workbook of the old kind (XLS)")):
         if data.startswith(start):
-            raise ValueError(f"the file is {kind}, no table of a motion; save it as CSV or XLSX")
+            raise ValueError(f"the file is {kind}, no table of {of}; save it as CSV or XLSX")
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         encoding = "utf-16"
     elif b"\0" in data:
@@ -106,12 +119,12 @@ def _text(data: bytes) -> str:
     except UnicodeDecodeError:
         text = data.decode("cp1252", errors="replace") if encoding == "utf-8-sig" else "\0"
     if re.search(r"[\0-\x08\x0e-\x1f]", text):
-        raise ValueError("the file is no text and no workbook, so no table of a motion")
+        raise ValueError(f"the file is no text and no workbook, so no table of {of}")
     if not text.strip():
         raise ValueError("the file is empty")
     if text.lstrip()[0] in "{[<":
         kind = "a page of HTML or XML" if text.lstrip()[0] == "<" else "JSON"
-        raise ValueError(f"the file is {kind}, no table of a motion (`read` takes saved designs)")
+        raise ValueError(f"the file is {kind}, no table of {of} (`read` takes saved designs)")
     return text
 
 
