@@ -16,12 +16,14 @@ from typing import Any, TypeGuard, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from ..motion import FormError, Law, MotionProgram, Segment
+from ..motion import FormError, Joint, Law, MotionProgram, Part, Segment, Through
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..quantities.kinds import kind_words, shown
 from ..units import factor, in_unit
 from .renamed import Given, Renaming, fields_renamed, is_earlier
 
+OF_PROGRAMS = (MotionProgram, Segment, Part, Joint, Through)
+"""Programs and what they are made of: their numbers have no unit of their own."""
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.
 
@@ -87,7 +89,7 @@ def _unsaid(thing: object, of: Field[Any]) -> bool:
 
 def _declarations(kind: type) -> dict[str, Quantity | Choice]:
     """The declarations of a class by field; those of a program have no unit of their own, and stand in SI."""
-    return {} if issubclass(kind, (MotionProgram, Segment)) else declarations(kind)
+    return {} if issubclass(kind, OF_PROGRAMS) else declarations(kind)
 
 
 def _refuse_namesake(kind: type, read: type, where: str) -> None:
@@ -118,11 +120,7 @@ def _has_fields(value: Any) -> bool:
 
 def kinds() -> dict[str, type]:
     """Every class that a file may name; of two with one name camkit's own, else the newest."""
-    every = [
-        MotionProgram,
-        FormError,
-        *(kind for base in (Design, Law, Segment, MotionProgram) for kind in _below(base)),
-    ]
+    every = [*OF_PROGRAMS, FormError, *(kind for base in (Design, Law, *OF_PROGRAMS) for kind in _below(base))]
     known = [kind for kind in every if "__dataclass_fields__" in vars(kind) and not inspect.isabstract(kind)]
     return {k.__name__: k for k in sorted(known, key=_ours) if not k.__name__.startswith("_")}
 

@@ -16,8 +16,13 @@ from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
 from .families.to_nose import DoubleHarmonic, EighthOrder
 from .form import FormedProgram, FormError
+from .held import motion_in
 from .law import Kinematics, Law, Peaks
-from .program import MotionProgram, motion_in
+from .made_smooth import matched
+from .matched import MatchedProgram
+from .overshoot import Overshoot
+from .parts import Joint, OpenMove, Part, Polynomial, Through, Uniform
+from .program import MotionProgram
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .table import TableMotion, motion_from_table
 from .transitions import ProgramPeaks, Transition
@@ -44,18 +49,24 @@ __all__ = [
     "HalfCycloidalStart",
     "HalfHarmonicEnd",
     "HalfHarmonicStart",
+    "Joint",
     "Kinematics",
     "Law",
+    "MatchedProgram",
     "Mirrored",
     "ModifiedConstantVelocity",
     "ModifiedSine",
     "ModifiedTrapezoid",
     "MotionProgram",
+    "OpenMove",
+    "Overshoot",
     "Parabolic",
+    "Part",
     "Peaks",
     "Poly345",
     "Poly4567",
     "Poly56789",
+    "Polynomial",
     "PowerPolynomial",
     "ProgramPeaks",
     "Return",
@@ -68,9 +79,12 @@ __all__ = [
     "SumOfSines",
     "TableLaw",
     "TableMotion",
+    "Through",
     "Transition",
+    "Uniform",
     "controller_error",
     "controller_rows",
+    "matched",
     "motion_from_table",
     "motion_in",
     "residual_vibration",

@@ -14,34 +14,28 @@ array([0.01, 0.02, 0.  ])
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, is_dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cached_property, reduce
 from itertools import accumulate
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..geometry import end_to_end
-from ..quantities import Declared, Quantity, certain, floats, known, text_if, unless
-from ..quantities.kinds import a_number, finite, listed, numbers, refuse_arguments, refuse_lengths, shown
+from ..quantities import Declared, Quantity, certain, floats, known, unless
+from ..quantities.kinds import a_number, finite, listed, numbers, whole
 from ..quantities.types import Array, Value
-from ..units import deg
 from .closing import TURN, closed, closing
 from .law import Kinematics
+from .refused import NEARLY, ROUNDED, refuse_program
 from .resolution import Resolution, resolve
-from .segments import LIFT, Segment, degrees, kind_of, positive
+from .segments import Segment, degrees, kind_of, positive
 from .transitions import ProgramPeaks, Transition, find_peaks, find_transitions
 
 SAME_ANGLE = 1e-9
 """Cam angles closer than this (rad) are the same."""
-ROUNDED = 1e-4 * deg
-"""A span that misses the turn by no more than this (rad) is a turn whose angles were rounded."""
-LIKELY_DEGREES = 10.0
-"""A segment of so many radians, or more, was meant in degrees."""
-NEARLY = 0.5 * deg
-"""A span that misses the turn by less than this (rad), and by more than rounding, is a mistake."""
 SAME_JOINT = 1e-12
 """An angle this little (rad) before a joint is the joint: what rounding does to ``120 * deg``."""
 SAME_LEVEL = 1e-9
@@ -49,23 +43,6 @@ SAME_LEVEL = 1e-9
 
 
 START = Quantity("s_0", 0, -10, 10, "", "the follower's level where the motion begins", above=None)
-
-
-def motion_in(unit: str, lift: float, most: float, make: Callable[[], MotionProgram]) -> Any:
-    """A dataclass field for the motion program of a follower whose level is in ``unit``.
-
-    A usual ``lift`` and the largest that a slider offers are in that unit; ``make`` makes the field's default.
-    """
-    refuse_arguments(motion_in, locals())
-    says = {
-        "lift": Quantity("h", lift, most / 60, most, unit, LIFT.meaning, at_least=0),
-        "start": Quantity("s_0", 0, -most, most, unit, START.meaning, above=None),
-        "offset": Quantity(
-            "e_0", 0, -most / 100, most / 100, unit, "by how much the profile lies too far out", above=None
-        ),
-        "amplitude": Quantity("A", 0, 0, most / 100, unit, "of the waves on the profile", at_least=0),
-    }
-    return field(default_factory=make, metadata={"says": says})
 
 
 @dataclass(frozen=True)
@@ -119,7 +96,7 @@ class MotionProgram(Declared):
         object.__setattr__(self, "segments", listed(self.segments, "what the program is made of", "segment"))
         for name in ("start", "advance"):
             object.__setattr__(self, name, a_number(getattr(self, name), f"the {name} of the program"))
-        _refuse_program(self)
+        refuse_program(self)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -168,6 +145,38 @@ class MotionProgram(Declared):
         segments = closed(segments, self.segments, self.advance) if self._turns else segments
         return self.replace(segments=tuple(segments), start=changes.get("start", self.start))
 
+    def with_edge(self, number: int, angle: float) -> Self:
+        """With the joint of that number at another cam angle (rad); what one neighbour gains the other gives.
+
+        Joint 1 is the end of the first segment; the ends of the program stay.  A segment whose angle follows from its
+        other numbers is moved along.  ``ValueError`` where a neighbour has not so much to give.
+
+        >>> from camkit.motion import Cycloidal, Dwell, Return, Rise
+        >>> rise, back = Rise(2.0, 0.02, Cycloidal()), Return(2.0, 0.02, Cycloidal())
+        >>> [segment.angle for segment in MotionProgram((rise, Dwell(1.0), back)).with_edge(2, 3.5).segments]
+        [2.0, 1.5, 1.5]
+        """
+        number = whole(number, "the number of the joint", 1, max(1, len(self.segments) - 1))
+        to = a_number(angle, f"the cam angle of joint {number}")
+        before, after = (self._giving(range(*ends)) for ends in ((number - 1, -1, -1), (number, len(self.segments))))
+        by, angles = to - self.starts[number], [segment.angle for segment in self.segments]
+        if refuse := unless((by > -angles[before]) & (by < angles[after])):
+            low, high = (self.starts[number] + by for by in (-angles[before], angles[after]))
+            refuse(
+                f"joint {number} is to be at {degrees(to)}; it can lie between {degrees(low)} and {degrees(high)}, "
+                f"where {self.names[before]} and {self.names[after]} have some angle left"
+            )
+        return self._with_angles({before: angles[before] + by, after: angles[after] - by})
+
+    def _giving(self, numbers: range) -> int:
+        """Which of some segments, in that order, is the first whose angle can be another."""
+        return numbers[0]
+
+    def _with_angles(self, angles: Mapping[int, Value]) -> Self:
+        """With other angles of some segments."""
+        segments = enumerate(self.segments)
+        return self.replace(segments=tuple(replace(s, angle=angles[i]) if i in angles else s for i, s in segments))
+
     @cached_property
     def _beyond(self) -> Value:
         """By how much the segments' angles together exceed a full turn, rad."""
@@ -182,6 +191,9 @@ class MotionProgram(Declared):
     @cached_property
     def levels(self) -> list[Any]:
         """The level at which each segment begins, and at last the final one."""
+        return self._levels()
+
+    def _levels(self) -> list[Any]:
         return list(accumulate((segment.change for segment in self.segments), initial=self.start))
 
     @property
@@ -224,9 +236,12 @@ class MotionProgram(Declared):
     @property
     def closes(self) -> bool | Array:
         """Whether the last level is the first one and the advance, or need not be: there is no turn, nor an advance."""
-        size = sum(segment.reach[1] - segment.reach[0] for segment in self.segments)
         gap = np.abs(self.levels[-1] - self.start - self.advance)
-        return np.where(self.periodic, gap <= SAME_LEVEL * size, self.comes_back)[()]
+        return np.where(self.periodic, gap <= SAME_LEVEL * self._size(), self.comes_back)[()]
+
+    def _size(self) -> Value:
+        """How large levels and their changes are."""
+        return sum(segment.reach[1] - segment.reach[0] for segment in self.segments)
 
     @cached_property
     def possible(self) -> bool:
@@ -344,49 +359,3 @@ class MotionProgram(Declared):
 def _along(u: Array, values: Any) -> Array:
     """``values`` at each of ``u``, also where a law gives one for all."""
     return values if np.shape(values)[-1:] == u.shape[-1:] else np.broadcast_to(values, u.shape)
-
-
-def _meant(program: MotionProgram) -> str:
-    """What to write where a segment's angle, the first of them, was given in degrees."""
-    said = ""
-    for segment in reversed(program.segments):
-        likely, given = (segment.angle >= LIKELY_DEGREES) & (segment.angle <= 360), f"{segment.angle:.6g}"
-        words = f" (the {kind_of(segment)} was given {given} rad; for degrees write {given} * deg)"
-        said = text_if(likely, words, said)
-    return said
-
-
-def _refuse_program(program: MotionProgram) -> None:
-    if not program.segments:
-        raise ValueError("the program is empty; it needs at least one rise, return or dwell")
-    for i, segment in enumerate(program.segments, start=1):
-        if not isinstance(segment, Segment):
-            given = shown(segment)
-            raise ValueError(f"segment {i} of the program is {given}; it must be a rise, a return or a dwell")
-    refuse_lengths(program)
-    for name in program.names:
-        if program.names.count(name) > 1 or name in ("start", "segments", "advance", "form"):
-            raise ValueError(f"a segment of the program is called {name}; it must have a name that nothing else has")
-    if refuse := unless(program._beyond <= ROUNDED):
-        little = f"{degrees(program._beyond)} more than a full turn"
-        spans = text_if(program._beyond >= NEARLY, degrees(program.span), little)
-        refuse(f"the program spans {spans}; it can span at most 360 deg{_meant(program)}")
-    if refuse := unless(np.logical_not(program._misses)):
-        refuse(
-            f"the program spans {degrees(program.span, 10)}; {degrees(-program._beyond)} are missing to a full turn: "
-            "lengthen a segment or add a dwell"
-        )
-    if refuse := unless(program.closes):
-        refuse(_left_open(program))
-
-
-def _left_open(program: MotionProgram) -> str:
-    """Why a program does not close."""
-    end, advance = program.levels[-1] - program.start, f"{program.advance:.6g}"
-    must = text_if(
-        program.comes_back,
-        f"; a full turn must come back to its start, or say by how much it is further: advance={end:.12g}",
-        f"; that must be its advance, {advance}, from which it is {end - program.advance:.3g} away",
-    )
-    short = f"the advance of the program is {advance}, but it spans {degrees(program.span)}; only a full turn can go on"
-    return text_if(program.periodic, f"the program ends {end:.6g} from its start after 360 deg{must}", short)

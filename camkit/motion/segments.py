@@ -5,11 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from ..quantities import Choice, Declared, Quantity, certain, text_if, text_of, unless
-from ..quantities.kinds import a_number, finite, number, refuse_lengths, shown
+from ..quantities.kinds import a_number, finite, kind_words, number, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import in_unit
 from .families.constant_velocity import ConstantVelocity
@@ -198,11 +199,12 @@ def degrees(angle: Value, digits: int = 6) -> str:
     return text_of(in_unit(angle, "deg"), f"~.{digits}g") + text_if(finite(angle), " deg")
 
 
-def _refuse_name(segment: Segment) -> None:
-    if not isinstance(segment.name, str) or not (segment.name.isidentifier() or segment.name == ""):
-        raise ValueError(
-            f"the name of the {kind_of(segment)} is {shown(segment.name)}; it must be made of letters, digits and _"
-        )
+def _refuse_name(segment: Any) -> None:
+    """``ValueError`` for a name that paths cannot hold, of a segment or what else has one."""
+    name = segment.name
+    if not isinstance(name, str) or not (name.isidentifier() or name == ""):
+        kind = kind_words(type(segment))
+        raise ValueError(f"the name of the {kind} is {shown(name)}; it must be made of letters, digits and _")
 
 
 def _refuse_angle(segment: Segment) -> None:

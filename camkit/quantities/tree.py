@@ -41,9 +41,11 @@ class Leaf(NamedTuple):
 
 
 @cache
-def _lettered(declared: Quantity, letter: str | None) -> Quantity:
-    """One number of a row, with another letter in its symbol."""
-    return replace(declared, symbol=f"{letter}_{declared.symbol.partition('_')[2]}") if letter else declared
+def _lettered(declared: Quantity, letter: object) -> Quantity:
+    """One number of a row, with another letter in its symbol; what owners say of fields that are no rows is none."""
+    if not isinstance(letter, str):
+        return declared
+    return replace(declared, symbol=f"{letter}_{declared.symbol.partition('_')[2]}")
 
 
 def _leaves(part: Declared, said: Mapping[str, Any]) -> dict[str, Leaf]:
