@@ -30,6 +30,8 @@ class Driven(NamedTuple):
     """``q``: what resists besides inertia and the return spring, less what does at the cam angle 0."""
     lever: Array
     """Force along the travel that a contact force of 1 N carries."""
+    level: Array
+    """Of the follower at the cam angle 0."""
     preload: Array
     """``N_0``: what resists at the cam angle 0."""
     mass: Array
@@ -54,12 +56,13 @@ def driven(analysis: Any, samples: int) -> Driven:
         at = analysis.at(angle)
         s, v, w, _ = at.motion
         static, rate = np.where(possible, at.static_resistance, np.nan), _column(at.closing_rate)
-        travel, preload = s - s[..., :1], static[..., :1]
+        level, preload = s[..., :1], static[..., :1]
+        travel = s - level
         load = static - preload - rate * travel
         still = (i for i, segment in enumerate(motion.segments) if segment.still)
         dwells = tuple((_column(motion.starts[i]), _column(motion.starts[i + 1])) for i in still)
         mass, speed = _column(at.inertia), _column(at.speed)
-        return Driven(angle, travel, v, w, load, at.lever, preload, mass, rate, speed, dwells)
+        return Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, speed, dwells)
 
 
 def _column(value: Value) -> Array:

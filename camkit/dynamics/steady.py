@@ -43,11 +43,11 @@ def respond(train: Train, analysis: Any, speed: Value | None = None, samples: in
     turns = None if speed is None else a_speed(speed)
     if samples is not None:
         count = counted(samples, "samples of a turn", 8, MOST)
-        return _response(train, driven(analysis, count + count % 2), turns)
-    found = _response(train, driven(analysis, LEAST), turns)
+        return response_of(train, driven(analysis, count + count % 2), turns)
+    found = response_of(train, driven(analysis, LEAST), turns)
     alone = found.train_force.ndim == 1
     count = max(enough(found.natural_frequency, found.speed), ALONE if alone else LEAST)
-    return found if count == LEAST else _response(train, driven(analysis, count), turns)
+    return found if count == LEAST else response_of(train, driven(analysis, count), turns)
 
 
 def a_speed(speed: Value) -> Value:
@@ -68,7 +68,8 @@ def enough(frequency: Value, speed: Value) -> int:
     return count
 
 
-def _response(train: Train, given: Driven, speed: Value | None) -> Response:
+def response_of(train: Train, given: Driven, speed: Value | None) -> Response:
+    """The response to what drives a train, at the cam's own speed or another; what cannot be is refused."""
     _refuse_mass(train, given)
     turns = given.speed if speed is None else np.atleast_1d(speed)
     if refuse := unless(np.all(turns > 0) if turns.size == 1 else turns > 0):
@@ -287,7 +288,7 @@ def natural_modes(train: Train, mass: Array, rate: Array) -> tuple[Array, Array]
     """
     masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.inner_masses, mass)), rate[..., 0])[:-1]
     M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
-    stiff, rub = (_series_matrix([part[i] for part in train.springs], end)
+    stiff, rub = (series_matrix([part[i] for part in train.springs], end)
                   for i, end in ((0, rate), (1, train.ground_damping)))  # fmt: skip
     scale = 1 / np.sqrt(M[..., :, None] * M[..., None, :])
     given = np.broadcast_to(stiff * scale, np.broadcast_shapes(np.shape(stiff), scale.shape))
@@ -299,7 +300,7 @@ def natural_modes(train: Train, mass: Array, rate: Array) -> tuple[Array, Array]
     return frequency, damping / (2 * frequency)
 
 
-def _series_matrix(parts: list[Value], end: Value) -> Array:
+def series_matrix(parts: list[Value], end: Value) -> Array:
     """Of springs (or dampers) in a row from the cam to the last mass, and one from there to the frame."""
     each = np.broadcast_arrays(*(np.atleast_1d(x)[..., 0] for x in (*parts, end)))
     n = len(parts)
