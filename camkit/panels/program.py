@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from ..motion import MotionProgram
-from ..motion.segments import kind_of
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..units import deg, factor, rpm
 from ..views.laws import PROGRAM_VIEWS, MotionUnits, ShownProgram
+from .kit import draft_edits as edits
+from .kit.draft import Draft
 from .kit.drawn import LivePicture, nearest
 from .kit.inputs import Amount, Menu
 from .kit.parts import Banner, Button, Group, Message, Table, Words, row
-from .kit.program_edits import KINDS, angles_of, with_edge
+from .kit.program_files import ProgramFiles
 from .kit.quiet import Quiet
+from .kit.remarks import Remarks
 from .kit.segments import Edit, Hand, SegmentRow, heads
 from .kit.sheet import IMPOSSIBLE, Panel, reason
 from .kit.steps import Steps
-from .kit.verdicts import TransitionRow, headline, peaks
+from .kit.verdicts import PEAKS, TransitionRow, at_edges, headline, peaks
 
 GRID = 0.5
 """Dragged angles (deg) and lifts snap to multiples of this, in the unit shown."""
@@ -49,37 +54,53 @@ class ProgramEditor(Panel):
     ``program`` is the program that is shown, the last one that was possible; ``on_change(f)`` calls ``f(program)``
     after every change.  What a segment takes its neighbours give, so that a turn stays a turn.  Dragging a handle
     sideways moves a joint between its neighbours, up and down changes the level there; what lies beyond stays.
+
+    A segment that is made a polynomial or a constant velocity follows from what holds at its ends (`MatchedProgram`):
+    each transition then has a menu for position, velocity, acceleration and jerk.
     """
 
     def __init__(self, program: MotionProgram, unit: str = "mm") -> None:
         refuse_arguments(ProgramEditor.__init__, locals())
         factor(unit)
-        self.start = self.program = program
-        self.unit = unit
-        self._quiet, self._steps = Quiet(), Steps[MotionProgram]()
+        self.start, self.unit = program, unit
+        self.draft = Draft.of(program)
+        self._quiet, self._steps = Quiet(), Steps[Draft]()
         self._hand = Hand(self._edit, unit, self._quiet)
-        self._held: tuple[int, MotionProgram] | None = None
+        self._held: tuple[int, Draft] | None = None
         self.rows: list[SegmentRow] = []
         self.transitions: list[TransitionRow] = []
+        self.first = TransitionRow(0, self._hand)
         self._make_parts()
-        left = Group(self._head, self.banner, self.verdict, self._list, self.followed, self.numbers)
+        parts = (self.banner, self.verdict, self._list, self._rest, self.remarks.group, self.numbers, self.files.group)
+        left = Group(self._head, *parts)
         super().__init__(Group(left, self.picture, look="beside halves"))
         self.load(program)
 
     def _make_parts(self) -> None:
         self.numbers, self.verdict, self.banner = Table(), Words(role="status"), Banner()
         self.followed = Words(look="hint", role="status")
-        self.undo, self.redo = Button("Undo", self._undo), Button("Redo", self._redo)
+        self.undo = Button("Undo", partial(self._go, self._steps.undo))
+        self.redo = Button("Redo", partial(self._go, self._steps.redo))
         self.values = Menu((PER_RAD, IN_TIME, OVER_TIME), "values")
         self.speed = Speed(description="speed", unit="rpm", value=60.0, tooltip="speed of the shaft")
         for box in (self.values, self.speed):
-            self._quiet.hear(box, lambda _: self._take(lambda program: program))
-        reset = Button("Reset", lambda: self._edit(lambda _: self.start))
+            self._quiet.hear(box, lambda _: self._take(lambda draft: draft))
+        reset = Button("Reset", lambda: self._edit(lambda _: Draft.of(self.start)))
         self._head = row(self.undo, self.redo, reset, self.values, self.speed, look="head")
         self._list, self._heads = Group(look="segments"), heads(self._edit)
+        self.rest = Menu((), "closes the turn", tooltip="which segment takes what the others leave of the turn")
+        self._quiet.hear(self.rest, lambda i: self._edit(lambda draft: edits.resting(draft, i)))
+        self._rest = row(self.rest, self.followed)
+        self.remarks = Remarks(self._hand)
+        self.files = ProgramFiles(self, lambda said: self.followed.say(said), self.banner.show_message)
         self.picture = LivePicture(PROGRAM_VIEWS, "Displacement, velocity, acceleration and jerk", height=5.6)
         self.picture.pixels = HEIGHT
         self.picture.on_pointer(self._pointer)
+
+    @property
+    def program(self) -> MotionProgram:
+        """The program that is shown, the last one that was possible."""
+        return self.draft.program
 
     @property
     def units(self) -> MotionUnits:
@@ -88,87 +109,106 @@ class ProgramEditor(Panel):
 
     def load(self, program: MotionProgram) -> None:
         """Show another program; its rows stay where they are, so that a button under the pointer does what it says."""
-        if other := [segment for segment in program.segments if kind_of(segment) not in KINDS]:
-            raise ValueError(f"the program has a {kind_of(other[0])}; rises, returns and dwells can be edited here")
-        if self._take(lambda _: program):
-            self._tell_followers(program)
+        draft = Draft.of(program)
+        if other := [kind for kind in map(edits.kind_of, draft.parts) if kind not in edits.KINDS]:
+            raise ValueError(f"the program has a {other[0]}; rises, returns and dwells can be edited here")
+        self._edit(lambda _: draft)
 
     def _edit(self, edit: Edit) -> None:
-        """Another program after a person's hand, a step that can be undone."""
-        before = self.program
-        if self._take(edit) and self.program != before:
+        """Another draft after a person's hand, a step that can be undone."""
+        before = self.draft
+        possible = self._take(edit)
+        if self.draft != before:
             with self.held():
                 if self._held is None:
                     self._steps.leave(before)
                 self._say_what_followed(before)
                 self._show_steps()
-            self._tell_followers(self.program)
+            if possible:
+                self._tell_followers(self.program)
 
     def _take(self, edit: Edit) -> bool:
-        """Show another program; what cannot be is said, and the last one stays."""
-        before = self.program
+        """Show another draft; what cannot be typed is said, and the last one stays; one that is impossible waits."""
+        before = self.draft
         with self._quiet, self.held():
             try:
-                self.program = edit(before)
-                self._show()
+                self.draft = edit(before)
+                self._show(self.draft.made())
             except IMPOSSIBLE as refusal:
-                self.program = before
-                self._show_rows(self.units)
-                self.banner.show_message(f"{reason(refusal)[:1].upper()}{reason(refusal)[1:]}.")
+                waits = self.draft is not before and self.draft.matched
+                self.draft = self.draft if waits else before
+                self._show_rows(possible=not waits and self.picture.visible)
+                said = f"{reason(refusal)[:1].upper()}{reason(refusal)[1:]}."
+                (self.refuse_picture if waits else self.banner.show_message)(said)
                 return False
         return True
 
-    def _undo(self) -> None:
-        self._go(self._steps.undo(self.program))
-
-    def _redo(self) -> None:
-        self._go(self._steps.redo(self.program))
-
-    def _go(self, program: MotionProgram | None) -> None:
-        if program is not None:
+    def _go(self, step: Callable[[Draft], Draft | None]) -> None:
+        """Undo, or redo."""
+        draft = step(self.draft)
+        if draft is not None:
             with self.held():
-                self.load(program)
+                possible = self._take(lambda _: draft)
                 self.followed.say()
+                self._show_steps()
+            if possible:
+                self._tell_followers(self.program)
 
-    def _show(self) -> None:
-        """Rows, verdicts, peaks and curves of the program."""
-        with self._quiet, self.held():
-            units = self.units
-            self.picture.show(self._shown())
-            self._show_rows(units)
-            self.speed.visible = self.values.value != PER_RAD
-            self.verdict.say(headline(self.program))
-            self.numbers.put(("peak", "value", "at"), peaks(self.program, units))
-            self.banner.show_message("")
-            self._show_steps()
+    def refuse_picture(self, sentence: str) -> None:
+        """Show a sentence in place of the picture, its numbers and its verdicts; an empty one brings them back."""
+        with self.held():
+            super().refuse_picture(sentence)
+            self.verdict.visible = self.remarks.group.visible = not sentence
 
-    def _shown(self) -> ShownProgram:
+    def _show(self, draft: Draft) -> None:
+        """Rows, verdicts, peaks and curves of a draft that is possible."""
         over_time = self.values.value == OVER_TIME
-        return ShownProgram(self.program, self.unit, speed=self.units.speed, over_time=over_time)
+        shown = ShownProgram(draft.program, self.unit, speed=self.units.speed, over_time=over_time)
+        self.picture.show(shown)
+        self._across, self.draft = shown.across, draft
+        self.refuse_picture("")
+        self._show_rows()
+        self.verdict.say(headline(draft.program))
+        self.remarks.show(draft, self.unit)
+        self.numbers.put(PEAKS, [peaks(draft.program, self.units)])
+        self._show_steps()
 
-    def _show_rows(self, units: MotionUnits) -> None:
-        count = len(self.program.segments)
-        while len(self.rows) < count:
+    def _show_rows(self, possible: bool = True) -> None:
+        draft, units = self.draft, self.units
+        self.speed.visible = self.values.value != PER_RAD
+        while len(self.rows) < len(draft.parts):
             self.rows.append(SegmentRow(len(self.rows), self._hand))
-            self.transitions.append(TransitionRow(len(self.transitions), self._hand))
-        del self.rows[count:], self.transitions[count:]
-        joints = {round(joint.angle / deg, 6): joint for joint in self.program.transitions()}
-        edges = np.asarray(self.program.edges) / deg
-        for row_, transition, edge in zip(self.rows, self.transitions, edges[1:], strict=True):
-            row_.show(self.program)
-            joint = joints.get(round(float(edge), 6))
-            transition.row.visible = joint is not None
-            if joint is not None:
-                transition.show(joint, units)
+            self.transitions.append(TransitionRow(len(self.transitions) + 1, self._hand))
+        del self.rows[len(draft.parts) :], self.transitions[len(draft.parts) :]
+        edges = np.concatenate([[0.0], np.cumsum(draft.angles())]) * deg
+        found = at_edges(draft.program) if possible else [None] * len(edges)
+        segments = draft.program.segments if possible else [None] * len(self.rows)
+        for row_, segment in zip(self.rows, segments, strict=True):
+            row_.show(draft, segment, units)
+        for after, joint, edge in zip((self.first, *self.transitions), found, edges, strict=True):
+            after.show(draft, joint, float(edge), units)
+        self.first.row.visible = draft.matched and not draft.turns
+        self._list_parts()
+        self._show_rest()
+
+    def _list_parts(self) -> None:
         both = zip(self.rows, self.transitions, strict=True)
-        self._list.children = (self._heads, *(part for row_, after in both for part in (*row_.parts, after.row)))
+        pairs = (part for row_, after in both for part in (*row_.parts, after.row))
+        self._list.children = (self._heads, self.first.row, *pairs)
+
+    def _show_rest(self) -> None:
+        draft = self.draft
+        names = [(f"{k + 1}: {edits.kind_of(part)}", k) for k, part in enumerate(draft.parts)]
+        can = [names[k] for k in range(len(names)) if k == draft.rest or draft.own_angle(k)]
+        self.rest.offer(can if draft.rest is not None else (), draft.rest)
+        self.rest.visible = draft.rest is not None
 
     def _show_steps(self) -> None:
         self.undo.disabled, self.redo.disabled = not self._steps.before, not self._steps.after
 
-    def _say_what_followed(self, before: MotionProgram) -> None:
-        """Which segments gave or took angle, where those are not the ones that a person set."""
-        old, new = angles_of(before), angles_of(self.program)
+    def _say_what_followed(self, before: Draft) -> None:
+        """Which segments gave or took angle, where more did than the one beside."""
+        old, new = before.angles(), self.draft.angles()
         changed = [(k, old[k], new[k]) for k in range(len(new)) if len(old) == len(new) and old[k] != new[k]]
         told = ", ".join(f"{k + 1}: {a:g} to {b:g} deg" for k, a, b in changed)
         self.followed.say(f"Segments {told}." if len(changed) > 2 else "")
@@ -178,20 +218,20 @@ class ProgramEditor(Panel):
         if kind == "press":
             handles = self.picture.shown[0]["handles"]
             joint = nearest(np.column_stack([handles.x, handles.y]), at, pixel, within=REACH) if view == 0 else None
-            self._held = None if joint is None else (joint, self.program)
+            self._held = None if joint is None else (joint, self.draft)
         elif kind == "drag" and self._held is not None:
-            self._move(self._held[0], float(at[0]) * self._shown().across / deg, float(at[1]))
+            self._move(self._held[0], float(at[0]) * self._across / deg, float(at[1]))
         elif kind == "release" and self._held is not None:
             before, self._held = self._held[1], None
-            if self.program != before:
+            if self.draft != before:
                 self._steps.leave(before)
                 self._show_steps()
 
-    def _move(self, joint: int, angle: float, level: float) -> None:
-        """Bring a joint to a cam angle (deg) and a level (in the unit shown), as far as its neighbours let it."""
-        if 0 < joint < len(self.rows):
+    def _move(self, edge: int, angle: float, level: float) -> None:
+        """Bring an edge to a cam angle (deg) and a level (in the unit shown), as far as its neighbours let it."""
+        if 0 < edge < len(self.rows):
             angle, level = (round(value / GRID) * GRID for value in (angle, level))
-            self._edit(lambda program: with_edge(program, joint, angle, level * factor(self.unit)))
+            self._edit(lambda draft: edits.with_edge(draft, edge, angle, level * factor(self.unit)))
 
     def summary(self) -> str:
         """Each transition's verdict."""

@@ -223,7 +223,22 @@ class Download(Button):
                 raise
             self.refused(f"Nothing is saved: {refusal}.")
         else:
-            self.send({"name": self.filename, "mime": self.mime, "text": text})
+            self.send(self.sent(text))
+
+    def sent(self, text: str) -> dict[str, str]:
+        """What the page is told."""
+        return {"name": self.filename, "mime": self.mime, "text": text}
+
+
+class Copy(Download):
+    """A button; pressing it puts what ``content()`` returns at that moment where a person pastes from."""
+
+    def __init__(self, description: str, content: Callable[[], str], refused: Callable[[str], None]) -> None:
+        super().__init__(description, "", "text/plain", content, refused)
+
+    def sent(self, text: str) -> dict[str, str]:
+        """What the page is told."""
+        return {"copy": text}
 
 
 class Upload(Part):

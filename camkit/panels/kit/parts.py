@@ -145,6 +145,11 @@ class Button(Part):
         self.click()
 
 
+def icon(sign: str, act: Callable[[], object], meaning: str) -> Button:
+    """A button of one sign."""
+    return Button(sign, act, tooltip=meaning, look="icon")
+
+
 class Group(Part):
     """Parts below each other, or beside each other in a row that goes on in the next line where the page is narrow."""
 

@@ -6,7 +6,7 @@ takes the follower back to where the turn began.  Angles are in deg, with the di
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -45,25 +45,26 @@ def with_angle(program: MotionProgram, i: int, angle: float) -> MotionProgram:
 
     The next one gives first, then those after it, then those before.  ``ValueError`` for an angle that they have not.
     """
-    if not angle > 0:
-        raise ValueError(f"the angle stays as before: {angle:g} deg was typed; it must be above 0 deg")
-    angles = angles_of(program)
-    wanted, angles[i] = angle - angles[i], angle
-    if not program.periodic:
-        wanted = max(sum(angles) - 360, 0.0)
-    for k in _givers(i, len(angles)):
-        given = min(wanted, max(angles[k] - LEAST, 0.0))
-        angles[k], wanted = round(angles[k] - given, DIGITS), round(wanted - given, DIGITS)
-    if wanted > 0:
-        most = f"with at least {LEAST:g} deg for each of the others it can be {angle - wanted:.6g} deg"
-        raise ValueError(f"the angle stays as before: {angle:g} deg was typed; {most}")
+    angles = shared(angles_of(program), i, angle, bool(program.periodic))
     return program.replace(segments=tuple(with_angles(program, angles)))
 
 
-def _givers(i: int, count: int) -> Iterator[int]:
-    """The neighbours of segment ``i``, the next ones first."""
-    yield from range(i + 1, count)
-    yield from range(i - 1, -1, -1)
+def shared(angles: Sequence[float], i: int, angle: float, turns: bool, fixed: Sequence[int] = ()) -> list[float]:
+    """Angles (deg) of which one is another; what it takes or leaves the others do that are not ``fixed``."""
+    if not angle > 0:
+        raise ValueError(f"the angle stays as before: {angle:g} deg was typed; it must be above 0 deg")
+    found = list(angles)
+    wanted, found[i] = angle - found[i], angle
+    if not turns:
+        wanted = max(sum(found) - 360, 0.0)
+    for k in (*range(i + 1, len(found)), *range(i - 1, -1, -1)):
+        if k not in fixed:
+            given = min(wanted, max(found[k] - LEAST, 0.0))
+            found[k], wanted = round(found[k] - given, DIGITS), round(wanted - given, DIGITS)
+    if wanted > 0:
+        most = f"with at least {LEAST:g} deg for each of the others it can be {angle - wanted:.6g} deg"
+        raise ValueError(f"the angle stays as before: {angle:g} deg was typed; {most}")
+    return found
 
 
 def with_change(program: MotionProgram, i: int, change: float) -> MotionProgram:

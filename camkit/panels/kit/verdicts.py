@@ -2,39 +2,73 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Sequence
 
 import numpy as np
 
+from ...extrema import Extreme
 from ...motion import MotionProgram, Transition
-from ...quantities.types import Value
-from ...units import in_unit
+from ...units import deg, in_unit
 from ...views.laws import MotionUnits
+from .conditions import LETTERS, JointRow, Wanted
+from .draft import Draft
+from .draft_edits import smoothed
 from .parts import Button, Line, Piece, Words, row
-from .program_edits import smoothed
 from .segments import Hand
 
-PEAKS = ("velocity", "acceleration", "jerk")
+ROUNDING = 1e-9
+"""What is less than this share of the highest level, per rad^k, is 0."""
+PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 
 
 class TransitionRow:
-    """One transition: its verdict, and beside one that is not lawful what makes it smooth."""
+    """One transition: its verdict, what makes it smooth where it is not lawful, and the conditions that hold there."""
 
     def __init__(self, place: int, hand: Hand) -> None:
+        self.place, self.hand = place, hand
         self.verdict = Words()
-        smooth = partial(hand.edit, lambda program: smoothed(program, place))
-        self.smooth = Button("Make it smooth", smooth, tooltip="from rest to rest by 3-4-5 polynomials here")
-        self.row = row(self.verdict, self.smooth, look="transition")
+        self.smooth = Button("Make it smooth", self._smooth, tooltip="the moves beside it as smooth as they can be")
+        self.joint = JointRow(hand.quiet, self._given)
+        self.row = row(self.verdict, self.joint.group, self.smooth, look="transition")
 
-    def show(self, transition: Transition, units: MotionUnits) -> None:
-        """Say what happens there."""
-        self.verdict.say(_said(transition, units))
-        self.smooth.visible = not transition.lawful
+    def show(self, draft: Draft, transition: Transition | None, edge: float, units: MotionUnits) -> None:
+        """Say what happens there: at an ``edge`` (rad) that is none where the draft is not possible."""
+        self.row.visible = transition is not None or draft.matched
+        told = transition is not None and not (draft.matched and transition.lawful)
+        self.verdict.look = "" if told else "place"
+        self.verdict.say(_said(transition, units) if transition and told else f"{in_unit(edge, 'deg'):.6g}°")
+        self.smooth.visible = transition is not None and not transition.lawful
+        self.joint.group.visible = draft.matched
+        if draft.matched:
+            joint = draft.joints[self.place % len(draft.joints)]
+            self.joint.show(joint, _motion_at(draft.program, self.place), units)
+
+    def _smooth(self) -> None:
+        self.hand.edit(lambda draft: smoothed(draft, self.place))
+
+    def _given(self, k: int, wanted: Wanted) -> None:
+        self.hand.edit(lambda draft: draft.with_joint(self.place, **{LETTERS[k]: wanted}))
+
+
+def _motion_at(program: MotionProgram, edge: int) -> Sequence[float]:
+    """``s, v, a, j`` where a segment ends, or where the first one begins; what is rounding is 0."""
+    before = min(max(edge - 1, 0), len(program.segments) - 1)
+    s, *others = program.segments[before].motion(np.array(1.0 if edge else 0.0))
+    size = max(abs(float(level)) for level in program.levels)
+    found = [float(value) for value in (s + program.levels[before], *others)]
+    return [value if abs(value) > ROUNDING * size else 0.0 for value in found]
 
 
 def _said(transition: Transition, units: MotionUnits) -> Piece:
     words = transition.text(units.of(transition.order or 0), units.speed)
     return words if transition.lawful else {"words": words, "look": "missed"}
+
+
+def at_edges(program: MotionProgram) -> list[Transition | None]:
+    """The transition at each edge, where there is one; that of the turn's end is at the last."""
+    found = {round(joint.angle / deg, 6): joint for joint in program.transitions()}
+    edges = np.asarray(program.edges)[1:]
+    return [None, *(found.get(round(float(edge) / deg, 6)) for edge in edges)]
 
 
 def headline(program: MotionProgram) -> Line:
@@ -46,13 +80,13 @@ def headline(program: MotionProgram) -> Line:
     return {"words": f"✗ The motion is not smooth at {places}.", "look": "missed"}
 
 
-def peaks(program: MotionProgram, units: MotionUnits) -> list[tuple[str, str, str]]:
+def peaks(program: MotionProgram, units: MotionUnits) -> list[str]:
     """The largest of each derivative, and where."""
-    return [
-        (name, _size(peak.value, k, units), f"{in_unit(float(peak.cam_angle), 'deg'):.4g} deg")
-        for k, (name, peak) in enumerate(zip(PEAKS, program.peaks(), strict=True), 1)
-    ]
+    return [_size(peak, k, units) for k, peak in enumerate(program.peaks(), 1)]
 
 
-def _size(value: Value, k: int, units: MotionUnits) -> str:
-    return f"{float(value) / units.factor(k):.5g} {units.name(k)}" if np.isfinite(value) else "infinite"
+def _size(peak: Extreme, k: int, units: MotionUnits) -> str:
+    place = f"at {in_unit(float(peak.cam_angle), 'deg'):.4g} deg"
+    if not np.isfinite(peak.value):
+        return f"infinite {place}"
+    return f"{float(peak.value) / units.factor(k):.5g} {units.name(k)} {place}"

@@ -4,7 +4,7 @@ import { PARTS } from "./parts.js";
 import { Chart } from "./picture.js";
 import { fill } from "./numbers.js";
 import { placeOf, say, under, zooms } from "./pointer.js";
-import { download } from "./files.js";
+import { copy, download } from "./files.js";
 import { PATIENCE, arrays, atTheEnd } from "./kernel.js";
 import { many } from "./marks.js";
 import { Theme } from "./theme.js";
@@ -39,9 +39,10 @@ export class Sheet {
     this.heard = {
       "change:body": () => this.show(),
       "msg:custom": (/** @type {any} */ message) => {
-        if (message.text === undefined || !this.spoke) return; // another view of the sheet asked for it
+        if ((message.text ?? message.copy) === undefined || !this.spoke) return; // another view of the sheet asked for it
         this.spoke = false;
-        download(message.name, new Blob([message.text], { type: message.mime }));
+        if (message.copy === undefined) download(message.name, new Blob([message.text], { type: message.mime }));
+        else void copy(message.copy);
       },
       "comm_live_update": () => this._gone(), // it happens once more after the beginning: at the end
     };
