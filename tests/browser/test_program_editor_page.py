@@ -2,7 +2,7 @@
 
 import nbformat
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import BrowserContext, Locator, Page, ViewportSize, expect
 
 from lab import LabServer, cell_output, eventually, in_picture, kernel_value, open_notebook, run_all
 
@@ -13,11 +13,18 @@ editor = edit_program(MotionProgram((Dwell(45 * deg), Rise(90 * deg, 20 * mm, Cy
 heard = []
 editor.on_change(lambda program: heard.append(float(program.edges[2]) / deg))
 editor"""
+SIZE: ViewportSize = {"width": 1400, "height": 900}
+CONVEYOR = """
+from camkit.motion import MatchedProgram, Polynomial, Uniform
+from camkit.units import inch, rpm
+belt = Uniform(22 * inch / (58 * rpm), 1.1 * inch)
+conveyor = edit_program(MatchedProgram((Polynomial(60 * deg), belt, Polynomial(), Dwell(60 * deg))))
+conveyor"""
 
 
 @pytest.fixture(scope="module")
 def page(window: Page, server: LabServer) -> Page:
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(SOURCE)])
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in (SOURCE, CONVEYOR)])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     nbformat.write(notebook, server.root / "editor.ipynb")
     open_notebook(window, "editor.ipynb")
@@ -106,3 +113,59 @@ def test_segments_come_and_go(page: Page, editor: Locator) -> None:
     expect(segment(editor, 5).get_by_role("combobox", name="kind")).to_have_value("1")
     expect(segment(editor, 5).get_by_role("textbox", name="angle, deg")).to_have_value("30")
     expect(segment(editor, 5).get_by_role("textbox", name="lift")).to_be_hidden()
+
+
+SMOOTH = "✓ Position, velocity and acceleration are continuous all around."
+
+
+def test_a_conveyors_segment_5_deg_longer_leaves_every_transition_smooth(page: Page, editor: Locator) -> None:
+    conveyor = cell_output(page, 1)
+    angle = segment(conveyor, 1).get_by_role("textbox", name="angle, deg")
+    expect(segment(conveyor, 3)).to_contain_text("222.6 °")
+    expect(segment(conveyor, 3)).to_contain_text("closes the turn")
+    expect(segment(conveyor, 3).get_by_role("textbox")).to_have_count(0)  # nothing that would be refused
+    angle.fill("65")
+    angle.press("Enter")
+    expect(segment(conveyor, 3)).to_contain_text("217.6 °")
+    expect(conveyor.get_by_role("status").first).to_have_text(SMOOTH)
+    expect(conveyor.locator(".camkit-missed")).to_have_count(0)
+    assert kernel_value(page, "[t.lawful for t in conveyor.program.transitions()]") == [True] * 4
+    conveyor.get_by_role("button", name="Undo").click()
+    expect(angle).to_have_value("60")
+
+
+def test_what_holds_at_a_transition_is_chosen_and_typed(page: Page, editor: Locator) -> None:
+    conveyor = cell_output(page, 1)
+    first = conveyor.locator(".camkit-transition:visible").first
+    first.get_by_role("combobox", name="a", exact=True).select_option("free")
+    expect(conveyor.get_by_role("status").first).to_have_text("✗ The motion is not smooth at 60°.")
+    conveyor.get_by_role("button", name="Make it smooth").click()
+    expect(conveyor.get_by_role("status").first).to_have_text(SMOOTH)
+    last = conveyor.locator(".camkit-transition:visible").last
+    level = last.get_by_role("textbox", name="position given")
+    level.fill("1 in")
+    level.press("Enter")
+    eventually(lambda: kernel_value(page, "float(conveyor.program.start) / mm") == pytest.approx(25.4))
+    conveyor.get_by_role("combobox", name="values").select_option("in time")
+    speed = conveyor.get_by_role("textbox", name="speed, rpm")
+    speed.fill("58")
+    speed.press("Enter")
+    expect(segment(conveyor, 2).get_by_role("textbox", name="velocity, m/s")).to_have_value("0.5588")
+
+
+def test_a_program_goes_to_the_clipboard_as_code(page: Page, editor: Locator, context: BrowserContext) -> None:
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    editor.get_by_role("button", name="Copy as code").click()
+    expect(editor.get_by_text("The program is copied as lines of Python.")).to_be_visible()
+    eventually(lambda: page.evaluate("navigator.clipboard.readText()").startswith("from camkit.motion import"))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_fields_picture_and_verdict_are_on_one_screen(page: Page, editor: Locator, k: int) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    output = cell_output(page, k)
+    output.scroll_into_view_if_needed()
+    box = output.locator(".camkit-sheet").bounding_box()
+    page.set_viewport_size(SIZE)
+    assert box is not None
+    assert box["height"] < 768 - 28 - 31 - 33 - 24  # what JupyterLab keeps of it

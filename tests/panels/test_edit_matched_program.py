@@ -134,7 +134,7 @@ def test_conditions_that_contradict_each_other_wait_for_the_next(editor):
     want(editor, 0, "v", "value")
     told.clear()
     do(editor, condition(editor, 0, "v").box, value=100.0)
-    assert alert(editor).startswith("The conditions contradict each other")
+    assert alert(editor).startswith("The conditions contradict each other: the velocity where segment 2 begins follows")
     assert not editor.picture.visible
     assert condition(editor, 0, "v").box.value == pytest.approx(100)
     assert (told, editor.program.levels) == ([], CONVEYOR.levels)

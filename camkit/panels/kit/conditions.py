@@ -20,7 +20,7 @@ VALUE = "value"
 USUAL = Joint()
 """What holds at a transition of which nothing is said."""
 DIGITS = 6
-"""Of a value that is taken from the motion as it is."""
+"""Of a value that is taken from the motion as it is; one that is shown has one more."""
 
 Wanted = float | str
 """A value (m or rad, per rad^k), ``match`` or ``free``."""
@@ -46,7 +46,7 @@ class Condition:
         self.menu.value = VALUE if given else wanted
         self.box.visible, self.box.unit = given, units.name(self.k)
         if given:
-            self.box.value = float(f"{float(wanted) / self._factor:.12g}")
+            self.box.value = float(f"{float(wanted) / self._factor:.{DIGITS + 1}g}")
         self.group.look = "condition usual" if usual else "condition"
 
 

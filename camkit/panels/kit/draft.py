@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -52,7 +53,16 @@ class Draft:
         if not self.matched:
             return self
         rest = "" if self.rest is None else self.names()[self.rest]
-        return Draft.of(MatchedProgram(self.parts, self.joints, rest, advance=self.program.advance))
+        try:
+            return Draft.of(MatchedProgram(self.parts, self.joints, rest, advance=self.program.advance))
+        except ValueError as refusal:
+            raise ValueError(self._counted(str(refusal))) from None
+
+    def _counted(self, sentence: str) -> str:
+        """A sentence that calls the parts by their place, as the rows show them."""
+        for k, name in enumerate(self.names(), 1):
+            sentence = re.sub(rf"\b(where|inside|of) {name}\b", rf"\1 segment {k}", sentence)
+        return sentence
 
     def names(self) -> list[str]:
         """What a program calls the parts."""

@@ -25,6 +25,8 @@ MOST = 10_000.0
 """More cannot be typed, in the unit shown."""
 HEADS = ("segment", "angle", "lift", "law")
 """Over the columns."""
+DIGITS = 7
+"""Of a velocity that is shown; it counts to its last digit as long as nobody types another."""
 FORMS = ("polynomial", "spline")
 
 Edit = Callable[[Draft], Draft]
@@ -175,7 +177,7 @@ class SegmentRow:
         if part is None:
             return
         if part.velocity is not None:
-            self._velocity.give(float(f"{float(part.velocity) / self._per:.12g}"), units.name(1))
+            self._velocity.give(float(f"{float(part.velocity) / self._per:.{DIGITS}g}"), units.name(1))
         elif solved is not None:
             told = float(solved.change / solved.angle) / self._per
             self._velocity.tell(f"{told:.5g} {units.name(1)}", "it follows from travel and angle")
