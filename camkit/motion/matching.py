@@ -184,15 +184,23 @@ def _single(part: Polynomial, asked: Asked, conditions: Conditions) -> Laid:
     """One polynomial of the least degree through its ends and the points inside."""
     first, last = (_state(_places(part, asked)[end], asked, conditions) for end in (0, -1))
     knots = _knots(part, asked, conditions)
-    wanted = [(x, k, value) for x, point in zip(knots, part.through, strict=True) for k, value in point.given.items()]
+    wanted = [
+        (i, x, k, value)
+        for i, (x, point) in enumerate(zip(knots, part.through, strict=True))
+        for k, value in point.given.items()
+    ]
     powers = _by_share(first, last, asked.angle) + [Linear()] * len(wanted)
-    for row in newton(asked.order, [place for place, *_ in wanted]):
-        factor = conditions.unknown(f"the motion inside {asked.name}")
+    rows = newton(asked.order, [place for _, place, *_ in wanted])
+    factors = [conditions.unknown(f"the motion inside {asked.name}") for _ in rows]
+    for i, place, k, value in wanted:
+        there = weighed(powers, slopes(len(powers), k, place))
+        for n, (row, factor) in enumerate(zip(rows, factors, strict=True)):
+            if [point for point, *_ in wanted[:n]].count(i) <= k:  # else it surely vanishes there
+                there = there + factor * sum(x * y for x, y in zip(row, slopes(len(row), k, place), strict=True))
+        conditions.meet(there - Linear.known(value * asked.angle**k), f"the {NAMES[k]} inside {asked.name}")
+    for row, factor in zip(rows, factors, strict=True):
         more = (*row, *(0.0 for _ in powers[len(row) :]))
         powers = [power + factor * x for power, x in zip(powers, more, strict=True)]
-    for place, k, value in wanted:
-        there = weighed(powers, slopes(len(powers), k, place))
-        conditions.meet(there - Linear.known(value * asked.angle**k), f"the {NAMES[k]} inside {asked.name}")
     return Laid(first, last, _sizes(powers, asked.angle, asked), partial(_curve, asked, [0.0, 1.0], [powers]))
 
 

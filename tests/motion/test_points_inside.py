@@ -1,0 +1,44 @@
+"""Several conditions inside one polynomial: what numpy's own solution of all of them together says, too."""
+
+from math import perm
+
+import numpy as np
+import pytest
+
+from camkit.motion import Dwell, MatchedProgram, Polynomial, Through
+from camkit.units import deg, mm
+
+ANGLE = 150 * deg
+POINTS = {
+    "two levels": (Through(0.4, s=20 * mm), Through(0.6, s=18 * mm)),
+    "a level and a velocity": (Through(0.4, s=20 * mm, v=0.0),),
+    "s, v and a": (Through(0.3, s=12 * mm, v=20 * mm, a=-5 * mm), Through(angle=100 * deg, s=15 * mm)),
+    "velocities alone": (Through(0.3, v=20 * mm), Through(0.7, v=-25 * mm)),
+}
+
+
+def together(points):
+    """Rest at both ends and all conditions, as one system for the powers of the share."""
+    asked = [(u, k, 0.0) for u in (0.0, 1.0) for k in range(3)]
+    asked += [(float(p.place(ANGLE)), k, value * ANGLE**k) for p in points for k, value in p.given.items()]
+    rows = [[perm(i, k) * u ** (i - k) if i >= k else 0.0 for i in range(len(asked))] for u, k, _ in asked]
+    return np.polynomial.Polynomial(np.linalg.solve(rows, [value for *_, value in asked]))
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_one_polynomial_meets_every_condition_inside(name):
+    program = MatchedProgram((Polynomial(ANGLE, POINTS[name]), Dwell(210 * deg)))
+    share = np.linspace(0, 1, 101)
+    motion, expected = program(share * ANGLE), together(POINTS[name])
+    for k in range(4):
+        wanted = (expected.deriv(k) if k else expected)(share) / ANGLE**k
+        np.testing.assert_allclose(motion[k][:-1], wanted[:-1], atol=1e-9 * abs(wanted).max())
+
+
+def test_points_inside_a_population_are_met_row_by_row():
+    level = np.array([[20 * mm], [25 * mm]])
+    points = Through(0.4, s=level), Through(0.6, s=18 * mm)
+    both = MatchedProgram((Polynomial(ANGLE, points), Dwell(210 * deg)))(np.linspace(0, ANGLE, 20))
+    for row, one in enumerate(level[:, 0]):
+        alone = MatchedProgram((Polynomial(ANGLE, (Through(0.4, s=one), points[1])), Dwell(210 * deg)))
+        np.testing.assert_allclose(both.s[row], alone(np.linspace(0, ANGLE, 20)).s, atol=1e-15)
