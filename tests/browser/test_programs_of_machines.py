@@ -6,12 +6,12 @@ import pytest
 from camkit.program import record
 from camkit.program.page import numbers
 from camkit.quantities import choices_of, quantities_of, value_of
-from machine_cases import LAWS, designs_of_every_menu, everything
+from machine_cases import LAWS, designs_of_every_menu, everything, tables
 from program_cases import designs_beside, start_of
 from test_programs_page import TOLERANCE, page, replies  # noqa: F401
 
 ANGLES, ROWS = 61, 12
-DESIGNS = dict(designs_of_every_menu(2))
+DESIGNS = dict(designs_of_every_menu(2)) | tables()
 LAST_DIGITS = 16
 """A number that the last digit of an input moves by more than a share is no better known: by so many of these."""
 

@@ -5,8 +5,17 @@ from dataclasses import fields
 import numpy as np
 from every_machine import MACHINES
 
+from camkit import OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam, deg, mm
 from camkit.machines.high_speed_cam import LOADS
-from camkit.motion import LAW_MENU, FreePolynomial, ModifiedSine, ShapedLaw, SplineLaw, TableLaw
+from camkit.motion import (
+    LAW_MENU,
+    FreePolynomial,
+    ModifiedSine,
+    ShapedLaw,
+    SplineLaw,
+    TableLaw,
+    motion_from_table,
+)
 from camkit.motion.families.shaped import SPLINE
 from camkit.quantities import choices_of, measures_of, with_quantities
 from camkit.render.positions import positions_of
@@ -26,6 +35,27 @@ NOT_YET = {
     ("shaft", "section"): "a catalogue is searched for what holds, and its legend names what is found",
 }
 """Views that cannot be recorded, and why."""
+
+TURN = np.arange(0.0, 360, 4)
+MANY = np.arange(0.0, 360, 0.05)
+
+
+def waves(angle):
+    return 9 - 8 * np.cos(np.radians(angle)) + 2 * np.sin(np.radians(3 * angle))
+
+
+def tables():
+    """Cams whose motion is from a table: around a turn, closed by a dwell, with free ends, and of many pieces."""
+    turn = motion_from_table(TURN * deg, waves(TURN) * mm, digit=1e-6)
+    lobe = motion_from_table(np.arange(-70, 71) * deg, 8.5e-3 * np.cos(np.arange(-70, 71) * deg / 1.4 * 1.8) ** 4)
+    free = motion_from_table(np.arange(0, 91) * deg, np.sin(np.arange(0, 91) * deg) * 12 * deg, "deg", digit=1e-9)
+    many = motion_from_table(MANY * deg, (waves(MANY) + 0.02 * np.sin(np.radians(97 * MANY))) * mm, digit=1e-9)
+    return {
+        "table around a turn": TranslatingRollerCam(turn, 60 * mm),
+        "table and dwell": TranslatingFlatCam(lobe, 40 * mm),
+        "table with free ends": OscillatingRollerCam(free),
+        "table of many pieces": TranslatingRollerCam(many, 80 * mm, groove=False),
+    }
 
 
 def designs_of_every_menu(each):

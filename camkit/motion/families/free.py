@@ -21,6 +21,8 @@ from ..law import Kinematics, Law, Peaks, law_peaks, polynomial
 from .polynomial import Poly345
 
 LETTERS, NAMES = ("s", "v", "a", "j"), ("position", "velocity", "acceleration", "jerk")
+MANY, BEYOND = 32, 1e300
+"""From so many borders on a recorded place is found by halving; a number that no place reaches."""
 SIZES = (1, 4, 20, 120)
 """How far a slider goes to either side."""
 Condition = tuple[float, int]
@@ -117,15 +119,27 @@ def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float],
         rows = (np.arange(powers.shape[2])[:, None], 0) if powers.ndim > 2 else ()
         return polynomial([*powers[:, place, *rows]], u - np.asarray(origins)[place])
     at = np.atleast_1d(u)  # a program is as short for many pieces as for few
-    place = (np.expand_dims(at, -1) >= np.asarray(borders)).sum(-1)
+    place = _below(borders, at)
     if powers.ndim > 2:
         powers, place = np.moveaxis(powers[..., 0], 1, -1), np.atleast_2d(place)
-
-    def there(row: Array) -> Array:
-        return np.take_along_axis(np.reshape(row, (1,) * (place.ndim - row.ndim) + row.shape), place, -1)
-
-    found = polynomial([there(row) for row in powers], at - there(np.asarray(origins)))
+    found = polynomial([_picked(row, place) for row in powers], at - _picked(np.asarray(origins), place))
     return found if np.ndim(u) or place.ndim > 1 else Kinematics(*(values[..., 0] for values in found))
+
+
+def _below(borders: Sequence[float], at: Array) -> Array:
+    """How many of the borders are at or below each place, which is recorded: where they are many, by halving."""
+    if len(borders) < MANY:
+        return (np.expand_dims(at, -1) >= np.asarray(borders)).sum(-1)
+    steps = [2**k for k in range(len(borders).bit_length() - 1, -1, -1)]
+    padded = np.append(borders, np.full(2 * steps[0] - 1 - len(borders), BEYOND))
+    found = np.where(at >= padded[steps[0] - 1], steps[0], 0)
+    for step in steps[1:]:
+        found = np.where(at >= _picked(padded, found + (step - 1)), found + step, found)
+    return found
+
+
+def _picked(row: Array, place: Array) -> Array:
+    return np.take_along_axis(np.reshape(row, (1,) * (place.ndim - row.ndim) + row.shape), place, -1)
 
 
 def exact(powers: Array, conditions: Mapping[int, Condition]) -> Array:
