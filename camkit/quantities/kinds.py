@@ -308,7 +308,7 @@ def _lengths(value: Any) -> set[int]:
     if isinstance(value, np.ndarray) or not known(value):
         return {len(value)} if value.ndim == 2 else set()
     if isinstance(value, (tuple, list)):
-        return set().union(*map(_lengths, value))
+        return set() if {*map(type, value)} == {float} else set().union(*map(_lengths, value))
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return set().union(*(_lengths(getattr(value, f.name)) for f in dataclasses.fields(value)))
     return set()

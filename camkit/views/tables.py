@@ -12,6 +12,8 @@ from .picture import Axes, Line, Picture, Points, View
 NAMES = ("Displacement", "Velocity", "Acceleration", "Jerk")
 BEYOND = 1.0
 """How far (shares of the curve's range) beyond the curve differences of rows are still shown: their noise goes on."""
+MOST = 2000
+"""So many rows are drawn at most: of more every second one, or third."""
 FROM_A_JOINT = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
 
@@ -28,7 +30,8 @@ def smoothing_view(k: int) -> View:
         at, before = motion.row_differences(k)
         before = before / factor(motion.unit)
         far = (BEYOND + 0.05) * np.ptp(after)
-        near = (before > after.min() - far) & (before < after.max() + far)
+        near = np.flatnonzero((before > after.min() - far) & (before < after.max() + far))
+        near = near[:: -(-len(near) // MOST) or 1]
         bad = [row - 1 for row, _, _ in motion.bad_rows] if k == 0 and len(before) else []
         return Picture.of(
             Axes(title=NAMES[k], xlabel="cam angle  [deg]", ylabel=f"{'svaj'[k]}  [{unit}]"),
