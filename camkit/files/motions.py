@@ -151,7 +151,8 @@ def _words(cells: Cells) -> list[str]:
     count = len(cells.rows[0])
     most = count if cells.how.startswith("blanks") else np.inf  # words are not columns
     above = [line for line in cells.heading if count <= len([cell for cell in line if cell]) <= most]
-    each = [" ".join(line[i] for line in above[-2:]) for i in range(count)]
+    named = [line for line in above[-2:-1] if any(re.search(f"{_ANGLE}|{_LIFT}", _tidy(cell)) for cell in line)]
+    each = [" ".join(line[i] for line in (*named, *above[-1:])) for i in range(count)]
     return [_tidy(words) for words in (*each, " ".join(" ".join(line) for line in cells.heading))]
 
 
@@ -194,7 +195,9 @@ def _pairs(table: Array, words: Sequence[str]) -> dict[str, tuple[int, int]]:
         f"{i} ({word[:MOST_LETTERS]}{', ' * bool(word)}{low:.6g} to {high:.6g})"
         for i, (word, low, high) in enumerate(ends, 1)
     ]
+    far = abs(np.ptp(table, axis=0) - 360)
     pairs = [(i, k) for i in np.flatnonzero(goes).tolist() for k in np.flatnonzero(moves).tolist() if i != k]
+    pairs.sort(key=lambda pair: (goes[pair[1]], far[pair[0]]))  # the likeliest first: a turn, and what goes up and down
     return {f"angle in column {each[i]}, lift in column {each[k]}": (i + 1, k + 1) for i, k in pairs[:MOST_PAIRS]}
 
 

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from camkit import Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, read_motion
+from camkit.files import TableQuestion
 from camkit.motion import Poly4567
 from camkit.units import deg, inch, mm
 
@@ -119,6 +120,69 @@ def test_angles_run_as_they_like():
         assert_allclose(read(text(x))(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
 
 
+LAYOUTS = {
+    "from 0": ANGLES,
+    "from the nose": ANGLES - 180,
+    "around the end of the turn": np.roll(ANGLES, 30),
+    "backwards": ANGLES[::-1],
+    "first row again": np.append(ANGLES, 360.0),
+}
+ANGLE_HEADS = {
+    "cam angle [deg]": 1.0,
+    "phi [rad]": deg,
+    "crank angle [deg]": 2.0,
+    "Kurbelwinkel [°KW]": 2.0,
+    "winkel [°]": 1,
+}
+LIFT_HEADS = {
+    "lift [mm]": mm,
+    "lift [in]": inch,
+    "lift (thousandths)": inch / 1000,
+    "Hub [µm]": 1e-6,
+    "stroke [cm]": 10 * mm,
+    "s [m]": 1.0,
+}
+"""Headings, and what a degree of the cam and a length of 1 are in them."""
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.sampled_from([*LAYOUTS]),
+    st.sampled_from([*ANGLE_HEADS]),
+    st.sampled_from([*LIFT_HEADS]),
+    st.sampled_from([("; ", ","), (",", "."), ("\t", ","), None]),
+    st.booleans(),
+    st.sampled_from(["", "2 cylinders, no. 7\n"]),
+)
+def test_what_is_written_in_any_unit_and_order_is_read_back(layout, angle, lift, way, swapped, above):
+    """By text and by workbook (`None`), angle first or lift first."""
+    x = LAYOUTS[layout] * ANGLE_HEADS[angle]
+    y = lifts(LAYOUTS[layout]) * mm / LIFT_HEADS[lift]
+    order = slice(None, None, -1 if swapped else 1)
+    lines = [[angle, lift][order], *([float(a), float(b)][order] for a, b in zip(x, y, strict=True))]
+    if way is None:
+        data = workbook([*([word] for word in above.split("\n") if word), *lines])
+    else:
+        cells = [lines[0], *([f"{cell:.9f}".replace(".", way[1]) for cell in line] for line in lines[1:])]
+        data = (above + "".join(f"{a}{way[0]}{b}\n" for a, b in cells)).encode()
+    motion = read_motion(data)
+    found = motion(ANGLES * deg)
+    assert_allclose(found.s / mm, lifts(ANGLES), atol=2e-5)
+    assert_allclose(found.v / mm, 10 * np.sin(ANGLES * deg) + 4 * np.cos(2 * ANGLES * deg), atol=5e-3)
+    assert f"{len(x)} rows" in motion.remarks[0]
+    assert motion.transitions()[-1].order is None
+    assert motion.bad_rows == ()
+
+
+def test_a_line_above_the_heading_says_nothing_of_columns():
+    swapped = "".join(f"{lifts(x):.5f},{x:.1f}\n" for x in ANGLES)
+    motion = read(f"2 cylinders, no. 7\ns [mm],cam angle [deg]\n{swapped}")
+    assert_allclose(motion(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
+    both = "".join(f"{lifts(x):.5f};{x:.1f};0\n" for x in ANGLES)
+    motion = read(f"Hub;Winkel;Geschw.\nmm;°;mm\n{both}")
+    assert_allclose(motion(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
+
+
 def test_a_lobe_around_the_end_of_the_turn_is_whole():
     told = (TABLES / "lobe_european.csv").read_text(encoding="utf-8-sig").replace(",", ".").splitlines()[3:]
     x, y = np.array([line.split(";") for line in told], dtype=float).T
@@ -144,6 +208,15 @@ def test_what_is_left_open_is_asked_and_answered():
     with pytest.raises(ValueError, match=r"3 columns .* say columns=\(1, 2\)"):
         read(columns)
     assert_allclose(read(columns, columns=(2, 3))(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
+    with pytest.raises(TableQuestion) as asked:
+        read("first;second;third\n" + columns)
+    assert asked.value.argument == "columns"
+    assert asked.value.options == {
+        "angle in column 2 (second, 0 to 355), lift in column 3 (third, -0.6825 to 20.6825)": (2, 3),
+        "angle in column 1 (first, 0 to 71), lift in column 3 (third, -0.6825 to 20.6825)": (1, 3),
+        "angle in column 2 (second, 0 to 355), lift in column 1 (first, 0 to 71)": (2, 1),
+        "angle in column 1 (first, 0 to 71), lift in column 2 (second, 0 to 355)": (1, 2),
+    }
     lines = "".join(f"{i};{x};{lifts(x):.5f};0\n" for i, x in enumerate(ANGLES))
     headed = f"No.;Cam angle;Lift;Velocity [mm/deg]\n{lines}"
     assert_allclose(read(headed)(ANGLES * deg).s / mm, lifts(ANGLES), atol=2e-5)
