@@ -23,6 +23,7 @@ from .kit.quiet import Quiet
 from .kit.sheet import IMPOSSIBLE, Panel, reason
 
 HINT = "Drop a table of a motion here (CSV, TXT or XLSX: cam angle and lift in each row), or choose one."
+OPEN = "Its rows do not come back to where they begin, so a cam of it goes around this part of the turn alone."
 TITLE = "Table"
 TOLD = 4
 """So many bad rows are named in sight."""
@@ -30,8 +31,8 @@ REMEMBERED = 50
 """So many files, or answers, can be come back to by Undo and read in another way."""
 QUESTIONS = {
     "angle_unit": "What are they in?",
-    "columns": "Which of them are they?",
-    "sheet": "Which of them is it?",
+    "columns": "Which columns are they?",
+    "sheet": "Which of them is the motion?",
     "lift_unit": "What are they in?",
 }
 ENDS = (("as the rows say", None), ("at rest", True), ("free", False))
@@ -59,10 +60,12 @@ class TablePanel(Panel):
         self.explorer = explorer
         self.motion: TableMotion | None = None
         self._readings: list[Reading] = []
+        self._waiting: TableMotion | None = None  # for a design that can be built with it
         self._quiet = Quiet()
         self.banner, self.told, self.bad, self.more = Banner(), Words(role="status"), Words(look="missed"), Words()
         self.fold = Group(self.more, look="fold", visible=False)
         self.question, self.options = Words(look="bold", role="status"), row(description="answers")
+        self.stays = Words(value=["The motion stays as it was until then."], look="hint", visible=False)
         self.where = Menu((), "motion of", visible=False)
         self.use = Button("Use this motion", self._use_again, visible=False, tooltip="try it again in the design")
         self.ends = Menu(ENDS, "ends", tooltip="of a table that is no whole turn: whether it begins and ends at rest")
@@ -78,7 +81,7 @@ class TablePanel(Panel):
         self.picture = LivePicture(TABLE_VIEWS, "the motion of the table", width=12.6, height=7.0)
         self.picture.pixels = 150
         choose = row(Upload("Choose a table", self.read, accept=TABLES), self.use, self.where)
-        ask = Group(self.question, self.options)
+        ask = Group(self.question, self.options, self.stays)
         super().__init__(choose, self.banner, ask, self.told, self.bad, self.ways, self.fold, self.picture)
         self._follow(explorer.design)
         explorer.on_change(self._follow)
@@ -88,7 +91,7 @@ class TablePanel(Panel):
         """Take the motion in a file, as `read_motion` does with these answers; what it leaves open the page asks."""
         with self.held():
             self._ask("")
-            self.banner.show_message("")
+            self._wait_for(None)
             try:
                 motion = self._suited(read_motion(file, **answers))
             except TableQuestion as asked:
@@ -113,7 +116,7 @@ class TablePanel(Panel):
 
     def _ask(self, question: str, buttons: Iterable[Button] = ()) -> None:
         self.question.say(question)
-        self.options.children = tuple(buttons)
+        self.options.children, self.stays.visible = tuple(buttons), bool(question)
 
     def _buttons(self, file: bytes, answers: Mapping[str, Any], asked: TableQuestion) -> list[Button]:
         each = {name: {**answers, asked.argument: value} for name, value in asked.options.items()}
@@ -127,13 +130,17 @@ class TablePanel(Panel):
         try:
             self.explorer.design = with_motion(self.explorer.design, str(self.where.value), reading.motion)
         except IMPOSSIBLE as error:
-            self._show(reading.motion)
-            self.use.visible = True
-            self.banner.show_message(f"The table is read, but the design cannot be built with it: {reason(error)}.")
+            why = f"The table is read, but the design cannot be built with it: {reason(error)}."
+            self._wait_for(reading.motion, f"{why} Change what stands in its way and press 'Use this motion'.")
+
+    def _wait_for(self, motion: TableMotion | None, why: str = "") -> None:
+        self._waiting, self.use.visible = motion, motion is not None
+        self.banner.show_message(why)
 
     def _use_again(self) -> None:
-        self.banner.show_message("")
-        self._take(self._readings[0])
+        with self.held():
+            self._wait_for(None)
+            self._take(self._readings[0])
 
     def _read_again(self) -> None:
         """The same file, in the way that is chosen now."""
@@ -151,19 +158,20 @@ class TablePanel(Panel):
     # ------------------------------------------------------------ what is shown
 
     def _follow(self, design: object) -> None:
-        """Show the motion of the design, if it is from a table."""
+        """Show the motion of the design, if it is from a table, or one that waits for another design."""
         with self.held(), self._quiet:
             found = motions_in(design)
             chosen = self.where.value if self.where.value in found else next(iter(found), None)
             self.where.offer([(path or "design", path) for path in found], chosen)
             self.where.visible = len(found) > 1
-            motion = found.get(str(chosen))
-            self._show(motion if isinstance(motion, TableMotion) else None)
+            now = found.get(str(chosen))
+            motion = self._waiting or (now if isinstance(now, TableMotion) else None)
+            if motion != self.motion or motion is None:
+                self._show(motion)
 
     def _show(self, motion: TableMotion | None) -> None:
         with self.held():
-            self.motion, self.use.visible = motion, False
-            self.picture.visible = motion is not None
+            self.motion, self.picture.visible = motion, motion is not None
             self._put_words(motion.remarks if motion else ())
             if motion:
                 self.picture.show(motion)
@@ -175,7 +183,7 @@ class TablePanel(Panel):
         bad = [line for line in others if line.startswith("Row ")]
         more = [line for line in others if line not in bad] + bad[TOLD:]
         self.told.look = "" if remarks else "hint"
-        self.told.say(first)
+        self.told.say(first, {"words": OPEN, "look": "hint"} if self.motion and not self.motion.periodic else "")
         self.bad.say(*bad[:TOLD], f"{len(bad) - TOLD} more rows are left out." if len(bad) > TOLD else "")
         self.more.say(*more)
         self.fold.visible, self.fold.description = bool(more), f"What else was understood ({len(more)})"

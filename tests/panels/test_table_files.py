@@ -91,6 +91,15 @@ def go_back(app, make, values):
     answers(app, back=[make, values])
 
 
+def test_pictures_are_drawn_anew_for_another_motion_alone(app):
+    open_file(app, LOBE)
+    drawn = sheet(app).picture.count
+    move(app, "base_radius", 41)
+    assert sheet(app).picture.count == drawn
+    move(app, "motion.start", 1)
+    assert sheet(app).picture.count == drawn + 1
+
+
 def test_sliders_live_on_with_a_table(app):
     open_file(app, LOBE)
     motion = app.design.motion
@@ -256,8 +265,9 @@ def test_what_a_design_cannot_be_built_with_is_shown_and_tried_again():
     assert panel.picture.visible
     assert panel.motion.row_levels[0] == pytest.approx(-55 * mm)
     move(app, "base_radius", 70)
+    assert [part.visible for part in (panel.use, panel.picture)] == [True, True]
     press(panel, "Use this motion")
-    assert alert(panel) == ""
+    assert (alert(panel), panel.use.visible) == ("", False)
     assert app.design.motion.start == pytest.approx(-55 * mm, abs=1e-5)
 
 
@@ -265,6 +275,7 @@ def test_ends_that_are_not_level_leave_a_part_of_a_cam(app):
     open_file(app, (TABLES / "segment.txt").read_bytes())
     assert app.design.motion.span == pytest.approx(30 * deg)
     assert "with ends as the rows have them" in sheet(app).told.text
+    assert "a cam of it goes around this part of the turn alone" in sheet(app).told.text
     assert app.message == ""
 
 
