@@ -154,7 +154,15 @@ GIVEN = {
 
 NOT_MADE_BY_HAND = {"Front", "Transition", "ProgramPeaks", "Kinematics", "Peaks", "Law", "Segment"}
 NOT_MADE_BY_HAND |= {"Contact", "Evaluation", "Indices", "JudgementRange", "Read", "Recheck", "SideBySide"}
-NOT_MADE_BY_HAND |= {"CamOutline", "ContactJump", "OutlineMotion", "TableMotion", "TorqueBalance", "WeightedSum"}
+NOT_MADE_BY_HAND |= {
+    "CamOutline",
+    "Compared",
+    "ContactJump",
+    "OutlineMotion",
+    "TableMotion",
+    "TorqueBalance",
+    "WeightedSum",
+}
 NOT_MADE_BY_HAND |= {"WinnerMap"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]

@@ -11,6 +11,7 @@ from .barrel import (
     peak_skid,
     rolling_cone,
 )
+from .compared import Compared, deviation_from
 from .flat_analysis import FlatAnalysis
 from .follower_measures import (
     face_width,
@@ -67,6 +68,7 @@ __all__ = [
     "BarrelCam",
     "CamAnalysis",
     "CamOutline",
+    "Compared",
     "ConjugatePair",
     "ConjugatePairAnalysis",
     "Contact",
@@ -98,6 +100,7 @@ __all__ = [
     "bottom_pressure_angle",
     "cam_from_outline",
     "contact_along",
+    "deviation_from",
     "face_width",
     "groove_gap",
     "jump_margin",

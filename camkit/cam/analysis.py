@@ -54,7 +54,7 @@ class CamAnalysis(ABC):
     @property
     def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
-        return (*OFFERS, *self.shaped, *self.cam.contact.offers)
+        return (*OFFERS, *self.shaped, *self.cam.contact.offers, *getattr(self.cam.motion, "offers", ()))
 
     @property
     def shaped(self) -> tuple[AnalysisCurve, ...]:

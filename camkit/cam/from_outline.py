@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from math import factorial
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from ..quantities import Design, refuse_population
 from ..quantities.kinds import kind_words, shown
 from ..quantities.types import Array
 from ..units import deg, factor, in_unit
+from .compared import Compared, compared
 from .measured_outline import MeasuredOutline
 from .oscillating_flat import OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerCam
@@ -68,6 +69,13 @@ class OutlineMotion(TableMotion):
     lowest: float = 0.0
     jumps: tuple[tuple[float, float, float], ...] = ()
     outline: tuple[tuple[float, float], ...] = field(default=(), repr=False, compare=False, metadata={"most": MOST})
+
+    offers: ClassVar[tuple[str, ...]] = ("outline", "outline_deviation")
+    """What is shown of a cam with this motion besides."""
+
+    def compared(self, analysis: Any) -> Compared:
+        """The outline against the profile of a cam, this one or any other."""
+        return compared(np.array(self.outline).T, analysis)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "jumps", tuple(ContactJump(*jump) for jump in self.jumps))

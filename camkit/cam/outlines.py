@@ -10,17 +10,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..motion.closing import TURN
 from ..motion.smoothing import BadRow
 from ..quantities import Declared
 from ..quantities.kinds import listed, numbers, one_number, refuse_arguments
 from ..quantities.types import Array
 from ..units import deg, mm
+from .compared import Compared, compared
 
-TURN = 2 * np.pi
 TANGENT = 0.05 * deg
 """Pieces whose normals differ by less where they meet were meant to be tangent."""
 SAME = 1e-9
@@ -133,6 +134,10 @@ class CamOutline(Declared, ABC):
     @abstractmethod
     def remarks(self) -> tuple[str, ...]:
         """What it is, in sentences."""
+
+    def compared(self, analysis: Any) -> Compared:
+        """The outline against the profile of a cam's analysis."""
+        return compared(self.points, analysis)
 
     @property
     @abstractmethod

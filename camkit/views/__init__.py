@@ -9,6 +9,7 @@ from .event import cam_and_follower, lift, radius_of_curvature, spring_and_inert
 from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_pareto, pareto, searches_compared
 from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
 from .laws import LAW_VIEWS, ShownProgram, ShownVibration, vibration_left
+from .outlines import deviation_over, laid_over, outline_deviation, outline_laid_over
 from .picture import Area, Axes, Band, Circle, Contour, Line, Picture, Points, Polygon, Region, Text, View
 from .progress import candidates, convergence, min_over_bound
 from .shafts import drive
@@ -59,12 +60,14 @@ __all__ = [
     "design_plane",
     "designs_on_plane",
     "deviation",
+    "deviation_over",
     "drive",
     "efficiency",
     "front_winners",
     "fronts_overlaid",
     "hertz_pressure",
     "judgement_bars",
+    "laid_over",
     "lift",
     "limit_sweep",
     "linkage_in_space",
@@ -74,6 +77,8 @@ __all__ = [
     "min_over_bound",
     "motion",
     "objective_plane",
+    "outline_deviation",
+    "outline_laid_over",
     "output_angle",
     "pareto",
     "plane_of_sizes",

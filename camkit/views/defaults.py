@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import cam, development, event, intervals, shafts, sizes, space
+from . import cam, development, event, intervals, outlines, shafts, sizes, space
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
@@ -48,6 +48,8 @@ VIEW_OF: dict[str, View] = {
     "sizes": sizes.plane_of_sizes,
     "utilisation": sizes.utilisation,
     "rings": sizes.section,
+    "outline": outlines.outline_laid_over,
+    "outline_deviation": outlines.outline_deviation,
 }
 """By what an analysis offers: the name of one of its attributes."""
 
