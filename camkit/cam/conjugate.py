@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..motion import MotionProgram, Return, Rise, Segment
+from ..motion.curve import Solved
 from ..motion.segments import Move
 from ..motion.table import Table
 
@@ -20,7 +21,7 @@ def opposite(program: MotionProgram) -> MotionProgram:
 
 
 def _opposite(segment: Segment) -> Segment:
-    if isinstance(segment, Table):
+    if isinstance(segment, (Table, Solved)):
         return segment.opposite
     if not isinstance(segment, Move):
         return segment

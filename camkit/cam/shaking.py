@@ -61,7 +61,9 @@ def _still(segment: Segment) -> bool:
 
 def _travel(program: MotionProgram) -> Array:
     """Between the lowest and the highest level of a motion, ``(1,)`` or ``(p, 1)``; ``nan`` where it does not move."""
-    travel = np.ptp(np.stack(np.broadcast_arrays(*map(np.atleast_1d, program.levels)), axis=-1), axis=-1)
+    pairs = zip(program.levels, program.segments, strict=False)
+    ends = [np.atleast_1d(level + end) for level, segment in pairs for end in segment.reach]
+    travel = np.ptp(np.stack(np.broadcast_arrays(*ends), axis=-1), axis=-1)
     return np.where(travel > 0, travel, np.nan)
 
 

@@ -15,7 +15,7 @@ from .families.sines import Freudenstein, Gutman, SumOfSines
 from .families.skewed import Skewed
 from .families.spline import SplineLaw, TableLaw
 from .families.to_nose import DoubleHarmonic, EighthOrder
-from .form import FormedProgram, FormError
+from .form import FormedMatchedProgram, FormedProgram, FormError
 from .held import motion_in
 from .law import Kinematics, Law, Peaks
 from .made_smooth import matched
@@ -41,6 +41,7 @@ __all__ = [
     "Dwell",
     "EighthOrder",
     "FormError",
+    "FormedMatchedProgram",
     "FormedProgram",
     "FreePolynomial",
     "Freudenstein",

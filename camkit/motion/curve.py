@@ -24,6 +24,11 @@ Rows = tuple[tuple[float, ...], ...]
 class Solved(Segment):
     """A segment whose motion followed from conditions."""
 
+    @property
+    def opposite(self) -> Segment:
+        """The same downwards."""
+        raise NotImplementedError
+
     @cached_property
     def reach(self) -> tuple[Value, Value]:
         ends = (0.0, *self.kinks, 1.0)
@@ -155,3 +160,8 @@ def newton(order: int, places: Sequence[Value]) -> list[list[Value]]:
 def slopes(count: int, order: int, place: Value) -> list[Value]:
     """What stands before each of so many powers in the derivative of that order at a ``place`` above 0."""
     return [perm(i, order) * place ** (i - order) if i > order else float(perm(i, order)) for i in range(count)]
+
+
+def slope_at(powers: Powers, order: int, place: Value) -> Value:
+    """The derivative of that order at a ``place`` above 0, of a polynomial."""
+    return sum(power * slope for power, slope in zip(powers, slopes(len(powers), order, place), strict=True))

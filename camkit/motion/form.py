@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..quantities import Declared, Quantity, quantity
 from ..quantities.kinds import a_number, kind_words, shown, whole
 from ..quantities.types import Array, Value
 from .law import Kinematics
+from .matched import MatchedProgram
 from .program import MotionProgram
 from .resolution import Resolution
 
@@ -52,25 +53,22 @@ class FormError(Declared):
         wave, slope = self.amplitude * np.cos(turned), -k * self.amplitude * np.sin(turned)
         return Kinematics(self.offset + wave, slope, -(k**2) * wave, -(k**2) * slope)
 
-    def on(self, program: MotionProgram) -> FormedProgram:
+    def on(self, program: MotionProgram) -> FormedProgram | FormedMatchedProgram:
         """The motion of a follower on a profile with this error."""
         if not isinstance(program, MotionProgram):
             raise ValueError(
                 f"an error of form rides on a motion program; {kind_words(type(program), article=True)} is none, "
                 "and a machine whose motion follows from quantities of its own takes no error of form"
             )
+        if isinstance(program, MatchedProgram):
+            return FormedMatchedProgram(program.parts, program.joints, program.rest, self, advance=program.advance)
         return FormedProgram(program.segments, program.start, self, advance=program.advance)
 
 
-@dataclass(frozen=True)
-class FormedProgram(MotionProgram):
-    """A motion program as a profile with an error of ``form`` gives it; see `FormError`.
+class _Formed(MotionProgram if TYPE_CHECKING else object):  # type: ignore[misc]
+    """What an error of form changes in the kind of motion program that it rides on."""
 
-    Its segments, its `transitions` and its `peaks` are those that are wanted; what is called with cam angles, and so
-    every analysis of a cam, is what is made.
-    """
-
-    form: FormError = field(default_factory=FormError)
+    form: FormError
 
     def __post_init__(self) -> None:
         if not isinstance(self.form, FormError):
@@ -88,8 +86,8 @@ class FormedProgram(MotionProgram):
 
     def changed(self, changes: Mapping[str, Any]) -> Self:
         """With other segments by name, and with another error."""
-        wanted = super().changed(changes)
-        return self.replace(segments=wanted.segments, start=wanted.start, form=changes.get("form", self.form))
+        wanted: Any = super().changed(changes)
+        return wanted.replace(form=changes.get("form", self.form))
 
     def over(self, shown: Resolution) -> Kinematics:
         """``s, v, a, j`` at the cam angles of a resolution."""
@@ -100,3 +98,21 @@ class FormedProgram(MotionProgram):
 
     def _formed(self, motion: Kinematics, x: Array) -> Kinematics:
         return Kinematics(*(wanted + error for wanted, error in zip(motion, self.form.at(x), strict=True)))
+
+
+@dataclass(frozen=True)
+class FormedProgram(_Formed, MotionProgram):
+    """A motion program as a profile with an error of ``form`` gives it; see `FormError`.
+
+    Its segments, its `transitions` and its `peaks` are those that are wanted; what is called with cam angles, and so
+    every analysis of a cam, is what is made.
+    """
+
+    form: FormError = field(default_factory=FormError)
+
+
+@dataclass(frozen=True)
+class FormedMatchedProgram(_Formed, MatchedProgram):
+    """A matched program as a profile with an error of ``form`` gives it; see `FormedProgram`."""
+
+    form: FormError = field(default_factory=FormError)

@@ -82,10 +82,14 @@ class Conditions:
         last = max(sure or left.terms)
         if not sure:
             most = _largest([np.abs(factor) for factor in left.terms.values()])
-            self.sound.append((np.abs(left.terms[last]) > THERE * most, lambda: _no_hold(name)))
+            self.needs(left.terms[last], most, name)
         others = Linear({x: factor for x, factor in left.terms.items() if x != last}, left.constant, left.size)
         follows = {last: others * _inverse(left.terms[last])}
         self.found = {x: form.put(follows) for x, form in self.found.items()} | follows
+
+    def needs(self, factor: Value, size: Value, name: str) -> None:
+        """What stands before an unknown that a condition determines is to be there, beside others of a ``size``."""
+        self.sound.append((np.abs(factor) > THERE * size, partial(_no_hold, name)))
 
     def least(self, sizes: Iterable[Linear]) -> dict[int, Linear]:
         """All unknowns as numbers: those that the conditions leave open make the sum of squares of ``sizes`` least."""

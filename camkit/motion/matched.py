@@ -229,6 +229,8 @@ def _refuse_parts(program: MatchedProgram) -> None:
             )
     refuse_kinds(program, ("segments", "start", "parts", "solved_levels", "advance"))
     n, given = len(program.parts), len(program.joints)
+    if n > MOST_PARTS:
+        raise ValueError(f"the program has {n} parts; there can be at most {MOST_PARTS} whose transitions are matched")
     if given not in (0, n, n + 1):
         raise ValueError(
             f"the program has {given} transitions and {n} parts; a turn has one where each part begins, a shorter "

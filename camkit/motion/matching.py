@@ -10,14 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from itertools import pairwise
+from itertools import compress, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..quantities import certain, known, unless
 from ..quantities.types import Value
-from .curve import _Curve, _LiftedLaw, bending, hermite, newton, slopes
+from .curve import _Curve, _LiftedLaw, bending, hermite, newton, slope_at, slopes
 from .families.free import LETTERS
 from .linear import Conditions, Linear, weighed
 from .parts import MATCH, Joint, OpenMove, Part, Polynomial, Uniform
@@ -84,8 +84,8 @@ def _sound(conditions: Conditions) -> Any:
     """Whether the conditions could be met; one program is refused if not."""
     possible: Any = True
     for ok, sentence in conditions.sound:
-        if refuse := unless(ok):
-            refuse(sentence())
+        if (refuse := unless(ok)) and (said := sentence()):
+            refuse(said)
         possible = possible & ok
     return possible
 
@@ -184,23 +184,20 @@ def _single(part: Polynomial, asked: Asked, conditions: Conditions) -> Laid:
     """One polynomial of the least degree through its ends and the points inside."""
     first, last = (_state(_places(part, asked)[end], asked, conditions) for end in (0, -1))
     knots = _knots(part, asked, conditions)
-    wanted = [
-        (i, x, k, value)
-        for i, (x, point) in enumerate(zip(knots, part.through, strict=True))
-        for k, value in point.given.items()
-    ]
-    powers = _by_share(first, last, asked.angle) + [Linear()] * len(wanted)
-    rows = newton(asked.order, [place for _, place, *_ in wanted])
-    factors = [conditions.unknown(f"the motion inside {asked.name}") for _ in rows]
-    for i, place, k, value in wanted:
-        there = weighed(powers, slopes(len(powers), k, place))
-        for n, (row, factor) in enumerate(zip(rows, factors, strict=True)):
-            if [point for point, *_ in wanted[:n]].count(i) <= k:  # else it surely vanishes there
-                there = there + factor * sum(x * y for x, y in zip(row, slopes(len(row), k, place), strict=True))
-        conditions.meet(there - Linear.known(value * asked.angle**k), f"the {NAMES[k]} inside {asked.name}")
-    for row, factor in zip(rows, factors, strict=True):
-        more = (*row, *(0.0 for _ in powers[len(row) :]))
-        powers = [power + factor * x for power, x in zip(powers, more, strict=True)]
+    wanted = [(i, k, value) for i, point in enumerate(part.through) for k, value in point.given.items()]
+    more = newton(asked.order, [knots[i] for i, *_ in wanted])
+    factors = [conditions.unknown(f"the motion inside {asked.name}") for _ in wanted]
+    base = [*_by_share(first, last, asked.angle), *(Linear() for _ in wanted)]
+    for i, k, value in wanted:
+        at = [slope_at(row, k, knots[i]) for row in more]
+        there = [sum(point == i for point, *_ in wanted[:n]) <= k for n in range(len(wanted))]  # others vanish there
+        forms = [weighed(base, slopes(len(base), k, knots[i])), *compress(factors, there), Linear.known(value)]
+        zero = weighed(forms, (1, *compress(at, there), -(asked.angle**k)))
+        name, own = f"the {NAMES[k]} inside {asked.name}", list(compress(more, there))[-1]
+        conditions.needs(list(compress(at, there))[-1], slope_at([np.abs(x) for x in own], k, knots[i]), name)
+        conditions.meet(zero, name)
+    rows = [[*row, *np.zeros(len(base) - len(row)).tolist()] for row in more]
+    powers = [weighed((base[i], *factors), (1, *(row[i] for row in rows))) for i in range(len(base))]
     return Laid(first, last, _sizes(powers, asked.angle, asked), partial(_curve, asked, [0.0, 1.0], [powers]))
 
 
@@ -222,8 +219,10 @@ def _knots(part: Polynomial, asked: Asked, conditions: Conditions) -> list[Value
     """The shares at which the points of a polynomial lie."""
     knots = [point.place(asked.angle) for point in part.through]
     rises = [low < high for low, high in pairwise((0.0, *knots, 1.0))]
-    said = f"the points of {asked.name} must lie inside it, one after the other"
-    conditions.sound += ((ok, lambda: said) for ok in rises)
+    for ok in rises:
+        if refuse := unless(ok):
+            refuse(f"the points of {asked.name} must lie inside it, one after the other")
+        conditions.sound.append((ok, str))
     return knots
 
 
