@@ -59,6 +59,7 @@ from .pair import ConjugatePair, ConjugatePairAnalysis
 from .roller_analysis import RollerAnalysis
 from .shaking import vibration_at
 from .slide import SlideFriction, SlideLoad
+from .timing import at_lift
 from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
 from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
 
@@ -96,6 +97,7 @@ __all__ = [
     "TranslatingRollerCam",
     "arm_acceleration",
     "arm_travel",
+    "at_lift",
     "base_radius",
     "bottom_pressure_angle",
     "cam_from_outline",

@@ -34,7 +34,7 @@ from . import bodies
 from .analysis import over_the_motion
 from .directions import ROTATIONS
 from .follower_measures import ROLLER_CURVE, jump_margin
-from .followers import RockingAnalysis, SlidingAnalysis, rise_and_return
+from .followers import RockingAnalysis, SlidingAnalysis, comes_back, rise_and_return
 from .force_closure import ContactPair, NoContact, contact_choice
 from .loads import ArmLoad, Friction
 from .measures import ROCKING, SLIDING, base_radius, number, over_cam
@@ -66,6 +66,7 @@ class Drum(Design):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        self._keep(comes_back(self.motion, "barrel cam"))
         if refuse := unless(self.bottom_radius > 0):
             refuse(
                 f"the groove is {self.groove_depth / mm:.4g} mm deep around a mean radius of "

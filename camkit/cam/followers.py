@@ -29,6 +29,16 @@ def top_level(motion: MotionProgram) -> Array:
     return reduce(np.maximum, tops)
 
 
+def comes_back(motion: MotionProgram, kind: str) -> bool | Array:
+    """Whether a motion is one of a cam with one outline; ``ValueError`` in a sentence for one that goes on."""
+    if refuse := unless(motion.comes_back):
+        refuse(
+            f"the motion goes on by {motion.advance:.6g} (follower units) with each turn; a {kind} takes its follower "
+            "back to where it was: the advance of its motion must be 0"
+        )
+    return motion.comes_back
+
+
 class DiskCam(Design, ABC):
     """A cam with one outline, which its follower goes around with each turn: its motion comes back."""
 
@@ -36,13 +46,7 @@ class DiskCam(Design, ABC):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        back = self.motion.comes_back
-        if refuse := unless(back):
-            refuse(
-                f"the motion goes on by {self.motion.advance:.6g} (follower units) with each turn; a disk cam takes "
-                "its follower back to where it was: the advance of its motion must be 0"
-            )
-        self._keep(back)
+        self._keep(comes_back(self.motion, "disk cam"))
 
     @abstractmethod
     def analyse(self, n: int = 721) -> CamAnalysis:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import groupby
 from typing import Any
 
@@ -10,10 +11,11 @@ import numpy as np
 from ..geometry import end_to_end
 from ..motion import MotionProgram, Segment
 from ..motion.vibration import left_swinging
-from ..quantities import PeakMeasure
+from ..quantities import Measure, PeakMeasure
 from ..quantities.kinds import one_number
 from ..quantities.known import certain
 from ..quantities.types import Array
+from .timing import at_lift
 
 
 def vibration_at(frequency: float, damping: float = 0.0) -> PeakMeasure:
@@ -67,5 +69,5 @@ def _travel(program: MotionProgram) -> Array:
     return np.where(travel > 0, travel, np.nan)
 
 
-MAKERS = {"vibration at": vibration_at}
+MAKERS: dict[str, Callable[..., Measure]] = {"vibration at": vibration_at, "at lift": at_lift}
 """How files have such measures made again."""

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from ..cam.follower_measures import jump_margin, leaving_speed
 from ..cam.measures import max_pressure_angle, over_cam, peak_force
+from ..cam.timing import at_lift
 from ..quantities import Measure
 from ..quantities.kinds import listed, refuse_arguments
 from ..study.study import Space, Study
@@ -27,7 +28,6 @@ min_concave_radius = Measure("minimum concave radius of curvature", "mm", lambda
 face_reach = over_cam("reach of the contact on a flat face", "mm", lambda a: abs(a.velocity))
 peak_stress = over_cam("peak contact stress", "MPa", lambda a: a.contact_stress)
 peak_camshaft_torque = over_cam("peak camshaft torque", "N m", lambda a: abs(a.cam_torque))
-
 VALVE_MEASURES = (
     fullness,
     nose_acceleration,
@@ -102,6 +102,7 @@ ValveCam.measures = (
     acceleration_share,
     *AS_LISTED,
 )
+ValveCam.makers = {"at lift": at_lift}
 
 
 def _against_fullness(name: str, full: Measure, wear: Measure, weights: Sequence[float]) -> WeightedSum:

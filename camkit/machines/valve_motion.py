@@ -12,6 +12,7 @@ import numpy as np
 
 from ..motion import Kinematics, Law, Peaks, Poly345
 from ..motion.law import law_peaks
+from ..quantities import certain
 from ..quantities.types import Array, Value
 
 BLEND = 1 / 3
@@ -78,8 +79,12 @@ class Ramp(Law):
     @property
     def kinks(self) -> tuple[Value, ...]:
         """Where the ramp begins, unless it takes all the time, and where its velocity is steady."""
-        begins = (1 - self.share,) if np.any(self.share < 1) else ()
+        begins = () if certain(self.share >= 1) else (1 - self.share,)
         return (*begins, 1 - self.share * (1 - BLEND))
+
+    @property
+    def kinks_move(self) -> bool:
+        return True
 
     def at(self, u: Array) -> Kinematics:
         t = 1 + (u - 1) / self.share
@@ -108,6 +113,10 @@ class Backwards(Law):
     @property
     def kinks(self) -> tuple[Value, ...]:
         return tuple(1 - x for x in reversed(self.law.kinks))
+
+    @property
+    def kinks_move(self) -> bool:
+        return self.law.kinks_move
 
     def at(self, u: Array) -> Kinematics:
         s, v, a, j = self.law.at(1 - u)

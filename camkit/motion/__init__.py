@@ -1,5 +1,6 @@
 """Motion laws and motion programs: how a follower should move, before there is a cam."""
 
+from .card import cam_card
 from .controller import controller_error, controller_rows
 from .families.constant_velocity import ConstantVelocity
 from .families.free import Degree9, FreePolynomial
@@ -83,6 +84,7 @@ __all__ = [
     "Through",
     "Transition",
     "Uniform",
+    "cam_card",
     "controller_error",
     "controller_rows",
     "matched",
