@@ -243,6 +243,7 @@ GOOD = {
     "torque": lambda: np.ones(31),
     "mass": lambda: 0.1,
     "parts": lambda: [Part("rod", 0.1, 1e6)],
+    "ElasticFollower.cam": lambda: CAM,
     "train": ElasticTrain,
     "speeds": lambda: [20.0, 30.0],
     "trials": lambda: TRIALS[:2],

@@ -2,6 +2,16 @@
 
 from .camshaft import Camshaft, Windup
 from .flight import Event, Flight, simulate
+from .follower import (
+    ElasticFollower,
+    acceleration_ratio,
+    contact_loss,
+    contact_margin,
+    damping_ratio,
+    dwell_vibration,
+    dynamic_factor,
+    natural_frequency,
+)
 from .reduction import Part, Reduced, reduced, spring_part
 from .speeds import SpeedSweep, contact_loss_speed, speed_sweep
 from .spring import HelicalSpring, MasslessSpring
@@ -11,6 +21,7 @@ from .trains import ElasticArm, ElasticTrain, Train, TrainChain
 __all__ = [
     "Camshaft",
     "ElasticArm",
+    "ElasticFollower",
     "ElasticTrain",
     "Event",
     "Flight",
@@ -23,7 +34,14 @@ __all__ = [
     "Train",
     "TrainChain",
     "Windup",
+    "acceleration_ratio",
+    "contact_loss",
     "contact_loss_speed",
+    "contact_margin",
+    "damping_ratio",
+    "dwell_vibration",
+    "dynamic_factor",
+    "natural_frequency",
     "reduced",
     "simulate",
     "speed_sweep",

@@ -12,7 +12,7 @@ Source: Koster, Vibrations of Cam Mechanisms (windup of the camshaft).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -120,5 +120,5 @@ def _turned(first: Response, analysis: Any, theta: Array) -> Response:
     s, v, w, _ = at.motion
     travel = s - given.level
     load = at.static_resistance - given.preload - given.rate * travel
-    turned = given._replace(travel=travel, velocity=v, acceleration=w, load=load, lever=at.lever)
+    turned = replace(given, travel=travel, velocity=v, acceleration=w, load=load, lever=at.lever)
     return response_of(first.train, turned, first.speed)

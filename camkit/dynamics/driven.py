@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from ..quantities.types import Array, Value
 from ..units import in_unit
 
 
-class Driven(NamedTuple):
+@dataclass(frozen=True)
+class Driven:
     """The cam's motion and the load at even cam angles from 0: ``(n,)`` or ``(p, n)``; the rest ``(1,)`` or ``(p, 1)``.
 
     Lengths in m, forces in N, masses in kg; of an arm angles in rad, torques in N m, moments of inertia in kg m^2.

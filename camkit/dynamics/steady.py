@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from ..extrema import raised
+from ..motion.closing import TURN
 from ..quantities import certain, counted, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
@@ -38,16 +39,19 @@ FASTEST = 1e9
 """A speed (rad/s) above this is a slip."""
 
 
-def respond(train: Train, analysis: Any, speed: Value | None = None, samples: int | None = None) -> Response:
-    """See `Train.follow`."""
+def respond(
+    train: Train, analysis: Any, speed: Value | None = None, samples: int | None = None, least: int | None = None
+) -> Response:
+    """See `Train.follow`; ``least`` are samples that there are at least, of several designs and of one."""
     turns = None if speed is None else a_speed(speed)
     if samples is not None:
         count = counted(samples, "samples of a turn", 8, MOST)
         return response_of(train, driven(analysis, count + count % 2), turns)
-    found = response_of(train, driven(analysis, LEAST), turns)
-    alone = found.train_force.ndim == 1
-    count = max(enough(found.natural_frequency, found.speed), ALONE if alone else LEAST)
-    return found if count == LEAST else response_of(train, driven(analysis, count), turns)
+    begin = least or LEAST
+    found = response_of(train, driven(analysis, begin), turns)
+    alone = least is None and found.train_force.ndim == 1
+    count = max(enough(found.natural_frequency, found.speed), ALONE if alone else begin)
+    return found if count == begin else response_of(train, driven(analysis, count), turns)
 
 
 def a_speed(speed: Value) -> Value:
@@ -57,9 +61,12 @@ def a_speed(speed: Value) -> Value:
 
 
 def enough(frequency: Value, speed: Value) -> int:
-    """How many samples of a turn show the natural frequency; ``ValueError`` where that would be too many."""
-    ratio = np.nanmax(np.atleast_1d(frequency)[..., None] / speed, initial=0.0)
+    """How many samples of a turn show the natural frequency; ``ValueError`` where that would be too many for one."""
+    ratios = np.atleast_1d(frequency)[..., None] / speed
+    ratio = np.nanmax(ratios, initial=0.0)
     count = LEAST * 2 ** max(0, int(np.ceil(np.log2(max(PER_PERIOD * ratio, 1) / LEAST))))
+    if count > MOST and ratios.size > 1:
+        return MOST
     if count > MOST:
         raise ValueError(
             f"the natural frequency of the train is {ratio:.6g} times the speed of the cam; it can be at most "
@@ -171,6 +178,25 @@ class Response:
         return self.driven.preload + self._dynamic
 
     @cached_property
+    def _steepness(self) -> Array:
+        """``dT/dphi``."""
+        order = np.arange(len(self.cam_angle) // 2 + 1)
+        return self._in_time(1j * order * (order < order[-1]) * self._passed.force)
+
+    def train_force_at(self, cam_angle: Array) -> Array:
+        """The `train_force` at any cam angles (rad), ``(k,)`` or ``(p, k)``: cubics between the even ones."""
+        n = len(self.cam_angle)
+        step = TURN / n
+        share = np.mod(cam_angle, TURN) / step
+        low = np.minimum(np.floor(share), n - 1).astype(int)
+        x, high = share - low, (low + 1) % n
+        (T0, T1), (v0, v1) = (
+            [_placed(values, at) for at in (low, high)] for values in (self._dynamic, self._steepness)
+        )
+        bent, back = 3 * (T1 - T0) - step * (2 * v0 + v1), 2 * (T0 - T1) + step * (v0 + v1)
+        return self.driven.preload + T0 + x * (step * v0 + x * (bent + x * back))
+
+    @cached_property
     def position(self) -> Array:
         """``x``: of the last mass, from its assembled rest, m or rad."""
         return self._in_time(self._passed.end)
@@ -240,8 +266,13 @@ class Response:
 
     @property
     def contact_margin(self) -> Value:
-        """The least of ``N`` over ``N_0``: what is left of the preload."""
-        return bottom(self.resistance) / self.driven.preload[..., 0]
+        """The least of ``N`` over ``N_0``: what is left of the force at rest; ``nan`` where there is none."""
+        return bottom(self.resistance / self.held)
+
+    @property
+    def held(self) -> Array:
+        """``N_0`` where it presses, ``nan`` where not, ``(1,)`` or ``(p, 1)``."""
+        return np.where(self.driven.preload > 0, self.driven.preload, np.nan)
 
     @property
     def dynamic_factor(self) -> Value:
@@ -265,6 +296,14 @@ class Response:
         away = abs(self.position - self.rest)
         found = [_within(self.cam_angle, away, *dwell) for dwell in self.driven.dwells]
         return np.stack(found, axis=-1) if found else np.zeros((*away.shape[:-1], 0))
+
+
+def _placed(values: Array, at: Array) -> Array:
+    """Of values ``(n,)`` or ``(p, n)`` those at places ``(k,)`` or ``(p, k)``."""
+    if values.ndim == 1 or at.ndim == 1:
+        return values[..., at]
+    rows = np.broadcast_to(values, (max(len(values), len(at)), values.shape[-1]))
+    return np.take_along_axis(rows, np.broadcast_to(at, (len(rows), at.shape[-1])), axis=-1)
 
 
 def _within(angle: Array, values: Array, start: Array, end: Array) -> Array:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -92,6 +92,8 @@ class ElasticTrain(Train):
     )
     spring: Any = spring_choice()
 
+    name: ClassVar[str] = "one mass"
+
     @property
     def springs(self) -> Sequence[tuple[Value, Value]]:
         return ((self.stiffness, self.damping),)
@@ -115,6 +117,8 @@ class ElasticArm(Train):
         name="inertia at the cam",
     )  # fmt: skip
     spring: Any = spring_choice()
+
+    name: ClassVar[str] = "one inertia, on an arm"
 
     @property
     def springs(self) -> Sequence[tuple[Value, Value]]:
@@ -155,6 +159,8 @@ class TrainChain(Train):
         "m_0", 0, 0, 5, "kg", "of the load's mass, what follows the cam rigidly", at_least=0, name="mass at the cam"
     )
     spring: Any = spring_choice()
+
+    name: ClassVar[str] = "masses in series"
 
     def __post_init__(self) -> None:
         for name, declared in (("stiffness", STIFFNESS), ("damping", DAMPING), ("masses", MASS)):

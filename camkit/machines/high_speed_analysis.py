@@ -349,7 +349,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         }
 
 
-OF_THE_WHOLE = ("buildable", "spring_rate", "rounding")
+OF_THE_WHOLE = ("buildable", "spring_rate", "rounding", "response")
 """What is the same wherever a cam is looked at, and follows from all of it."""
 
 

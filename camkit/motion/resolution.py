@@ -102,9 +102,13 @@ class Resolution(NamedTuple):
 
 
 def resolve(
-    program: MotionProgram, steps: int = STEPS, at_angles: Sequence[float] = (), at_levels: Sequence[float] = ()
+    program: MotionProgram,
+    steps: int = STEPS,
+    at_angles: Sequence[float] = (),
+    at_levels: Sequence[float] = (),
+    rest: int = REST,
 ) -> Resolution:
-    """The same number of ``steps`` for every segment that moves, whatever its angle.
+    """The same number of ``steps`` for every segment that moves, whatever its angle, and ``rest`` for a dwell.
 
     What else depends on the cam angle or on the level may have corners: at the cam angles ``at_angles`` (rad), and
     wherever the level goes through one of ``at_levels`` (m or rad).  Pieces end there, too.
@@ -119,7 +123,7 @@ def resolve(
     span: Any = program.span
     if (len(at_angles) or len(at_levels)) and not known(span):
         span.refuse(TABLED)
-    steps, rest = max(steps, PER_WAVE * program.waves), max(REST, PER_WAVE * program.waves)
+    steps, rest = max(steps, PER_WAVE * program.waves), max(rest, PER_WAVE * program.waves)
     shares, pieces, moves = [], [], []
     for i, segment in enumerate(program.segments):
         start, end = program.starts[i], program.starts[i + 1]

@@ -51,6 +51,8 @@ class Design(Declared):
     """Every measure of all such designs, for tables and files (see `measures_of`)."""
     makers: ClassVar[Mapping[str, Callable[..., Measure]]] = {}
     """Functions that make further measures of numbers and words, by the names that `Measure.made` gives them."""
+    answers_for: ClassVar[tuple[str, ...]] = ()
+    """Parts that are analysed on their own, and whose measures its own analysis answers as well."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -105,8 +107,9 @@ def measures_of(design: object) -> tuple[Measure, ...]:
 
 def _measures_below(part: Declared) -> Iterator[Measure]:
     """Those of the parts that it holds; what is analysed on its own, such as a cam of a pair, keeps its own."""
-    for held in part.branches().values():
-        yield from () if hasattr(held, "analyse") else getattr(type(held), "measures", ())
+    for name, held in part.branches().items():
+        own = hasattr(held, "analyse") and name not in getattr(part, "answers_for", ())
+        yield from () if own else getattr(type(held), "measures", ())
         yield from _measures_below(held)
 
 

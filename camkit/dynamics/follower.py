@@ -1,0 +1,139 @@
+"""Any cam with an elastic train behind it, as a design of its own: the forces of the cam are then those of the train.
+
+>>> from camkit import Study, TranslatingFlatCam
+>>> from camkit.cam import peak_force
+>>> machine = ElasticFollower(TranslatingFlatCam())
+>>> study = Study(machine, ["cam.load.preload", "train.damping"], (peak_force,), at_least={contact_margin: 0.2})
+>>> print(f"{study.evaluate(study.x0).f[0, 0]:.1f} N")
+150.3 N
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, make_dataclass
+from functools import cache, cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..motion.resolution import Resolution, resolve
+from ..quantities import Analysable, Design, LeastMeasure, Measure, PeakMeasure, choice
+from ..quantities.kinds import shown, whole
+from ..quantities.types import Array, Value
+from .driven import top
+from .speeds import contact_loss_speed
+from .steady import LEAST, MOST, Response, respond
+from .trains import ElasticArm, ElasticTrain, TrainChain
+
+TRAINS = ElasticTrain(), ElasticArm(), TrainChain()
+"""What a cam can drive, for a menu."""
+
+
+@dataclass(frozen=True)
+class ElasticFollower(Design):
+    """A ``cam`` with one follower, whatever it is, and the elastic ``train`` between it and the load.
+
+    Its analysis is that of the cam in all but the forces, which are those of the train in steady motion at the cam's
+    speed: contact force, torque, pressure, wear.  So measures, limits and views of the cam serve it, and so do searches
+    and tolerances: quantities of both have paths, ``cam.motion.rise.angle`` and ``train.stiffness``.  The ``response``
+    of the analysis has what a train has besides.
+
+    Raises ``ValueError`` for what is no cam; `analyse` does as `Train.follow` does.
+    """
+
+    cam: Any
+    train: Any = choice("T", TRAINS[0], TRAINS, "elastic train between cam and load")
+    samples: int = LEAST
+    """Of a turn, at which steady motion is found, at least."""
+
+    answers_for: ClassVar[tuple[str, ...]] = ("cam",)
+    name: ClassVar[str] = "cam with an elastic train"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.cam, Analysable) or isinstance(self.cam, type):
+            raise ValueError(f"the cam is {shown(self.cam)}; it must be a design of a cam")
+        whole(self.samples, "the number of samples of a turn", 8, MOST)
+        super().__post_init__()
+
+    def analyse(self, n: int = 721) -> Any:
+        """The cam at ``n`` cam angles, with the forces of the train."""
+        rigid = self.cam.analyse(n)
+        response = respond(self.train, rigid, least=self.samples + self.samples % 2)
+        given = {f.name: getattr(rigid, f.name) for f in fields(rigid)}
+        kind: Any = type(rigid)
+        return _elastic(kind)(**given, response=response, samples=self.samples)
+
+
+@cache
+def _elastic(kind: Any) -> Any:
+    """The analysis of a cam of a ``kind``, with the forces of a train."""
+    more = [("response", Response, field(kw_only=True, repr=False)), ("samples", int, field(kw_only=True))]
+    resolution = cached_property(_resolution)
+    resolution.__set_name__(kind, "resolution")
+    own = {"resistance": property(_resistance), "resolution": resolution}
+    return make_dataclass(f"Elastic{kind.__name__}", more, bases=(kind,), frozen=True, namespace=own)
+
+
+def _resistance(analysis: Any) -> Array:
+    """What the cam has to overcome along the travel, N or N m."""
+    response = analysis.response
+    part = response.train.cam_side_mass * response.speed**2 * analysis.acceleration
+    force: Array = response.train_force_at(analysis.cam_angle) + part
+    return force
+
+
+def _resolution(analysis: Any) -> Resolution:
+    """Cam angles that show the swings of the train, in the dwells too: as many for every train."""
+    load, steps = getattr(analysis.cam, "load", None), max(analysis.steps(), analysis.samples // 4)
+    angles, levels = (getattr(load, name, ()) for name in ("cam_angle_table", "travel_table"))
+    return resolve(analysis.program, steps, [x for x, _ in angles], [x for x, _ in levels], steps)
+
+
+# ---------------------------------------------------------------- measures
+
+
+def _still(analysis: Any) -> Array:
+    """Vibration in each dwell over the travel; 0 where there is no dwell."""
+    response = analysis.response
+    found, travel = response.dwell_vibration, np.ptp(response.driven.travel, axis=-1)
+    shares: Array = found / np.expand_dims(travel, -1)
+    return shares if shares.shape[-1] else np.zeros((*shares.shape[:-1], 1))
+
+
+def _margin(analysis: Any) -> Array:
+    margin: Array = analysis.resistance / analysis.response.held
+    return margin
+
+
+def _left(analysis: Any) -> Value:
+    return contact_loss_speed(analysis, analysis.response.train)
+
+
+def _swing(analysis: Any) -> Value:
+    response = analysis.response
+    return response.max_acceleration / top(response.driven.acceleration * response.speed**2)
+
+
+dynamic_factor = Measure("dynamic factor", "", lambda a: a.response.dynamic_factor)
+contact_margin = LeastMeasure(
+    "minimum force along the travel, of that at rest",
+    "%",
+    lambda a: a.lowest(_margin).value,
+    angle=lambda a: a.seen_at,
+    points=lambda a: a.seen(_margin, -1),
+)
+contact_loss = Measure("speed at which the train leaves the cam", "rpm", _left)
+dwell_vibration = PeakMeasure("vibration in the dwells, of the travel", "%", _still)
+acceleration_ratio = Measure("peak acceleration of the load, of the cam's", "%", _swing)
+natural_frequency = Measure("natural frequency", "Hz", lambda a: a.response.natural_frequency / (2 * np.pi))
+damping_ratio = Measure("damping ratio", "%", lambda a: a.response.damping_ratio)
+
+ElasticFollower.measures = (
+    dynamic_factor,
+    contact_margin,
+    contact_loss,
+    dwell_vibration,
+    acceleration_ratio,
+    natural_frequency,
+    damping_ratio,
+)
