@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..motion.smoothing import BadRow, Rows, Smoothed
-from ..quantities.kinds import a_number, listed, numbers, refuse_arguments
+from ..quantities.kinds import listed, numbers, one_number, refuse_arguments
 from ..quantities.types import Array
 from ..units import deg, in_unit, mm
 from .outlines import MOST, SAME, TURN, CamOutline, Piece, Place, points_of_outline, reach_in_words, refuse_not_around
@@ -94,11 +94,11 @@ class MeasuredOutline(CamOutline):
         points = points_of_outline(self.measured, LEAST)
         object.__setattr__(self, "measured", tuple(map(tuple, points.T.tolist())))
         object.__setattr__(self, "said", tuple(map(str, listed(self.said, "what was understood", "sentence"))))
-        digit = a_number(self.digit, "the digit", "be 0 m or more", lambda value: value >= 0)
-        object.__setattr__(self, "digit", float(digit))
+        digit = one_number(self.digit, "the digit", "be 0 m or more", lambda value: 0 <= value < np.inf)
+        object.__setattr__(self, "digit", digit)
         if self.tolerance is not None:
-            near = a_number(self.tolerance, "the tolerance", "be above 0 m", lambda value: value > 0)
-            object.__setattr__(self, "tolerance", float(near))
+            near = one_number(self.tolerance, "the tolerance", "be above 0 m", lambda value: 0 < value < np.inf)
+            object.__setattr__(self, "tolerance", near)
         if len(self._once) < LEAST:
             raise ValueError(f"the outline has {len(self._once)} different points; it needs {LEAST} at least")
         refuse_not_around(self._points)
