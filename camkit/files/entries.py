@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -16,10 +16,11 @@ from typing import Any, TypeGuard, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from ..motion import FormError, Joint, Law, MotionProgram, Part, Segment, Through
+from ..motion import FormError, Joint, Law, MotionProgram, Part, Segment, Through, UserLaw
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..quantities.kinds import kind_words, shown
 from ..units import factor, in_unit
+from .functions import function_at, place_of
 from .renamed import Given, Renaming, fields_renamed, is_earlier
 
 OF_PROGRAMS = (MotionProgram, Segment, Part, Joint, Through)
@@ -66,6 +67,8 @@ def entry_of(thing: object, where: str = "value") -> object:
         _refuse_namesake(type(thing), known[name], where)
         declared = _declarations(type(thing))
         values = {f.name: getattr(thing, f.name) for f in fields(thing) if f.init and not _unsaid(thing, f)}
+        if isinstance(thing, UserLaw):
+            values["function"] = place_of(thing.function, where)
         return {"kind": name} | {
             key(n, declared.get(n)): field_entry(v, declared.get(n), f"{words(n)} of the {kind_words(type(thing))}")
             for n, v in values.items()
@@ -235,6 +238,8 @@ class Reading:
     def _field(self, given: Given, of: Field[object], declared: object, hint: object) -> object:
         if isinstance(declared, (Quantity, Choice)):
             return self.declared(given, declared)
+        if get_origin(hint) is Callable:
+            return function_at(given.value)
         value = self.thing(given.value, hint, of.metadata.get("most", MOST_ROWS))
         if "in_all" in of.metadata and isinstance(given.value, list):
             self._count(len(given.value), *of.metadata["in_all"])

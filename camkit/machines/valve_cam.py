@@ -19,13 +19,13 @@ import numpy as np
 
 from ..cam.force_closure import ContactPair
 from ..cam.slide import SlideFriction
-from ..motion import MotionProgram, Return, Rise
+from ..motion import Mirrored, MotionProgram, Return, Rise
 from ..quantities import Design, choice, counted, quantity, unless
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from .valve_analysis import ValveAnalysis
-from .valve_motion import BLEND, Backwards, Flank, Ramp
+from .valve_motion import BLEND, Flank, Ramp
 from .valve_train import FLAT, FOLLOWERS, ValveLoad
 
 LEAST_GAP = 1e-3
@@ -134,8 +134,8 @@ class ValveCam(Design):
         return MotionProgram(
             (
                 *self.opening.segments,
-                Return(self.half_angle, self.max_lift, Backwards(self.flank)),
-                Return(aside, height, Backwards(ramp)),
+                Return(self.half_angle, self.max_lift, Mirrored(self.flank)),
+                Return(aside, height, Mirrored(ramp)),
                 Rise(aside, height, ramp),
             )
         )

@@ -8,6 +8,7 @@ from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd
 from .families.harmonic import Cycloidal, SimpleHarmonic
 from .families.mirrored import Mirrored
 from .families.modified import ModifiedConstantVelocity, ModifiedSine, ModifiedTrapezoid
+from .families.own import UserLaw
 from .families.plain import HALF_LAWS, LAWS
 from .families.polynomial import Parabolic, Poly345, Poly4567, Poly56789
 from .families.powers import PowerPolynomial
@@ -84,6 +85,7 @@ __all__ = [
     "Through",
     "Transition",
     "Uniform",
+    "UserLaw",
     "cam_card",
     "controller_error",
     "controller_rows",

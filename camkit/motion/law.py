@@ -90,6 +90,13 @@ def law_peaks(law: Law) -> Peaks:
     return Peaks(*(value[..., None] if np.ndim(value) else value for value in found))
 
 
+def met_at_dwells(law: Law) -> int:
+    """The `continuity` of a law that may have any ends: 0 with the position of a dwell alone, -1 without that."""
+    ends = [law(u) for u in (0.0, 1.0)]
+    rest = [np.allclose(ends[0][k], 0) and np.allclose(ends[1][k], k == 0) for k in range(4)]
+    return [*rest, False].index(False) - 1
+
+
 def derivative_size(motion: Callable[[Array], Kinematics], k: int) -> Callable[[Array], Value]:
     """The size of the derivative of order ``k``, as a function."""
     return lambda u: abs(motion(u)[k])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .families.free import FreePolynomial
 from .families.harmonic import Cycloidal
 from .families.mirrored import Mirrored
 from .families.modified import ModifiedConstantVelocity
+from .families.own import UserLaw
 from .families.plain import HALF_LAWS, LAWS
 from .families.powers import PowerPolynomial
 from .families.shaped import ShapedLaw
@@ -126,8 +127,8 @@ class Move(Segment):
         must = f"be 0 or a number of at least {SMALLEST:g} (less than 0 is a {other})"
         lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: (lift == 0) | (lift >= SMALLEST))
         object.__setattr__(self, "lift", lift)
-        if not _is_law(self.law):
-            raise ValueError(f"the law of the {what} is {shown(self.law)}; it must be a motion law such as Cycloidal()")
+        if not isinstance(self.law, Law):
+            object.__setattr__(self, "law", _own_law(self.law, what))
         refuse_lengths(self)
 
     @property
@@ -136,11 +137,16 @@ class Move(Segment):
 
     @property
     def kinks(self) -> tuple[Value, ...]:
-        return getattr(self.law, "kinks", ())
+        return self._law.kinks
+
+    @property
+    def _law(self) -> Law:
+        """The law; a function of one's own has become one."""
+        return cast(Law, self.law)
 
     @property
     def kinks_move(self) -> bool:
-        return getattr(self.law, "kinks_move", False) or any(map(np.ndim, self.kinks))
+        return self._law.kinks_move or any(map(np.ndim, self.kinks))
 
     def motion(self, u: Array) -> Kinematics:
         s, v, a, j = self.law(u)
@@ -153,8 +159,8 @@ class Rise(Move):
     """The level grows by ``lift`` (m or rad) over ``angle`` (rad, above 0) after the motion law ``law``.
 
     ``lift`` is 0 or more.  ``angle`` and ``lift`` may be arrays of shape ``(p, 1)``, a population.  ``law`` is a
-    motion law, or any function of ``u`` in [0, 1] that gives ``s, v, a, j``.  What cannot be is refused by
-    ``ValueError``.
+    motion law, or any function of ``u`` in [0, 1] that gives ``s, v, a, j`` (it becomes a `UserLaw`).  What cannot be
+    is refused by ``ValueError``.
     """
 
     @property
@@ -171,17 +177,11 @@ class Return(Move):
         return -self.lift
 
 
-def _is_law(law: object) -> bool:
-    """Whether ``law`` is a motion law, or a function that gives four arrays as one does."""
-    if isinstance(law, Law):
-        return True
+def _own_law(law: object, what: str) -> UserLaw:
+    """A function of one's own as a law."""
     if isinstance(law, type) or not callable(law):
-        return False
-    try:
-        given = [np.asarray(part, dtype=float) for part in law(np.linspace(0, 1, 5))]
-    except Exception:  # whatever goes wrong in a user's function, it is no law
-        return False
-    return len(given) == 4 and all(part.shape[-1:] in ((), (5,)) for part in given)
+        raise ValueError(f"the law of the {what} is {shown(law)}; it must be a motion law such as Cycloidal()")
+    return UserLaw(law)
 
 
 def positive(angle: Value) -> bool:

@@ -1020,7 +1020,10 @@ def test_what_cannot_be_saved_is_told_in_the_panel(monkeypatch, tmp_path):
     own = MotionProgram((Rise(1.0, 0.3, lambda u: Cycloidal()(u)), Return(1.0, 0.3, Cycloidal())))
     app = explore(OscillatingRollerCam(motion=own), pressure_angle)
     assert file_of(app, "json") == b""
-    assert said(app) == "The law of the rise is a function of one's own, which no file can hold."
+    assert said(app) == (
+        "The law of the rise is a function of one's own without a name in its module, which no file can hold: define "
+        "it by def at the top of a module or notebook."
+    )
 
 
 def test_the_page_comes_back_with_its_methods_and_a_measure_of_ones_own(page, monkeypatch, tmp_path):

@@ -391,7 +391,7 @@ law = Cycloidal()
         ),
         (
             lambda: Rise(1.0, 0.02, lambda u: u),
-            "the law of the rise is a function; it must be a motion law such as Cycloidal()",
+            "the law a function of one's own gives one array; it must give four: s, v, a, j",
         ),
         (
             lambda: MotionProgram(5),

@@ -17,7 +17,7 @@ from numpy.polynomial.legendre import legder, legval
 from ...quantities import Quantity, certain, floats, known, numbered, row
 from ...quantities.kinds import a_number, listed, number, refuse_lengths
 from ...quantities.types import Array, Value
-from ..law import Kinematics, Law, Peaks, law_peaks, polynomial
+from ..law import Kinematics, Law, Peaks, law_peaks, met_at_dwells, polynomial
 from .polynomial import Poly345
 
 LETTERS, NAMES = ("s", "v", "a", "j"), ("position", "velocity", "acceleration", "jerk")
@@ -90,9 +90,7 @@ class FreePolynomial(Law):
     @property
     def continuity(self) -> int:
         """As for every law; 0 where only the position is that of a dwell, -1 where not even that."""
-        ends = [self(u) for u in (0.0, 1.0)]
-        rest = [np.allclose(ends[0][k], 0) and np.allclose(ends[1][k], k == 0) for k in range(4)]
-        return ([*rest, False].index(False)) - 1
+        return met_at_dwells(self)
 
     def at(self, u: Array) -> Kinematics:
         powers = of_values(_powers(self._conditions), [value for _, value in self._given])
