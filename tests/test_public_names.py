@@ -172,6 +172,8 @@ def generation():
 
 
 GOOD = {
+    "acceleration": lambda: [0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0],
+    "angle": lambda: [0.0, 0.2, 0.4, 0.8, 1.2, 1.4, 1.6],
     "analyses": lambda: {"one": CAM.analyse(31)},
     "analysis": lambda: CAM.analyse(31),
     "at_least": dict,

@@ -2,6 +2,7 @@
 
 from .card import cam_card
 from .controller import controller_error, controller_rows
+from .families.acceleration import AccelerationTable
 from .families.constant_velocity import ConstantVelocity
 from .families.free import Degree9, FreePolynomial
 from .families.half import HalfCycloidalEnd, HalfCycloidalStart, HalfHarmonicEnd, HalfHarmonicStart
@@ -20,11 +21,12 @@ from .families.to_nose import DoubleHarmonic, EighthOrder
 from .form import FormedMatchedProgram, FormedProgram, FormError
 from .held import motion_in
 from .law import Kinematics, Law, Peaks
+from .lobe import lobe_by_acceleration
 from .made_smooth import matched
 from .matched import MatchedProgram
 from .overshoot import Overshoot
 from .parts import Joint, OpenMove, Part, Polynomial, Through, Uniform
-from .program import MotionProgram
+from .program import MotionProgram, motion_in
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .table import TableMotion, motion_from_table
 from .transitions import ProgramPeaks, Transition
@@ -36,6 +38,7 @@ __all__ = [
     "LAWS",
     "LAW_MENU",
     "SPLINE",
+    "AccelerationTable",
     "ConstantVelocity",
     "Cycloidal",
     "Degree9",
@@ -89,6 +92,7 @@ __all__ = [
     "cam_card",
     "controller_error",
     "controller_rows",
+    "lobe_by_acceleration",
     "matched",
     "motion_from_table",
     "motion_in",

@@ -13,6 +13,7 @@ from ..quantities import Choice, Declared, Quantity, certain, text_if, text_of, 
 from ..quantities.kinds import a_number, finite, kind_words, number, refuse_lengths, shown
 from ..quantities.types import Array, Value
 from ..units import in_unit
+from .families.acceleration import AccelerationTable
 from .families.constant_velocity import ConstantVelocity
 from .families.free import FreePolynomial
 from .families.harmonic import Cycloidal
@@ -37,6 +38,7 @@ LAW_MENU: tuple[Law, ...] = (
     FreePolynomial(),
     PowerPolynomial(),
     SplineLaw((0.25, 0.5, 0.75), (0.1, 0.5, 0.9)),
+    AccelerationTable((0, 0.1, 0.375, 0.475, 0.575, 0.9, 1), (0, 1, 1, 0, -1, -1, 0)),
     ConstantVelocity(),
     ModifiedConstantVelocity(),
     Skewed(Cycloidal()),
