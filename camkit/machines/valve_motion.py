@@ -96,31 +96,3 @@ class Ramp(Law):
 
     def peaks(self) -> Peaks:
         return law_peaks(self)
-
-
-@dataclass(frozen=True)
-class Backwards(Law):
-    """A law from its end to its beginning: ``s = 1 - S(1 - u)``."""
-
-    law: Law
-
-    name = "backwards"
-
-    @property
-    def continuity(self) -> int:
-        return self.law.continuity
-
-    @property
-    def kinks(self) -> tuple[Value, ...]:
-        return tuple(1 - x for x in reversed(self.law.kinks))
-
-    @property
-    def kinks_move(self) -> bool:
-        return self.law.kinks_move
-
-    def at(self, u: Array) -> Kinematics:
-        s, v, a, j = self.law.at(1 - u)
-        return Kinematics(1 - s, v, -a, j)
-
-    def peaks(self) -> Peaks:
-        return self.law.peaks()

@@ -26,7 +26,7 @@ from .made_smooth import matched
 from .matched import MatchedProgram
 from .overshoot import Overshoot
 from .parts import Joint, OpenMove, Part, Polynomial, Through, Uniform
-from .program import MotionProgram, motion_in
+from .program import MotionProgram
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .table import TableMotion, motion_from_table
 from .transitions import ProgramPeaks, Transition

@@ -18,7 +18,7 @@ from ..quantities.kinds import a_number, kind_words, listed, number, refuse_kind
 from ..quantities.types import Array, Value
 from .families.free import LETTERS
 from .law import Kinematics, Law
-from .segments import ANGLE, LAW, _is_law, _refuse_name, degrees, positive
+from .segments import ANGLE, LAW, _refuse_name, a_law, degrees, positive
 
 SHARE = Quantity("u", 0.5, 0.02, 0.98, "", "share of the part at which it holds", at_most=1)
 WITHIN = Quantity("phi", 45, 1, 240, "deg", "cam angle from the start of the part at which it holds")
@@ -268,8 +268,7 @@ class OpenMove(Part):
 
     def __post_init__(self) -> None:
         self._check_angle()
-        if not _is_law(self.law):
-            raise ValueError(f"the law of the open move is {shown(self.law)}; it must be a motion law")
+        object.__setattr__(self, "law", a_law(self.law, "open move"))
         refuse_lengths(self)
 
 

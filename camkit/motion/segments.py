@@ -129,8 +129,7 @@ class Move(Segment):
         must = f"be 0 or a number of at least {SMALLEST:g} (less than 0 is a {other})"
         lift = a_number(self.lift, f"the lift of the {what}", must, lambda lift: (lift == 0) | (lift >= SMALLEST))
         object.__setattr__(self, "lift", lift)
-        if not isinstance(self.law, Law):
-            object.__setattr__(self, "law", _own_law(self.law, what))
+        object.__setattr__(self, "law", a_law(self.law, what))
         refuse_lengths(self)
 
     @property
@@ -179,8 +178,10 @@ class Return(Move):
         return -self.lift
 
 
-def _own_law(law: object, what: str) -> UserLaw:
-    """A function of one's own as a law."""
+def a_law(law: object, what: str) -> Law:
+    """``law``, or a function of one's own as a law; ``ValueError`` in a sentence for anything else."""
+    if isinstance(law, Law):
+        return law
     if isinstance(law, type) or not callable(law):
         raise ValueError(f"the law of the {what} is {shown(law)}; it must be a motion law such as Cycloidal()")
     return UserLaw(law)

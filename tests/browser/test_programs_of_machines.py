@@ -11,7 +11,7 @@ from program_cases import designs_beside, start_of
 from test_programs_page import TOLERANCE, page, replies  # noqa: F401
 
 ANGLES, ROWS = 61, 12
-DESIGNS = dict(designs_of_every_menu(2)) | tables()
+DESIGNS = dict(designs_of_every_menu(3)) | tables()
 LAST_DIGITS = 16
 """A number that the last digit of an input moves by more than a share is no better known: by so many of these."""
 

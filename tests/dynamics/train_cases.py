@@ -10,8 +10,8 @@ from camkit import deg, rpm
 from camkit.cam import SlideLoad, TranslatingFlatCam
 from camkit.dynamics import ElasticTrain
 from camkit.machines import ValveCam
-from camkit.machines.valve_motion import Backwards, Ramp
-from camkit.motion import Cycloidal, Dwell, ModifiedSine, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
+from camkit.machines.valve_motion import Ramp
+from camkit.motion import Cycloidal, Dwell, Mirrored, ModifiedSine, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "dynamics.json").read_text(encoding="utf-8"))
 GIVEN, VALUES = REFERENCE["given"], REFERENCE["values"]
@@ -39,7 +39,7 @@ def valve():
     aside, up = np.pi - cam.half_angle - cam.ramp_angle, (cam.ramp_angle, cam.ramp_height)
     ramp, lift = Ramp(1.0), (cam.half_angle, cam.max_lift)
     opening = Dwell(aside), Rise(*up, ramp), Rise(*lift, cam.flank)
-    closing = Return(*lift, Backwards(cam.flank)), Return(*up, Backwards(ramp)), Dwell(aside)
+    closing = Return(*lift, Mirrored(cam.flank)), Return(*up, Mirrored(ramp)), Dwell(aside)
     load = SlideLoad(mass=0.25, speed=800 * rpm, spring_rate=3e4, preload=250.0)
     return TranslatingFlatCam(MotionProgram((*opening, *closing)), 0.04, load=load)
 

@@ -31,11 +31,14 @@ from camkit.machines.high_speed_measures import (
     undercut_margin,
 )
 from camkit.motion import LAWS, Cycloidal, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
-from camkit.motion.families.shaped import KNOTS, SPLINE, ShapedLaw
+from camkit.motion.families.shaped import SPLINE, ShapedLaw
 from camkit.papers.high_speed_cam import lever_problems, problems, table, table_3, trade_off_studies, with_printed_sizes
 from camkit.quantities import quantities_of, with_quantities
 from camkit.search.minimise import minimise
 from camkit.units import GPa, cm, deg, mm, rpm
+
+KNOTS = (0.2, 0.4, 0.6, 0.8)
+"""Where four coefficients of a B-spline sit."""
 
 SPRING, TORQUE = InertialSpringLoad(), ConstantTorque(10)
 LAW, OTHER_LAW = Degree9((0.1, -0.2, 0.05, -0.08)), Degree9((-0.1, -0.3, -0.1, -0.05))

@@ -64,6 +64,8 @@ DWELL_LAWS = [
     PowerPolynomial((3.5, 4.2, 6)),
     PowerPolynomial((5, 7, 9, 11, 13)),
     Mirrored(Skewed(Cycloidal(), 0.35)),
+    ShapedLaw(Cycloidal(), (0.1, -0.05), SPLINE),
+    ShapedLaw(Poly4567(), (0.02, -0.01, 0.03, 0.0, -0.02, 0.01, 0.03), SPLINE),
 ]
 MOVING_LAWS = [
     *HALF_LAWS,
@@ -111,7 +113,7 @@ def test_runs_from_0_to_1(law):
     assert law(1.0).s == pytest.approx(1, abs=1e-12)
 
 
-@every_law
+@pytest.mark.parametrize("law", [law for law in EVERY_LAW if not isinstance(law, ShapedLaw)], ids=named)
 def test_is_a_value(law):
     assert isinstance(law.name, str)
     assert law.name
@@ -225,6 +227,19 @@ def test_known_special_cases(law, same):
     u = np.linspace(0, 1, 100)
     for found, expected in zip(law(u), same(u), strict=True):
         assert np.allclose(found, expected, rtol=0, atol=1e-3 if isinstance(law, TableLaw) else 1e-9)
+
+
+@pytest.mark.parametrize("n", [1, 2, 4, 7, 40])
+def test_a_shaped_law_is_moved_by_its_coefficients_at_even_knots(n):
+    c = tuple(0.05 * np.cos(3.0 * np.arange(n)))
+    law, knots = ShapedLaw(ModifiedSine(), c, SPLINE), np.arange(1, n + 1) / (n + 1)
+    assert np.allclose(law(knots).s - ModifiedSine()(knots).s, c, atol=1e-12)
+    plain = ShapedLaw(Poly345(), (0.0,) * n, SPLINE)
+    assert np.array_equal(plain(knots), Poly345()(knots))
+    many = ShapedLaw(ModifiedSine(), tuple(x * columns for x in c), SPLINE)(u6)
+    for row, x in enumerate(columns[:, 0]):
+        alone = ShapedLaw(ModifiedSine(), tuple(float(x) * y for y in c), SPLINE)(u6)
+        assert np.allclose([part[row] for part in many], alone, rtol=1e-12, atol=1e-12)
 
 
 def test_skewing_puts_the_inflection_where_it_is_asked_for():
@@ -419,6 +434,14 @@ def test_a_population_has_nan_where_a_member_cannot_be():
         (
             lambda: Degree9((1, 2, 3, 1e300)),
             "the coefficient c3 of the degree 9 law is 1e+300; it must be a finite number of a size of at most 600",
+        ),
+        (
+            lambda: ShapedLaw(Poly345(), (0, 0, 0, 0, 0)),
+            "the shaped law has 5 coefficients c; it must have four",
+        ),
+        (
+            lambda: ShapedLaw(Poly345(), (), SPLINE),
+            "the shaped law has 0 coefficients c; it must have from 1 to 40",
         ),
         (
             lambda: ShapedLaw(Poly345(), (0, 1e150, 0, 0)),

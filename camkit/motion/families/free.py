@@ -175,11 +175,12 @@ def _values(word: str, given: object) -> tuple[Value | None, ...]:
 COEFFICIENT = Quantity("c", 0, -0.6, 0.6, "", "shapes the law", above=None, name="shape")
 
 
-def coefficients(given: object, law: str) -> tuple[Value, ...]:
-    """The four coefficients of a law; ``ValueError`` for anything else."""
+def coefficients(given: object, law: str, least: int = 4, most: int = 4) -> tuple[Value, ...]:
+    """The coefficients of a law, four unless said otherwise; ``ValueError`` for anything else."""
     c = listed(given, f"the c of the {law} law", "coefficient")
-    if len(c) != 4:
-        raise ValueError(f"the {law} law has {len(c)} coefficients c; it must have four")
+    if not least <= len(c) <= most:
+        must = "four" if least == most else f"from {least} to {most}"
+        raise ValueError(f"the {law} law has {len(c)} coefficients c; it must have {must}")
     return tuple(sized(value, f"the coefficient c{i} of the {law} law", COEFFICIENT) for i, value in enumerate(c))
 
 

@@ -1,4 +1,4 @@
-"""A motion law with a say left to the designer: four coefficients shape it between its fixed ends.
+"""A motion law with a say left to the designer: coefficients shape it between its fixed ends.
 
 Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov (polynomials of degree 9, splines as the alternative).
 """
@@ -21,28 +21,31 @@ from .plain import LAWS
 from .polynomial import Poly345
 from .spline import SplineLaw
 
-KNOTS = (0.2, 0.4, 0.6, 0.8)
-"""Where the four coefficients of the B-spline family sit."""
+MOST_KNOTS = 40
+"""So many coefficients a B-spline can have at most."""
 
 
 @dataclass(frozen=True)
 class Family:
-    """What four coefficients stand for: ``law(c)`` is linear in ``c``, and so is what it adds to another law.
+    """What coefficients stand for: ``law(c)`` is linear in ``c``, and so is what it adds to another law.
 
-    ``wide``: how far from 0 a search may take a coefficient.
+    ``wide``: how far from 0 a search may take a coefficient; ``most``: how many there can be, at least ``least``.
     """
 
     name: str
     law: Callable[[tuple[Value, ...]], Law]
     wide: float
+    least: int = 4
+    most: int = 4
 
 
 def _spline(c: tuple[Value, ...]) -> Law:
-    return SplineLaw(KNOTS, c)
+    """A quintic B-spline with even knots, one for each coefficient."""
+    return SplineLaw(tuple(i / (len(c) + 1) for i in range(1, len(c) + 1)), c)
 
 
 DEGREE9 = Family("degree 9", Degree9, 0.6)
-SPLINE = Family("B-spline", _spline, 0.2)  # with more, next to no random law stays between its ends
+SPLINE = Family("B-spline", _spline, 0.2, 1, MOST_KNOTS)  # wider, next to no random law stays between its ends
 FAMILIES = (DEGREE9, SPLINE)
 
 
@@ -51,8 +54,10 @@ class ShapedLaw(Law):
     """``base`` and what the coefficients ``c`` add to it: ``base(u) + family(c)(u) - family(0)(u)``.
 
     The family ``DEGREE9`` adds ``64 u^3 (1 - u)^3 [c0 P0 + c1 P1 + c2 P2 + c3 P3]`` with the Legendre polynomials
-    of ``2 u - 1``; ``SPLINE`` adds the quintic B-spline with knots at 0.2, 0.4, 0.6, 0.8 that is ``c_i`` there.
-    Both leave position, velocity and acceleration at the two ends as they are.
+    of ``2 u - 1``; ``SPLINE`` adds the quintic B-spline with as many even knots as there are coefficients (0.2, 0.4,
+    0.6, 0.8 for four) that is ``c_i`` there.  Both leave position, velocity and acceleration as they are at both ends.
+
+    ``ValueError``: other than four coefficients of degree 9, none or more than 40 of a B-spline.
 
     >>> from camkit.motion import Poly345
     >>> c = (0.1, -0.2, 0.0, 0.05)
@@ -68,7 +73,7 @@ class ShapedLaw(Law):
 
     def __post_init__(self) -> None:
         refuse_kinds(self)
-        object.__setattr__(self, "c", coefficients(self.c, self.name))
+        object.__setattr__(self, "c", coefficients(self.c, self.name, self.family.least, self.family.most))
         refuse_lengths(self)
 
     def declares(self) -> dict[str, Any]:
@@ -96,7 +101,7 @@ class ShapedLaw(Law):
     def at(self, u: Array) -> Kinematics:
         if self._plain:
             return self.base.at(u)
-        parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * 4).at(u)
+        parts = self.base.at(u), self.family.law(self.c).at(u), self.family.law((0.0,) * len(self.c)).at(u)
         return Kinematics(*(base + shaped - plain for base, shaped, plain in zip(*parts, strict=True)))
 
     def peaks(self) -> Peaks:
