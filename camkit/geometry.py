@@ -102,13 +102,14 @@ class Cylinder(Shape):
 class Strip(Shape):
     """A strip of surface between two ``edges`` ``(3, 2, k)`` on a body that turns about the z axis by ``angle`` (rad).
 
-    Its outer side alone is seen.  Along the edges, from the first to the second, outwards: with ``hand`` +1 these
-    directions are right-handed, with -1 left-handed.
+    Its outer side alone is seen; its part is what its first edge is, "face" that of an end face, or it is the
+    "floor" or a "wall" of a groove, which are seen on the near side of the body only.  Along the edges, from the first
+    to the second, outwards: with ``hand`` +1 these directions are right-handed, with -1 left-handed.
     """
 
     edges: Array
     cut: Value | None = None
-    """At which of the ``k`` places it is cut away; ``None``: nowhere."""
+    """At which of the ``k`` places its first edge is cut away; ``None``: nowhere."""
     angle: Value = field(default=0.0, kw_only=True)
     hand: Value = field(default=1, kw_only=True)
 

@@ -125,7 +125,7 @@ class OscillatingBarrelCam(Drum):
 
     >>> analysis = OscillatingBarrelCam().analyse()
     >>> print(f"{abs(analysis.roller_centre[0]).max() / mm:.2f} mm beside the axis")
-    1.43 mm beside the axis
+    1.50 mm beside the axis
 
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a roller that passes beside the drum.
     """
@@ -155,7 +155,7 @@ class DrumAnalysis(RollerAnalysis):
     @property
     def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """What any cam shows, with the development and the drum in space in place of its plane picture."""
-        return ("development", "shapes", *super().offers[1:], AnalysisCurve("skid", "%", "skid of the roller's ends"))
+        return ("shapes", "development", *super().offers[1:], AnalysisCurve("skid", "%", "skid"))
 
     @property
     @abstractmethod

@@ -12,6 +12,8 @@ from ..quantities.types import Array, Value
 
 PIN = np.zeros((2, 1))
 """A body that is a pin: one point."""
+PLACES = 181
+"""A drum in space is drawn by so many places around it."""
 
 
 def disk(analysis: Any, groove: bool) -> tuple[Body, ...]:
@@ -35,20 +37,24 @@ def unrolled(analysis: Any, groove: bool, low: Value, high: Value) -> tuple[Body
 def drum(analysis: Any, groove: bool, low: Value, high: Value) -> tuple[Shape, ...]:
     """A drum in space from ``low`` to ``high``, with its ``groove`` or its end face."""
     refuse_population(analysis, "what is drawn")
-    outer, inner = analysis.cam.surface_radius, analysis.cam.bottom_radius
-    turned = {"angle": -analysis.turn, "hand": analysis.cam.rotation}
-    lip, inside = analysis.in_space(outer, 1), analysis.in_space(inner, 1)
+    n, outer, inner = analysis.cam_angle.shape[-1], analysis.cam.surface_radius, analysis.cam.bottom_radius
+    some = np.linspace(0, n - 1, min(n, PLACES)).round().astype(int)
+    lip, bottom, far, under = (
+        np.take(analysis.in_space(radius, side), some, axis=-1) for side in (1, -1) for radius in (outer, inner)
+    )
+    foot, floor, top = (vector(at[0], at[1], level) for at, level in ((lip, low), (bottom, low), (far, high)))
 
-    def strip(part: str, first: Array, second: Array, cut: Value | None = None) -> Strip:
-        return Strip("", part, np.stack([first, second], axis=1), cut, **turned)
+    def strip(part: str, first: Array, second: Array, hand: int = 1, cut: Value | None = None) -> Strip:
+        edges, lost = np.stack([first, second], axis=1), None if cut is None else np.take(cut, some, axis=-1)
+        return Strip("", part, edges, lost, angle=-analysis.turn, hand=hand * analysis.cam.rotation)
 
-    if groove:
-        axis = vector(np.zeros(2), 0.0, np.stack([low, high]))
-        mouth = strip("flank", lip, analysis.in_space(outer, -1), analysis.undercut | analysis.outer_undercut)
-        return Cylinder("", "body", outer, axis), mouth
-    foot, floor = (vector(points[0], points[1], low) for points in (lip, inside))
-    face = strip("flank", lip, inside, analysis.undercut)
-    return strip("body", inside, floor), face, strip("body", foot, lip)
+    if not groove:
+        return strip("", bottom, floor), strip("face", lip, bottom, 1, analysis.undercut), strip("", lip, foot, -1)
+    axis = vector(np.zeros(2), 0.0, np.stack([low, high]))
+    walls = strip("floor", lip, far), strip("wall", lip, bottom), strip("wall", under, far)
+    below = strip("profile", lip, foot, -1, analysis.undercut)
+    above = strip("flank", far, top, 1, analysis.outer_undercut)
+    return Cylinder("", "body", outer, axis), *walls, below, above
 
 
 def _between_flanks(analysis: Any) -> Array:

@@ -5,6 +5,7 @@ from .cam import cam_torque, contact_force, contact_pressure, curvature, efficie
 from .decision import ShownDecision, brushed_designs, front_winners, judgement_bars, winners_by_weight
 from .defaults import curve_view, default_views
 from .design_map import ShownPlane, design_plane, designs_on_plane, objective_plane
+from .development import shapes_in_space, unrolled_cam
 from .event import cam_and_follower, lift, radius_of_curvature, spring_and_inertia, stress_over_event
 from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_pareto, pareto, searches_compared
 from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
@@ -87,11 +88,13 @@ __all__ = [
     "radius_of_curvature",
     "searches_compared",
     "section",
+    "shapes_in_space",
     "sobol_bars",
     "spring_and_inertia",
     "stress_over_event",
     "stress_over_way",
     "sweep_view",
+    "unrolled_cam",
     "utilisation",
     "velocity_ratio",
     "vibration_left",

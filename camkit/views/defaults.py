@@ -9,8 +9,8 @@ from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
     "bodies": cam.mechanism,
-    "development": development.development,
-    "shapes": development.in_space,
+    "development": development.unrolled_cam,
+    "shapes": development.shapes_in_space,
     "motion": cam.motion,
     "pressure_angle": cam.pressure_angle,
     "contact_force": cam.contact_force,

@@ -14,13 +14,17 @@ import numpy as np
 from ..geometry import Body, Cylinder, Shape, Strip, dot, rotated
 from ..quantities.types import Array
 from ..units import deg, mm
-from .cam import bodies, position
+from .cam import PARTS, bodies, position
 from .picture import Axes, Line, Mark, Picture, Polygon, Text, gaps
 from .turntable import NEAR, Turntable
 
 FRONT = np.linspace(-np.pi / 2, np.pi / 2, 37)
 """The half of a cylinder that is seen, from edge to edge."""
 SHADES = tuple(np.linspace(edge, np.pi / 2, 13) for edge in (0.55, 0.9, 1.2))
+FILLS = {"floor": ("guide", 0.55), "wall": ("profile", 0.4), "face": ("profile", 0.4)}
+"""How the inside of a groove, and what the roller runs on, is filled."""
+EDGES = {"profile": "profile", "flank": "flank", "face": "profile"}
+"""What the first edge of a strip is."""
 LEAST = 1e-9
 """A cylinder that is seen along its axis within this has edges all the same."""
 
@@ -51,7 +55,7 @@ class Solid(Protocol):
     def shapes(self) -> tuple[Shape, ...]: ...
 
 
-def development(analysis: Unrolled, turn: float = 0.0) -> Picture:
+def unrolled_cam(analysis: Unrolled, turn: float = 0.0) -> Picture:
     """The cam unrolled, to scale, with the follower at cam angle ``turn`` (rad), and its pressure angle there.
 
     Of a groove the band between its two flanks is filled; trouble: stretches that the follower undercuts.
@@ -81,7 +85,9 @@ def _pressure_angle_at(analysis: Unrolled, i: np.intp) -> list[Mark]:
     ]
 
 
-def in_space(analysis: Solid, turn: float = 0.0, azimuth: float = -60 * deg, elevation: float = 25 * deg) -> Picture:
+def shapes_in_space(
+    analysis: Solid, turn: float = 0.0, azimuth: float = -60 * deg, elevation: float = 25 * deg
+) -> Picture:
     """The mechanism in space at cam angle ``turn``, seen from ``azimuth`` and ``elevation`` (rad), to scale.
 
     Trouble: stretches that the follower undercuts.
@@ -120,35 +126,42 @@ def _cylinder(scene: Turntable, shape: Cylinder, ends: Array, key: str, over: fl
     def around(middle: Array, angle: Array) -> Array:
         return middle[:, None] + edge[:, None] * np.sin(angle) + front[:, None] * np.cos(angle)
 
-    at = scene.height_of(np.mean(scene.seen(ends)[2])) + over
-    role = "follower" if shape.part == "roller" else shape.part
+    before = np.mean(scene.seen(ends)[2])
+    at, role = scene.height_of(before) + over, "follower" if shape.part == "roller" else shape.part
+    at = at + (
+        2 * (before > 0) if shape.part == "roller" else 0.0
+    )  # before the edges of all strips, or behind the solid
+    over = at + (0.05 if shape.part == "roller" else 0.5)
     outline = np.concatenate([around(far, FRONT), around(near, FRONT + np.pi)], axis=1)
     scene.face(key, outline, at=at, role=role)
     for k, shade in enumerate(SHADES):
         for side in (-1, 1):
             sides = np.concatenate([around(far, side * shade), around(near, side * shade[::-1])], axis=1)
-            scene.face(f"{key} shade {k} {side}", sides, at=at + 1e-4, role="guide", opacity=0.09)
+            scene.face(f"{key} shade {k} {side}", sides, at=over, role="guide", opacity=0.09)
     cap = around(near, np.linspace(0, 2 * np.pi, 73))
-    scene.face(f"{key} end", cap, at=at + 2e-4, role="paper", opacity=0.35)
-    scene.path(f"{key} end edge", cap, at=at + 3e-4, role="guide", stroke="thin")
-    scene.path(f"{key} outline", np.concatenate([outline, outline[:, :1]], axis=1), at=at + 3e-4, role="guide")
+    scene.face(f"{key} end", cap, at=over + 0.01, role="paper", opacity=0.35)
+    scene.path(f"{key} end edge", cap, at=over + 0.02, role="guide", stroke="thin")
+    scene.path(f"{key} outline", np.concatenate([outline, outline[:, :1]], axis=1), at=over + 0.02, role="guide")
 
 
 def _strip(scene: Turntable, shape: Strip, edges: Array, key: str, at: float) -> None:
-    """What is seen of a strip's outer side, place by place, its edges and what is cut away of it."""
+    """What is seen of a strip's outer side, place by place, its first edge and what is cut away of that."""
     (x, y, _), eye = scene.seen(edges), scene.eye[2].reshape(3, 1)
     along, across = edges[:, 0, 1:] - edges[:, 0, :-1], edges[:, 1, :-1] - edges[:, 0, :-1]
     seen = shape.hand * dot(np.cross(along, across, axis=0), eye) > 0
+    if shape.part == "wall":
+        seen = seen & (dot(edges[:2, 0, :-1], eye[:2]) > 0)
     corners = [
         gaps(np.stack([p[0, :-1], p[0, 1:], p[1, 1:], p[1, :-1], np.nan * p[0, 1:]], axis=-1), seen[:, None])
         for p in (x, y)
     ]
-    flank = shape.part == "flank"
-    style = {"role": "profile", "opacity": 0.3} if flank else {"role": shape.part}
-    scene.put(at, Polygon(key, *(p.reshape(-1) for p in corners), **style))
+    role, opacity = FILLS.get(shape.part, ("body", 1.0))
+    scene.put(at, Polygon(key, *(p.reshape(-1) for p in corners), role=role, opacity=opacity))
     shown = np.concatenate([seen, seen[-1:]])
-    for side, role in enumerate(("profile", "flank") if flank else ("guide", "guide")):
-        scene.put(at + 1e-3, Line(f"{key} edge {side}", gaps(x[side], shown), gaps(y[side], shown), role=role))
-        if shape.cut is not None:
-            cut = [gaps(p[side], shown & shape.cut) for p in (x, y)]
-            scene.put(at + 2e-3, Line(f"{key} edge {side} undercut", *cut, role="trouble"))
+    if shape.part in EDGES:
+        role = EDGES[shape.part]
+        edge = gaps(x[0], shown), gaps(y[0], shown)
+        scene.put(at + 1, Line(f"{key} edge", *edge, role=role, label=PARTS[role]))
+    if shape.cut is not None:
+        cut = [gaps(p[0], shown & shape.cut) for p in (x, y)]
+        scene.put(at + 1, Line(f"{key} undercut", *cut, role="trouble"))

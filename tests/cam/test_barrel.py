@@ -12,7 +12,18 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import OscillatingRollerCam, TranslatingRollerCam, deg, mm
+from camkit import (
+    Measure,
+    OscillatingRollerCam,
+    Study,
+    TranslatingRollerCam,
+    deg,
+    explore,
+    minimise,
+    mm,
+    quick_front,
+    tolerance_panel,
+)
 from camkit.cam import (
     ArmLoad,
     BarrelCam,
@@ -34,10 +45,11 @@ from camkit.cam import (
     undercut_margin,
     vibration_at,
 )
-from camkit.files import from_json, to_json
+from camkit.files import Session, from_json, to_json
 from camkit.files.profiles import profile_csv, profile_dxf
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic
 from camkit.quantities import measures_of, unremarked
+from camkit.study import Sweep
 from camkit.units import rpm
 from camkit.views import default_views
 
@@ -280,6 +292,7 @@ def test_hertz_pressure_is_that_of_the_surfaces_in_space():
     ("cam", "sentence"),
     [
         (lambda: BarrelCam(mean_radius=20 * mm, groove_depth=50 * mm), "its bottom must stay above 0 mm"),
+        (lambda: BarrelCam(MotionProgram((Rise(360 * deg, 60 * mm, Cycloidal()),), advance=60 * mm)), "back to where"),
         (lambda: BarrelCam(mean_radius=20 * mm, roller_radius=30 * mm).analyse(), "stay below the 14 mm of the groove"),
         (lambda: OscillatingBarrelCam(centre_distance=20 * mm).analyse(), "comes up to 64 mm beside the drum's axis"),
         (lambda: OscillatingBarrelCam(start_angle=40 * deg, centre_distance=50 * mm, mean_radius=40 * mm,
@@ -311,10 +324,64 @@ def test_a_population_is_its_members(cam):
 @BOTH
 def test_a_file_gives_it_back_and_every_view_shows_it(cam):
     assert from_json(to_json(cam)) == cam
-    assert [view.__name__ for view in default_views(cam.analyse(91))][:3] == ["development", "in_space", "motion"]
+    assert [view.__name__ for view in default_views(cam.analyse(91))][:3] == [
+        "shapes_in_space",
+        "unrolled_cam",
+        "motion",
+    ]
     for groove in (True, False):
         analysis = cam.replace(groove=groove, roller_radius=5 * mm).analyse(91)
         assert all(view(analysis).marks for view in default_views(analysis))
+
+
+def narrow(cam):
+    """A small drum with a thick roller that works."""
+    sizes = {"mean_radius": (40 * mm, 90 * mm), "roller_radius": (5 * mm, 20 * mm)}
+    wanted = (-rolling_cone, max_pressure_angle)
+    return Study(cam, sizes, wanted, at_least={undercut_margin: 0.2}, at_most={bottom_pressure_angle: 45 * deg})
+
+
+@BOTH
+def test_searches_take_it_as_it_is(cam):
+    study = narrow(cam)
+    front = quick_front(study)
+    assert len(front) > 50
+    judged = study.evaluate(front.x)
+    assert judged.feasible.all()
+    assert_allclose(judged.f, front.f)
+    radius = Measure("mean radius", "mm", lambda a: np.atleast_1d(a.cam.mean_radius)[..., 0])
+    radius = study.replace(minimise=(radius,), free={"mean_radius": (40 * mm, 90 * mm)})
+    found = minimise(radius)
+    least = found.design.mean_radius - cam.groove_depth / 2
+    assert bottom_pressure_angle(found.design.analyse()) == pytest.approx(45 * deg, abs=1e-6)
+    if cam is SLIDING:  # tan 45 deg = 2 h / (beta rho)
+        assert least == pytest.approx(100 * mm / (2 * np.pi / 3), rel=1e-6)
+    swept = Sweep(radius, 31)
+    assert not swept.feasible[0]
+    assert swept.feasible[-1]
+    again = from_json(to_json(Session(study, front[0], front=front)))
+    assert_array_equal(again.front.x, front.x)
+    assert again.design == front[0]
+
+
+@BOTH
+def test_an_instrument_and_its_tolerances_live(cam):
+    study = narrow(cam)
+    app = explore(cam, free=list(study.free), measures=[max_pressure_angle, undercut_margin])
+    assert [view.__name__ for view in app.views][:2] == ["shapes_in_space", "unrolled_cam"]
+    assert app.program is not None
+    spread = tolerance_panel(app, study, {"mean_radius": 0.3 * mm, "roller_radius": 0.2 * mm})
+    spread.settle()
+    assert f"{100 * spread.tolerances.share:.1f} % of parts" in spread.summary()
+
+
+def test_a_zone_and_a_checkpoint_are_measures():
+    analysis = BarrelCam().analyse()
+    there = max_pressure_angle.at(60 * deg)(analysis)
+    assert there == pytest.approx(max_pressure_angle(analysis), rel=1e-12)
+    assert max_pressure_angle.between(0, 30 * deg)(analysis) == pytest.approx(
+        np.arctan(SLIDING.motion(30 * deg).v / SLIDING.mean_radius), rel=1e-9
+    )
 
 
 def columns(text):

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
+from camkit.cam import BarrelCam, OscillatingBarrelCam
 from camkit.cam.loads import ArmLoad
 from camkit.cam.slide import SlideLoad
 from camkit.machines import CamLever
@@ -22,6 +23,8 @@ CAMS = [
     OscillatingRollerCam(rotation=-1),
     TranslatingFlatCam(),
     OscillatingFlatCam(),
+    BarrelCam(),
+    OscillatingBarrelCam(rotation=-1),
 ]
 ROWS = 5
 

@@ -18,6 +18,7 @@ from camkit import (
     mm,
     picture,
 )
+from camkit.cam import BarrelCam, OscillatingBarrelCam
 from camkit.cam.pair import ConjugatePair
 from camkit.linkage import DoubleUniversalJoint
 from camkit.machines import CabinDoorLinkage, CamLever
@@ -31,6 +32,9 @@ DESIGNS = (
     OscillatingFlatCam(),
     TranslatingRollerCam(groove=False),
     TranslatingFlatCam(),
+    BarrelCam(),
+    OscillatingBarrelCam(),
+    BarrelCam(groove=False),
     HighSpeedCam(),
     CamLever(),
     ValveCam(),
