@@ -84,11 +84,6 @@ class Drum(Design):
         """Drum's axis to its surface, m."""
         return self.mean_radius + self.groove_depth / 2
 
-    @property
-    def rolling_cone(self) -> Value:
-        """Half angle of a roller whose tip is on the drum's axis, rad: without skid in a dwell, nearly so elsewhere."""
-        return np.arctan2(self.roller_radius, self.mean_radius)
-
 
 @dataclass(frozen=True)
 class BarrelCam(Drum):
@@ -168,9 +163,9 @@ class DrumAnalysis(RollerAnalysis):
         """The direction in which the roller goes for a growing level, a unit vector."""
 
     @property
-    @abstractmethod
     def swing_radius(self) -> Value:
-        """Way of the roller for a level of 1, 1 or m; and that of an arm is its curve, too."""
+        """How far the roller goes for a level of 1: 1, or the length of its arm, m."""
+        return getattr(self.cam, "arm_length", 1.0)
 
     @cached_property
     def roller_centre(self) -> np.ndarray:
@@ -186,8 +181,8 @@ class DrumAnalysis(RollerAnalysis):
     @property
     def clear(self) -> Array:
         """Where the roller is on the drum, and the drum's surface faster than the roller goes around it."""
-        ahead = self.cam.rotation * self.centre_velocity[0] + self.cam.bottom_radius
-        return (abs(self.place[0]) + self.cam.roller_radius < self.cam.bottom_radius) & (ahead > 0)
+        there = abs(self.place[0]) + self.cam.roller_radius < self.cam.bottom_radius
+        return there & (self._past(self.cam.bottom_radius)[0] > 0)
 
     def refusal(self) -> str:
         """Why it cannot be built, in a sentence."""
@@ -268,6 +263,16 @@ class DrumAnalysis(RollerAnalysis):
         return self.swing_radius * _product(self.way, self.normal)
 
     @property
+    def bottom_pressure_angle(self) -> Array:
+        """``tan alpha = v / rho`` on a slide: at the groove's bottom it is the steepest."""
+        return self.pressure_angle_at(self.cam.bottom_radius)
+
+    @property
+    def rolling_cone(self) -> Value:
+        """``arctan(r_T / R)``: half angle of a roller with its tip on the drum's axis, without skid in a dwell, rad."""
+        return np.arctan2(self.cam.roller_radius, self.cam.mean_radius)
+
+    @property
     def skid(self) -> Array:
         """By how much the drum runs faster past the roller's outer end than past its inner one, over the mean."""
         inner, mean, outer = map(self.rolling, (self.cam.bottom_radius, self.cam.mean_radius, self.cam.surface_radius))
@@ -295,9 +300,9 @@ class DrumAnalysis(RollerAnalysis):
     @property
     def points_in_space(self) -> dict[str, np.ndarray]:
         """The groove's centre line at the mean radius, and both edges of every flank, for a milling machine, m."""
-        edges = {"bottom": self.cam.bottom_radius, "surface": self.cam.surface_radius}
-        sides = {"lower": 1, "upper": -1} if self.groove else {"lower": 1}
-        flanks = {f"{k} flank {e}": self.in_space(r, side) for k, side in sides.items() for e, r in edges.items()}
+        edges = {"bottom": self.cam.bottom_radius, "surface": self.cam.surface_radius}.items()
+        sides = (("lower", 1), ("upper", -1)) if self.groove else (("lower", 1),)
+        flanks = {f"{flank} flank {edge}": self.in_space(r, side) for flank, side in sides for edge, r in edges}
         return {"groove": self.in_space(self.cam.mean_radius)} | flanks
 
     @property
@@ -317,8 +322,8 @@ class DrumAnalysis(RollerAnalysis):
     def shapes(self) -> tuple[Shape, ...]:
         """The drum of one design with its groove in space, and the roller over the turn."""
         x, y = self.roller_centre
-        inner, outer = self.cam.bottom_radius, self.cam.surface_radius + self.cam.groove_depth / 2
-        pin = np.stack([vector(inner, x, y), vector(outer, x, y)], axis=1)
+        outer = self.cam.surface_radius + self.cam.groove_depth / 2
+        pin = np.stack([vector(self.cam.bottom_radius, x, y), vector(outer, x, y)], axis=1)
         return *bodies.drum(self, self.groove, *self.ends), Cylinder("", "roller", self.cam.roller_radius, pin)
 
 
@@ -332,7 +337,6 @@ class BarrelAnalysis(SlidingAnalysis, DrumAnalysis):
     """What follows from a `BarrelCam` at the given cam angles."""
 
     cam: BarrelCam
-    swing_radius: ClassVar[float] = 1.0
     way: ClassVar[Vector] = (0.0, 1.0)
 
     @property
@@ -352,11 +356,6 @@ class OscillatingBarrelAnalysis(RockingAnalysis, DrumAnalysis):
     """What follows from an `OscillatingBarrelCam` at the given cam angles."""
 
     cam: OscillatingBarrelCam
-
-    @property
-    def swing_radius(self) -> Value:
-        """``l``, m."""
-        return self.cam.arm_length
 
     @cached_property
     def way(self) -> tuple[Array, Array]:
@@ -387,14 +386,12 @@ class OscillatingBarrelAnalysis(RockingAnalysis, DrumAnalysis):
         return *arm, bodies.roller("arm", self.pitch, self.cam.roller_radius)
 
 
-bottom_pressure_angle = over_cam(
-    "maximum pressure angle, groove's bottom", "deg", lambda a: abs(a.pressure_angle_at(a.cam.bottom_radius))
-)
+_BOTTOM, _CONE = "maximum pressure angle, groove's bottom", "half angle of a conical roller that does not skid"
+bottom_pressure_angle = over_cam(_BOTTOM, "deg", lambda a: abs(a.bottom_pressure_angle))
 peak_skid = over_cam("skid of the roller's ends", "%", lambda a: a.skid)
-rolling_cone = Measure("half angle of a conical roller that does not skid", "deg", lambda a: number(a.cam.rolling_cone))
-OWN = (jump_margin, bottom_pressure_angle, peak_skid, rolling_cone)
-DRUM_CURVE = (*(measure for measure in ROLLER_CURVE if measure is not base_radius), *OWN)
-"""What any cam under a roller has, but for a base circle, and what a drum adds."""
-BarrelCam.measures = (*DRUM_CURVE, *SLIDING)
-OscillatingBarrelCam.measures = (*DRUM_CURVE, *ROCKING)
+rolling_cone = Measure(_CONE, "deg", lambda a: number(a.rolling_cone))
+DRUM = (*ROLLER_CURVE, jump_margin, bottom_pressure_angle, peak_skid, rolling_cone)
+BarrelCam.measures, OscillatingBarrelCam.measures = (
+    tuple(measure for measure in (*DRUM, *moved) if measure is not base_radius) for moved in (SLIDING, ROCKING)
+)
 BarrelCam.makers = OscillatingBarrelCam.makers = MAKERS
