@@ -10,7 +10,7 @@ import numpy as np
 from ..motion import MotionProgram
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
-from ..units import deg, factor, rpm
+from ..units import deg, factor, in_unit, rpm
 from ..views.laws import PROGRAM_VIEWS, MotionUnits, ShownProgram
 from .kit import draft_edits as edits
 from .kit.draft import Draft
@@ -31,8 +31,8 @@ HEIGHT = 222
 """Pixels of each curve in the page."""
 REACH = 30
 """Pixels from which a handle is taken hold of."""
-FASTEST = 1e6
-"""No shaft turns at more (rpm)."""
+SLOWEST, FASTEST = 1e-3, 1e6
+"""Speeds of a shaft that can be typed, rpm."""
 PER_RAD, IN_TIME, OVER_TIME = "per radian", "in time", "in time, over time"
 
 
@@ -40,10 +40,10 @@ class Speed(Amount):
     """A box for the speed of the shaft."""
 
     def take(self, message: Message) -> None:
-        """Another number; ``ValueError`` for one that is not above 0."""
+        """Another number; ``ValueError`` for one that no shaft has."""
         value = float(message["value"])
-        if not 0 < value <= FASTEST:
-            must = f"it must be above 0 and at most {FASTEST:g} rpm"
+        if not SLOWEST <= value <= FASTEST:
+            must = f"it must be from {SLOWEST:g} to {FASTEST:g} rpm"
             raise ValueError(f"the speed stays as before: {value:g} rpm was typed; {must}")
         self.value = value
 
@@ -59,9 +59,9 @@ class ProgramEditor(Panel):
     each transition then has a menu for position, velocity, acceleration and jerk.
     """
 
-    def __init__(self, program: MotionProgram, unit: str = "mm") -> None:
+    def __init__(self, program: MotionProgram, unit: str = "mm", speed: float | None = None) -> None:
         refuse_arguments(ProgramEditor.__init__, locals())
-        factor(unit)
+        MotionUnits(unit, speed)
         self.start, self.unit = program, unit
         self.draft = Draft.of(program)
         self._quiet, self._steps = Quiet(), Steps[Draft]()
@@ -71,6 +71,9 @@ class ProgramEditor(Panel):
         self.transitions: list[TransitionRow] = []
         self.first = TransitionRow(0, self._hand)
         self._make_parts()
+        if speed is not None:
+            with self._quiet:
+                self.values.value, self.speed.value = IN_TIME, in_unit(speed, "rpm")
         parts = (self.banner, self.verdict, self._list, self._rest, self.remarks.group, self.numbers, self.files.group)
         left = Group(self._head, *parts)
         super().__init__(Group(left, self.picture, look="beside halves"))
@@ -238,9 +241,11 @@ class ProgramEditor(Panel):
         return "\n".join(joint.text(self.unit) for joint in self.program.transitions())
 
 
-def edit_program(program: MotionProgram, unit: str = "mm") -> ProgramEditor:
+def edit_program(program: MotionProgram, unit: str = "mm", speed: float | None = None) -> ProgramEditor:
     """Rows and handles for a motion program whose lifts are shown in ``unit`` ("mm" or "deg").
+
+    At a ``speed`` of the shaft (rad/s) velocities, accelerations and jerks are those in time.
 
     The result's ``.program`` goes into a cam: ``editor.on_change(lambda p: app.load(app.design.replace(motion=p)))``.
     """
-    return ProgramEditor(program, unit)
+    return ProgramEditor(program, unit, speed)

@@ -13,12 +13,14 @@ from ..quantities.kinds import a_number, refuse_kinds
 from ..quantities.types import Array
 from ..units import deg, factor
 from .cam import MOTION
-from .picture import Axes, Line, MarkStyle, Picture, Points, View
+from .picture import Axes, Line, Mark, MarkStyle, Picture, Points, Text, View
 
 HAIR = 1e-9
 """How far (rad) before and after a joint the two sides of a jump are drawn."""
 
 
+SLOWEST, FASTEST = 1e-6, 1e6
+"""Speeds of a shaft (rad/s) for which motions are shown in time."""
 METRES = {"mm": "m", "cm": "m", "um": "m"}
 """In which unit of length values in time are."""
 
@@ -33,7 +35,8 @@ class MotionUnits:
     def __post_init__(self) -> None:
         factor(self.lift)
         if self.speed is not None:
-            a_number(self.speed, "the speed of the shaft", "be a finite number above 0", lambda speed: speed > 0)
+            must = f"be a number from {SLOWEST:g} to {FASTEST:g} (rad/s)"
+            a_number(self.speed, "the speed of the shaft", must, lambda speed: (speed >= SLOWEST) & (speed <= FASTEST))
 
     def of(self, k: int) -> str:
         """The unit of length or angle in that of the derivative of order ``k``."""
@@ -129,8 +132,23 @@ def acceleration(shown: ShownProgram) -> Picture:
 
 
 def jerk(shown: ShownProgram) -> Picture:
-    """Third derivative with respect to the cam angle, or to time."""
-    return _derivative(shown, 3, "Jerk")
+    """Third derivative with respect to the cam angle, or to time; an infinite one is a line marked ∞."""
+    drawn = _derivative(shown, 3, "Jerk")
+    marks = [mark for mark in drawn.marks if mark.key != "breaks"]
+    return Picture.of(drawn.axes, marks, *_infinite(shown, float(np.abs(drawn["Jerk"].y).max())))
+
+
+def _infinite(shown: ShownProgram, highest: float) -> list[Mark]:
+    """A line for each infinite jerk, upwards where the acceleration jumps up."""
+    broken = [joint for joint in shown.program.transitions() if not joint.lawful]
+    tips = [(highest or 1.0) * np.sign((joint.s, joint.v, joint.a)[joint.order or 0]) for joint in broken]
+    across = [joint.angle / shown.across for joint in broken]
+    shafts = np.array([[0.0, tip, np.nan] for tip in tips]).ravel()
+    words = [
+        Text(f"infinite {k}", x, 0.8 * tip, " ∞", role="trouble", anchor="left", size=13, bold=True)
+        for k, (x, tip) in enumerate(zip(across, tips, strict=True))
+    ]
+    return [Line("infinite", np.repeat(across, 3), shafts, role="trouble", stroke="thin"), *words] if words else []
 
 
 PROGRAM_VIEWS = (displacement, velocity, acceleration, jerk)

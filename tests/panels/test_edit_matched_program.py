@@ -90,6 +90,13 @@ def test_the_velocity_is_typed_as_it_is_at_the_speed(editor):
     assert editor.verdict.text == SMOOTH
 
 
+def test_an_editor_begins_in_time_at_a_speed():
+    editor = edit_program(CONVEYOR, speed=58 * rpm)
+    assert editor.rows[1].velocity.value == pytest.approx(0.5588)
+    with pytest.raises(ValueError, match="the speed of the shaft is 0; it must be a number from"):
+        edit_program(CONVEYOR, speed=0.0)
+
+
 def test_of_a_constant_velocity_one_number_follows(editor):
     row = editor.rows[1]
     do(editor, row.follows, value=row.follows.values.index("travel"))

@@ -271,7 +271,7 @@ def test_values_in_time_at_a_speed(editor):
     drag(editor, (135 / 360 * turn, 20), (150 / 360 * turn, 20))
     assert editor.program.edges[2] == pytest.approx(150 * deg)
     do(editor, editor.speed, value=0.0)
-    assert alert(editor) == "The speed stays as before: 0 rpm was typed; it must be above 0 and at most 1e+06 rpm."
+    assert alert(editor) == "The speed stays as before: 0 rpm was typed; it must be from 0.001 to 1e+06 rpm."
     assert editor.speed.value == 120
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, deg, mm
+from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, mm
 from camkit.motion import Parabolic, motion_from_table, residual_vibration
 from camkit.panels.program import ProgramEditor
 from camkit.views import TABLE_VIEWS
@@ -35,6 +35,18 @@ def test_a_program_is_drawn_in_its_unit_with_a_handle_at_every_joint():
     handles = PROGRAM_VIEWS[0](shown)["handles"]
     assert_allclose(handles.x, [0, 90, 150, 360])
     assert_allclose(handles.y, [0, 20, 20, 0], atol=1e-12)
+
+
+def test_an_infinite_jerk_is_a_line_the_way_the_acceleration_jumps():
+    harmonic = [Return(120 * deg, 20 * mm, SimpleHarmonic()), Dwell(60 * deg)]
+    shown = ShownProgram(MotionProgram([Rise(120 * deg, 20 * mm, Cycloidal()), Dwell(60 * deg), *harmonic]))
+    drawn = PROGRAM_VIEWS[3](shown)
+    arrows = drawn["infinite"]
+    assert_allclose(arrows.x, np.repeat([180, 300], 3))
+    assert [np.sign(y) for y in arrows.y[1::3]] == [-1, -1]
+    assert [mark.words for mark in drawn.marks if mark.key.startswith("infinite ")] == [" ∞", " ∞"]
+    smooth = MotionProgram([Rise(120 * deg, 20 * mm, Cycloidal()), Dwell(60 * deg)])
+    assert not [mark for mark in PROGRAM_VIEWS[3](ShownProgram(smooth)).marks if mark.role == "trouble"]
 
 
 def test_vibration_is_drawn_in_per_cent_over_the_period_ratio():
