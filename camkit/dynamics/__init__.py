@@ -12,6 +12,7 @@ from .follower import (
     dynamic_factor,
     natural_frequency,
 )
+from .polydyne import PolydyneProgram, polydyne
 from .reduction import Part, Reduced, reduced, spring_part
 from .speeds import SpeedSweep, contact_loss_speed, speed_sweep
 from .spring import HelicalSpring, MasslessSpring
@@ -28,6 +29,7 @@ __all__ = [
     "HelicalSpring",
     "MasslessSpring",
     "Part",
+    "PolydyneProgram",
     "Reduced",
     "Response",
     "SpeedSweep",
@@ -42,6 +44,7 @@ __all__ = [
     "dwell_vibration",
     "dynamic_factor",
     "natural_frequency",
+    "polydyne",
     "reduced",
     "simulate",
     "speed_sweep",
