@@ -20,7 +20,6 @@ from ...motion import (
     Segment,
     Through,
     Uniform,
-    matched,
 )
 from ...motion.parts import FREE, MATCH, Part
 from ...quantities.kinds import kind_words
@@ -240,11 +239,6 @@ def _rests(program: MotionProgram, k: int) -> bool:
     sides = program.segments[k - 1].motion(np.array(1.0)), program.segments[k % n].motion(np.array(0.0))
     size = max(abs(float(segment.change / segment.angle)) for segment in program.segments)
     return all(abs(float(side.v)) <= 1e-9 * size for side in sides)
-
-
-def all_smooth(draft: Draft) -> Draft:
-    """Every transition matched, levels and angles as they are."""
-    return Draft.of(matched(draft.program))
 
 
 def resting(draft: Draft, i: int) -> Draft:
