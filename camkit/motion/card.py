@@ -183,8 +183,8 @@ def _passed(motion: MotionProgram, angle: Array, s: Array, levels: Array) -> tup
     return _through(motion, each, begin, end), reached[0]
 
 
-def _through(motion: MotionProgram, level: Array, below: Array, above: Array) -> Array:
-    """Where the follower goes through a level between an angle at which it is below and one at which it is above."""
+def _through(motion: Callable[[Array], Kinematics], level: Value, below: Array, above: Array) -> Array:
+    """Where a level is gone through between a place at which ``s`` is below and one at which it is above."""
     x = (below + above) / 2
     for _ in range(ROUNDS):
         s, v, *_ = motion(x)
@@ -199,17 +199,18 @@ def _through(motion: MotionProgram, level: Array, below: Array, above: Array) ->
 def _area(turn: tuple[Array, Array, Array, Array], ends: list[Array], level: Array) -> Array:
     """The integral of what is above a level between two angles, ``(..., 1)``.
 
-    Of the polynomials of degree 5 between the samples: ``h (s + s')/2 + h^2 (v - v')/10 + h^3 (a + a')/120``.
+    Of the polynomials of degree 5 between the samples, from or to where they go through the level.
     """
-    angle, values = turn[0], turn[1:]
     begin, end = (tuple(x[..., k : k + 1] for x in ends) for k in (0, 1))
-    before, after = angle < begin[0], angle > end[0]
+    before, after = turn[0] < begin[0], turn[0] > end[0]
     x, s, v, a = (
         np.where(before, first, np.where(after, last, here))
-        for here, first, last in zip((angle, *values), begin, end, strict=True)
+        for here, first, last in zip(turn, begin, end, strict=True)
     )
-    over = s - level > -FLAT * s.max(-1, keepdims=True)
-    s, v, a = np.where(over, s - level, 0.0), np.where(over, v, 0.0), np.where(over, a, 0.0)
-    h = x[..., 1:] - x[..., :-1]
-    parts = h * (s[..., 1:] + s[..., :-1]) / 2 + h**2 * (v[..., :-1] - v[..., 1:]) / 10
-    return (parts + h**3 * (a[..., :-1] + a[..., 1:]) / 120).sum(-1, keepdims=True)
+    s, step = s - level, x[..., 1:] - x[..., :-1]
+    powers = _quintic(s, v * _of_both(step), a * _of_both(step) ** 2)
+    first, last = s[..., :-1] > 0, s[..., 1:] > 0
+    passed = _through(lambda u: polynomial(powers, u), 0.0, np.where(first, 1.0, 0.0), np.where(first, 0.0, 1.0))
+    low, high = np.where(first | ~last, 0.0, passed), np.where(last, 1.0, np.where(first, passed, 0.0))
+    under = [0.0, *(power / (i + 1) for i, power in enumerate(powers))]
+    return (step * (polynomial(under, high).s - polynomial(under, low).s)).sum(-1, keepdims=True)

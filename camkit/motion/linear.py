@@ -21,7 +21,7 @@ from ..quantities.types import Array, Value
 
 AGREE = 1e-9
 """What is determined twice agrees if it differs by no more than this share of what it is made of."""
-THERE = 1e-9
+THERE = 1e-11
 """What stands before an unknown that a condition determines is at least this share of its largest."""
 OPEN = 1e-10
 """An unknown of which less than this share is left, once the others may follow it, is not determined."""
@@ -99,7 +99,7 @@ class Conditions:
         self.sound += ((False, partial(_open, self.names[x])) for x in free if x not in at_all)
         free = [x for x in free if x in at_all]
         rows = [[size.terms.get(x, 0.0) for x in free] + [size.constant] for size in wanted]
-        values, left = least_squares([_column(row) for row in zip(*rows, strict=True)]) if free else ([], [])
+        values, left = least_squares(_columns(rows)) if free else ([], [])
         self.sound += ((share > OPEN, partial(_open, self.names[x])) for x, share in zip(free, left, strict=True))
         numbers = {x: Linear.known(value) for x, value in zip(free, values, strict=True)}
         return numbers | {x: form.put(numbers) for x, form in self.found.items()}
@@ -142,8 +142,11 @@ def weighed(forms: Iterable[Linear], factors: Iterable[Any]) -> Linear:
     return Linear({x: factor for x, factor in terms.items() if not _nothing(factor)}, constant, size)
 
 
-def _column(values: Sequence[Any]) -> Array:
-    return np.stack(np.broadcast_arrays(*map(floats, values)))
+def _columns(rows: Sequence[Sequence[Any]]) -> list[Array]:
+    """The columns of a matrix, ``(n,)`` each; where one holds numbers of a population all are ``(n, p or 1, 1)``."""
+    columns = [np.stack(np.broadcast_arrays(*map(floats, column))) for column in zip(*rows, strict=True)]
+    deepest = max(column.ndim for column in columns)
+    return [column[(..., *[None] * (deepest - column.ndim))] for column in columns]
 
 
 def _nothing(factor: Any) -> bool:
