@@ -8,6 +8,7 @@ Source: Norton, Cam Design and Manufacturing Handbook (valve cams); the terms ar
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..quantities import unless
 from ..quantities.kinds import a_number, refuse_arguments
 from ..quantities.types import Array, Value
 from .closing import TURN
+from .law import Kinematics, polynomial
 from .program import MotionProgram
 
 ROUNDS = 14
@@ -40,7 +42,7 @@ class CamCard:
     area: Value
     """Under the lift, from opening to closing."""
     area_over: Value
-    """Of the lift above the one of the card."""
+    """Of what is above the lift of the card."""
     whole_area: Value
     """Under all of the lift."""
     nose: Value
@@ -117,13 +119,14 @@ def _card(motion: MotionProgram, lift: Array, lash: Array, ratio: Array) -> CamC
     passed, reached = _passed(motion, angle, s, levels)
     moved = motion(passed)[:3]
     areas, spans = [], passed[..., 1::2] - passed[..., ::2]
-    for k in (0, 2):
-        ends = [passed[..., k : k + 2], *(values[..., k : k + 2] for values in moved)]
-        areas.append(ratio * _area((angle, s, v, a), ends, base + lash))
+    for k, level in ((0, base + lash), (0, levels[..., :1]), (2, base + lash)):
+        ends = [values[..., k : k + 2] for values in (passed, *moved)]
+        areas.append(ratio * _area((angle, s, v, a), ends, level))
     duration = np.where(reached, spans[..., :1], 0.0)
-    area, whole = np.where(reached, areas[0], 0.0), np.where(peak > 0, areas[1], 0.0)
+    area, over = (np.where(reached, found, 0.0) for found in areas[:2])
+    whole = np.where(peak > 0, areas[2], 0.0)
     opens, closes = (np.where(reached, passed[..., k : k + 1] - nose, np.nan) for k in (0, 1))
-    found = opens, closes, duration, area, area - lift * duration, whole, np.mod(nose, TURN), peak
+    found = opens, closes, duration, area, over, whole, np.mod(nose, TURN), peak
     possible = np.atleast_1d(motion.possible)
     return CamCard(*(np.where(possible, value, np.nan)[..., 0][()] for value in found))
 
@@ -204,13 +207,19 @@ def _area(turn: tuple[Array, Array, Array, Array], ends: list[Array], level: Arr
     begin, end = (tuple(x[..., k : k + 1] for x in ends) for k in (0, 1))
     before, after = turn[0] < begin[0], turn[0] > end[0]
     x, s, v, a = (
-        np.where(before, first, np.where(after, last, here))
-        for here, first, last in zip(turn, begin, end, strict=True)
+        np.where(before, first, np.where(after, last, here)) for here, first, last in zip(turn, begin, end, strict=True)
     )
     s, step = s - level, x[..., 1:] - x[..., :-1]
-    powers = _quintic(s, v * _of_both(step), a * _of_both(step) ** 2)
+    powers = _quintics(s, v, a, step)
     first, last = s[..., :-1] > 0, s[..., 1:] > 0
     passed = _through(lambda u: polynomial(powers, u), 0.0, np.where(first, 1.0, 0.0), np.where(first, 0.0, 1.0))
     low, high = np.where(first | ~last, 0.0, passed), np.where(last, 1.0, np.where(first, passed, 0.0))
-    under = [0.0, *(power / (i + 1) for i, power in enumerate(powers))]
+    under: list[Value] = [0.0, *(power / (i + 1) for i, power in enumerate(powers))]
     return (step * (polynomial(under, high).s - polynomial(under, low).s)).sum(-1, keepdims=True)
+
+
+def _quintics(s: Array, v: Array, a: Array, step: Array) -> list[Array]:
+    """From each sample to the next the powers of the share of the step, that of the lowest first."""
+    s0, v0, a0 = s[..., :-1], v[..., :-1] * step, a[..., :-1] * step**2
+    d, e, f = s[..., 1:] - s0 - v0 - a0 / 2, v[..., 1:] * step - v0 - a0, a[..., 1:] * step**2 - a0
+    return [s0, v0, a0 / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2]

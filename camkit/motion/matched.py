@@ -21,7 +21,7 @@ from typing import Any, Self
 import numpy as np
 
 from ..quantities import Declared, certain, unless
-from ..quantities.kinds import a_number, kind_words, listed, refuse_kinds, refuse_lengths, shown
+from ..quantities.kinds import a_number, kind_words, listed, refuse_kinds, refuse_lengths, shown, whole
 from ..quantities.types import Value
 from .closing import TURN
 from .matching import Asked, solved
@@ -118,10 +118,12 @@ class MatchedProgram(MotionProgram):
 
     def with_part(self, i: int, part: Segment | Part) -> Self:
         """With another part in place of the one at ``i``."""
+        i = whole(i, "the place of the part", 0, len(self.parts) - 1)
         return self.replace(parts=(*self.parts[:i], part, *self.parts[i + 1 :]))
 
     def with_joint(self, i: int, joint: Joint) -> Self:
         """With another joint in place of the one at ``i``."""
+        i = whole(i, "the place of the joint", 0, len(self.joints) - 1)
         return self.replace(joints=(*self.joints[:i], joint, *self.joints[i + 1 :]))
 
     def _levels(self) -> list[Any]:

@@ -149,6 +149,21 @@ def test_a_lobe_with_two_tops_is_open_from_the_first_to_the_last():
     assert card.whole_area == pytest.approx(one.whole_area + two.whole_area, rel=1e-9)
 
 
+@pytest.mark.parametrize("dip", [0.0, 0.1, 0.3, 1.0])
+def test_between_two_lobes_the_follower_may_drop_below_the_lash_and_the_lift(dip):
+    """Down to 0, 0.1 .. mm between them; the lash is 0.2 mm, the card one at 0.5 mm."""
+    law, high, low = Cycloidal(), 8 * mm, (8 - dip) * mm
+    up, down = Rise(40 * deg, high, law), Return(40 * deg, high, law)
+    motion = MotionProgram((up, Return(40 * deg, low, law), Rise(40 * deg, low, law), down, Dwell(200 * deg)))
+    card = cam_card(motion, 0.5 * mm, lash=0.2 * mm)
+    x = np.linspace(0, 160 * deg, 1_000_001)
+    s = np.maximum(motion(x).s - 0.2 * mm, 0)
+    assert card.whole_area == pytest.approx(np.trapezoid(s, x), rel=1e-11)
+    assert card.area_over == pytest.approx(np.trapezoid(np.maximum(s - 0.5 * mm, 0), x), rel=1e-11)
+    inside = np.linspace(card.nose + card.opens, card.nose + card.closes, 1_000_001)
+    assert card.area == pytest.approx(np.trapezoid(np.maximum(motion(inside).s - 0.2 * mm, 0), inside), rel=1e-11)
+
+
 def test_a_motion_without_a_dwell():
     """An eccentric: ``s = 5 (1 - cos phi)``, lowest between two rows."""
     x = np.arange(0, 360, 4) * deg

@@ -139,6 +139,35 @@ def test_a_population_is_its_members():
         assert tops.acceleration.value[i] == pytest.approx(one.peaks().acceleration.value)
 
 
+STEP = Polynomial(80 * deg)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda h: MatchedProgram((STEP, STEP, Dwell(1.0), Polynomial()), (Joint(0.0), Joint(h), Joint(0.02), Joint())),
+        lambda h: MatchedProgram((STEP, Uniform(h, angle=0.7), Polynomial(), Dwell(1.0))),
+        lambda h: MatchedProgram((STEP, Uniform(travel=h, angle=0.7), Polynomial(), Dwell(1.0))),
+        lambda h: MatchedProgram((STEP, Rise(0.7, h, SimpleHarmonic()), Polynomial(), Dwell(1.0))),
+        lambda h: MatchedProgram((STEP, Uniform(0.6, angle=0.7), Polynomial(), Dwell(1.0)), advance=100 * h),
+        lambda h: MatchedProgram(
+            (STEP.replace(through=(Through(0.4, s=h),), form="spline"), Dwell(1.0), Polynomial()),
+            (Joint(0.0), Joint(h / 3), Joint()),
+        ),
+    ],
+    ids=["level", "velocity", "travel", "lift", "advance", "point"],
+)
+def test_a_population_whose_angles_are_those_of_one(make):
+    levels = np.array([[10.0], [12.0], [np.nan], [14.0]]) * mm
+    many = make(levels)
+    assert many.possible[:, 0].tolist() == [True, True, False, True]
+    for i in (0, 1, 3):
+        one = make(float(levels[i, 0]))(X)
+        for found, wanted in zip(many(X), one, strict=True):
+            assert_allclose(found[i], wanted, rtol=1e-9, atol=1e-12)
+    assert np.isnan(many(X).s[2]).all()
+
+
 CAM = TranslatingRollerCam(motion=conveyor(), base_radius=120 * mm)
 
 
@@ -289,6 +318,8 @@ POLY = Polynomial(1.0)
             lambda: MatchedProgram((Polynomial(2.0, (Through(0.5, v=0.1),), name="lobe"), Dwell(2 * np.pi - 2))),
             "the velocity inside lobe cannot be met",
         ),
+        (lambda: conveyor().with_part(9, POLY), "the place of the part is 9; it must be a whole number of at most 3"),
+        (lambda: conveyor().with_joint(-1, Joint()), "the place of the joint is -1; it must be a whole number"),
         (lambda: matched(3), "it must be a MotionProgram"),
     ],
 )

@@ -202,6 +202,30 @@ def test_a_reversal():
     assert phi[a.argmin()] == pytest.approx(109.733172, abs=2e-3)
 
 
+def test_from_one_velocity_to_another():
+    """12 mm/rad for 60 deg, -8 mm/rad for 50 deg, 90 and 160 deg between them."""
+    parts = (Uniform(12 * mm, angle=60 * deg), Polynomial(90 * deg), Uniform(-8 * mm, angle=50 * deg), Polynomial())
+    program = MatchedProgram(parts)
+    assert_allclose(np.array(program.levels[:4]) / mm, (0, 12.566370614359162, 14.944987021106993, 7.963670013129664))
+    for angle, wanted in {
+        105: (18.66441733896714, 1.0892641914005128, -19.09859317102746),
+        280: (-4.74481125340681, -7.097086107662744, 10.742958658702957),
+    }.items():
+        assert_allclose(np.array(program(angle * deg)[:3]) / mm, wanted, rtol=1e-9)
+    _, s, v, a, _ = dense(program)
+    assert_allclose((s.max(), s.min()), (18.69569290252312, -6.606782023619869), rtol=1e-7)
+    assert v.min() == pytest.approx(-10.10117720392622, rel=1e-7)
+    assert_allclose((a.max(), a.min()), (17.92193765842398, -19.372414841402307), rtol=1e-7)
+    whole = sum(segment.angle * (jerks_of(segment) ** 2).mean() for segment in program.segments)
+    assert whole == pytest.approx(2280.9982589889514, rel=1e-6)
+
+
+def jerks_of(segment):
+    """In mm at a hundred thousand shares, midway."""
+    u = (np.arange(100_000) + 0.5) / 100_000
+    return np.broadcast_to(segment.motion(u).j / mm, u.shape)
+
+
 def test_rest_to_rest_gives_the_polynomials_of_the_books():
     """3-4-5; 4-5-6-7 where the jerk is matched; and where it is matched elsewhere alone 7u^3 - 21u^5 + 21u^6 - 6u^7."""
     u, parts = np.linspace(0, 1, 101), (Polynomial(2.0), Dwell(1.0), Polynomial(1.0), Dwell(2 * np.pi - 4))

@@ -42,3 +42,11 @@ def test_points_inside_a_population_are_met_row_by_row():
     for row, one in enumerate(level[:, 0]):
         alone = MatchedProgram((Polynomial(ANGLE, (Through(0.4, s=one), points[1])), Dwell(210 * deg)))
         np.testing.assert_allclose(both.s[row], alone(np.linspace(0, ANGLE, 20)).s, atol=1e-15)
+
+
+@pytest.mark.parametrize("count", [5, 9, 12])
+def test_one_polynomial_goes_through_up_to_twelve_points(count):
+    places = np.arange(1, count + 1) / (count + 1)
+    points = tuple(Through(float(u), s=20 * mm * np.sin(3 * u)) for u in places)
+    program = MatchedProgram((Polynomial(ANGLE, points), Dwell(210 * deg)))
+    np.testing.assert_allclose(program(places * ANGLE).s, 20 * mm * np.sin(3 * places), rtol=1e-6)
