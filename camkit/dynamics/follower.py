@@ -41,7 +41,7 @@ class ElasticFollower(Design):
     Raises ``ValueError`` for what is no cam; `analyse` does as `Train.follow` does.
     """
 
-    cam: Any
+    cam: Design
     train: Any = choice("T", TRAINS[0], TRAINS, "elastic train between cam and load")
     samples: int = LEAST
     """Of a turn, at which steady motion is found, at least."""
@@ -57,7 +57,8 @@ class ElasticFollower(Design):
 
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, with the forces of the train."""
-        rigid = self.cam.analyse(n)
+        cam: Any = self.cam
+        rigid = cam.analyse(n)
         response = respond(self.train, rigid, least=self.samples + self.samples % 2)
         given = {f.name: getattr(rigid, f.name) for f in fields(rigid)}
         kind: Any = type(rigid)

@@ -10,7 +10,7 @@ Source: Norton, Cam Design and Manufacturing Handbook (dynamics of cam systems);
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -34,7 +34,7 @@ def spring_choice() -> Any:
     return choice("S", SPRINGS[0], SPRINGS, "return spring; its rate is the load's")
 
 
-class Train(Design):
+class Train(Design, ABC):
     """What every elastic train shares: how it follows a cam."""
 
     ground_damping: Value
