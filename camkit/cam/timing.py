@@ -8,7 +8,7 @@ from ..motion.card import card_of
 from ..quantities import Measure
 from ..quantities.kinds import one_number, refuse_arguments, shown
 from ..quantities.types import Value
-from ..units import factor, in_unit
+from ..units import follower_unit, in_unit
 
 NUMBERS = {
     "opening": "opens",
@@ -41,7 +41,7 @@ def at_lift(what: str, lift: float, lash: float = 0.0, ratio: float = 1.0, unit:
     refuse_arguments(at_lift, locals())
     if what not in NUMBERS:
         raise ValueError(f"{shown(what)} is not on a cam card; there are {', '.join(NUMBERS)}")
-    factor(unit)
+    follower_unit(unit)
     lift = one_number(lift, "the lift of the card", "be a finite number above 0", lambda value: 0 < value < 1e6)
     lash = one_number(lash, "the lash", "be a finite number of at least 0", lambda value: 0 <= value < 1e6)
     ratio = one_number(ratio, "the ratio of the rocker", "be a finite number above 0", lambda value: 0 < value < 1e6)

@@ -11,7 +11,7 @@ from ..motion.controller import MOST_ROWS, NOISE, controller_rows, program_scale
 from ..quantities.kinds import a_number, refuse_arguments, shown, whole
 from ..quantities.markup import csv_cell
 from ..quantities.types import Array
-from ..units import deg, factor, in_unit
+from ..units import deg, factor, follower_unit, in_unit
 
 DIGITS = 12
 """Fewer would spoil the acceleration between the rows: by up to 5.8 d / h^2, of a last digit d and rows h apart."""
@@ -50,6 +50,7 @@ def motion_csv(
     """
     refuse_arguments(motion_csv, locals())
     refuse_many(program)
+    follower_unit(unit)
     angle = _angles(program, steps, step)
     values = _values(program, angle)
     columns = {"cam angle [deg]": in_unit(angle, "deg")}
@@ -94,6 +95,7 @@ def electronic_cam_csv(
     Raises ``ValueError`` in a sentence for a population, a way that no controller has, and a motion that leaps.
     """
     refuse_arguments(electronic_cam_csv, locals())
+    follower_unit(unit)
     rows = controller_rows(program, way, step)
     columns: dict[str, Array] = {f"X [{master}]": in_unit(rows.angle, _an_angle(master))}
     for k, (name, column) in enumerate(zip("YVAJ", rows.values, strict=False)):

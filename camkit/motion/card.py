@@ -15,7 +15,7 @@ import numpy as np
 
 from ..extrema import Extreme, highest
 from ..quantities import unless
-from ..quantities.kinds import a_number, refuse_arguments
+from ..quantities.kinds import a_number, refuse_arguments, refuse_unequal
 from ..quantities.types import Array, Value
 from .closing import TURN
 from .law import Kinematics, polynomial
@@ -86,6 +86,8 @@ def cam_card(
     lift = a_number(lift, "the lift of the card", "be above 0", lambda value: value > 0)
     lash = a_number(lash, "the lash", "be 0 or more", lambda value: value >= 0)
     ratio = a_number(ratio, "the ratio of the rocker", "be above 0", lambda value: value > 0)
+    held = {"motion": motion, "lift": lift, "lash": lash, "ratio": ratio, "cam angle": zero}
+    refuse_unequal(held, "cam card")
     if refuse := unless(motion.comes_back):
         refuse("the motion goes on with each turn; a cam card is of one that comes back to its base circle")
     card = card_of(motion, lift, lash, ratio)

@@ -9,6 +9,7 @@ import numpy as np
 from ..quantities import certain
 from ..quantities.kinds import shown
 from .families.constant_velocity import ConstantVelocity
+from .form import FormedProgram
 from .matched import MatchedProgram
 from .parts import FREE, MATCH, Joint, Part, Polynomial, Uniform
 from .program import MotionProgram
@@ -18,7 +19,8 @@ from .segments import Dwell, Move, Segment
 def matched(program: MotionProgram) -> MatchedProgram:
     """The same angles and levels with every transition matched: moves become polynomials.
 
-    Dwells stay, and what moves at constant velocity; where the motion turns back its velocity is 0.
+    Dwells stay, and what moves at constant velocity; where the motion turns back its velocity is 0.  An advance and an
+    error of form stay, too.
 
     >>> from camkit.motion import Return, Rise, SimpleHarmonic
     >>> law = SimpleHarmonic()
@@ -35,7 +37,8 @@ def matched(program: MotionProgram) -> MatchedProgram:
     parts = tuple(_freed(program, i) for i in range(len(program.segments)))
     turn = certain(program.periodic)
     joints = [_joint(program, parts, i, turn) for i in range(len(parts) + (not turn))]
-    return MatchedProgram(parts, tuple(joints))
+    smooth = MatchedProgram(parts, tuple(joints), advance=program.advance)
+    return program.form.on(smooth) if isinstance(program, FormedProgram) else smooth
 
 
 def _all_matched(joint: Joint) -> Joint:

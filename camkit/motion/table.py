@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..quantities.kinds import a_number, listed, numbers, refuse_arguments, refuse_lengths
 from ..quantities.types import Array, Value
-from ..units import deg, factor, in_unit
+from ..units import deg, factor, follower_unit, in_unit
 from .closing import TURN
 from .controller import hermite
 from .families.free import piecewise
@@ -185,7 +185,7 @@ def motion_from_table(
     Raises ``ValueError`` for rows that are too few, not finite, not in order, of more than a turn, or always as high.
     """
     refuse_arguments(motion_from_table, locals() | {"angle": (), "level": ()})
-    factor(unit)
+    follower_unit(unit)
     digit = float(a_number(digit, "the digit", "be 0 or more", lambda value: value >= 0))
     (x, y), count, size = _refused(angle, level), np.size(angle), float(np.ptp(level))
     near = None if tolerance is None else float(a_number(tolerance, "the tolerance", "be above 0", lambda x: x > 0))

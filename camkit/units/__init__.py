@@ -140,6 +140,20 @@ def convert(value: float, unit: str, into: str) -> float:
     return converted
 
 
+def follower_unit(unit: str) -> str:
+    """``unit``, if it is one of a length or of an angle; ``ValueError`` in a sentence for any other.
+
+    >>> follower_unit("kg")
+    Traceback (most recent call last):
+        ...
+    ValueError: the unit of the follower is 'kg'; it must be one of a length or of an angle, such as 'mm' or 'deg'
+    """
+    if _unit(unit).dimension not in ((1, 0, 0, 0), (0, 0, 0, 1)):
+        must = "it must be one of a length or of an angle, such as 'mm' or 'deg'"
+        raise ValueError(f"the unit of the follower is {unit!r}; {must}")
+    return unit
+
+
 def _unit(unit: str) -> _Unit:
     if not isinstance(unit, str):
         raise ValueError(f"the unit must be a text, a product of powers of {_NAMES}")

@@ -1,7 +1,6 @@
 """A motion with matched transitions on the page: its angle and its velocity move the picture, and it stays smooth."""
 
 import nbformat
-import numpy as np
 
 from camkit import TranslatingRollerCam
 from camkit.cam import max_pressure_angle, peak_acceleration

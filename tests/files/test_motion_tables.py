@@ -263,6 +263,8 @@ def test_a_table_may_begin_anywhere_in_the_turn(first):
         (lambda: motion_csv(stroke(), step=-1.0), "the step of the table"),
         (lambda: motion_csv(stroke(), decimal=";"), "the decimal sign is ';'; it must be a point or a comma"),
         (lambda: motion_csv(stroke(), unit="furlong"), "furlong"),
+        (lambda: motion_csv(stroke(), unit="kg"), "the unit of the follower is 'kg'; it must be one of a length"),
+        (lambda: electronic_cam_csv(stroke(), unit="mm^2"), r"the unit of the follower is 'mm\^2'"),
         (lambda: motion_csv(stroke(), speed=0.0), "the speed"),
         (lambda: motion_csv(stroke(lift=np.array([[0.01], [0.02]]))), "the program is a population"),
         (lambda: motion_csv("stroke"), "the argument program is 'stroke'; it must be a MotionProgram"),

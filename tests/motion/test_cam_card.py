@@ -283,6 +283,14 @@ def test_a_search_can_limit_the_duration_at_a_lift():
         (lambda: cam_card(unequal(), 1 * mm, ratio=0.0), "the ratio of the rocker is 0"),
         (lambda: cam_card(MotionProgram((Rise(1.0, 1.0, Cycloidal()),)), 0.5), "never passed on the way up and down"),
         (lambda: cam_card(MotionProgram((Rise(TURN, 1.0, Cycloidal()),), advance=1.0), 0.5), "comes back to its base"),
+        (
+            lambda: cam_card(unequal(np.array([[1.0], [2.0]])), np.full((3, 1), 0.5)),
+            "2 in its motion and 3 in its lift",
+        ),
+        (
+            lambda: at_lift("duration", 1 * mm, unit="kg"),
+            "the unit of the follower is 'kg'; it must be one of a length",
+        ),
         (lambda: at_lift("width", 1 * mm), "'width' is not on a cam card; there are opening, closing, duration"),
         (lambda: at_lift("duration", 0.0), "the lift of the card is 0"),
         (lambda: at_lift("duration", 1 * mm, -1.0), "the lash is -1"),

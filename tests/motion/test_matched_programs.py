@@ -280,6 +280,20 @@ def test_a_rough_program_becomes_smooth_and_keeps_its_angles_and_levels():
     assert_allclose(part([0.0, 2.0]).v, 0, atol=1e-15)
 
 
+def test_a_rough_motion_that_goes_on_stays_one_and_keeps_its_error_of_form():
+    law = SimpleHarmonic()
+    for advance, rest in ((0.5, 0.0), (0.5, 0.3), (-0.5, 0.0)):
+        move = Rise if advance > 0 else Return
+        after = Rise(2 * np.pi - 1, rest, law) if rest else Dwell(2 * np.pi - 1)
+        rough = MotionProgram((move(1.0, 0.5, law), after), advance=advance + rest)
+        smooth = matched(rough)
+        assert smooth.advance == rough.advance
+        assert_allclose(smooth.levels, rough.levels, atol=1e-15)
+        assert all(joint.lawful for joint in smooth.transitions())
+    made = FormError(amplitude=1e-5, waves=5).on(MotionProgram((Rise(1.0, 0.02, law), Dwell(1.0))))
+    assert matched(made).form == made.form
+
+
 def test_a_moved_joint_takes_from_its_neighbour_in_every_program():
     law = Cycloidal()
     plain = MotionProgram((Rise(2.0, 0.02, law), Dwell(1.0), Return(2.0, 0.02, law)))
