@@ -85,7 +85,7 @@ def test_only_a_motion_that_goes_on_says_its_advance():
         (lambda: read_json(to_json(indexer()).replace('"advance": 1.', '"advance": 2.')), "that must be its advance"),
         (lambda: read_json(to_json(stroke()).replace('"program"', '"design"')), "a design is wanted here"),
         (lambda: to_json(stroke(lift=np.array([[0.01], [0.02]]))), "this is a population; one motion"),
-        (lambda: to_json(stroke(lambda u: (u, 1 + 0 * u, 0 * u, 0 * u))), "a function of one's own, which no file"),
+        (lambda: to_json(stroke(lambda u: (u, 1 + 0 * u, 0 * u, 0 * u))), "which no file can hold: define it"),
     ],
 )  # fmt: skip
 def test_what_is_no_file_of_a_program(ask, sentence):
