@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..program import CannotRecord
 from ..quantities import certain, known, unless
 from ..quantities.types import Value
 from .curve import _Curve, _LiftedLaw, bending, hermite, newton, slope_at, slopes
@@ -26,6 +27,10 @@ from .segments import Dwell, Segment
 NAMES = ("level", "velocity", "acceleration", "jerk")
 NONE = 1e-9
 """A derivative of a law, of lift 1 over a time of 1, is 0 at an end if it is smaller."""
+ITS_ENDS = (
+    "whether the law of an open move comes to rest at its ends follows from its numbers, and with it which conditions "
+    "there are; a law that rests at both, or a polynomial part in its place, can be recorded"
+)
 State = Sequence[Linear]
 """``s, v, a, j`` (m or rad, per rad^k) as they follow from unknowns."""
 
@@ -163,8 +168,16 @@ def _open_move(part: OpenMove, asked: Asked, conditions: Conditions, level: Line
 
 def _slope(law: Any, k: int, value: Value, angle: Value) -> Any:
     """A derivative of a law over ``angle``; where it surely is none the whole number 0."""
-    none = certain(np.abs(value) < NONE) if known(value) else getattr(law, "continuity", 0) >= k
+    none = certain(np.abs(value) < NONE) if known(value) else _rests(law, value, k)
     return 0 if none else value / angle**k
+
+
+def _rests(law: Any, value: Any, k: int) -> bool:
+    """Whether a derivative of a law, whose ``value`` is recorded, is 0 at its ends whatever its numbers are."""
+    try:
+        return bool(getattr(law, "continuity", 0) >= k)
+    except CannotRecord:
+        return bool(value.refuse(ITS_ENDS))
 
 
 def _spline(part: Polynomial, asked: Asked, conditions: Conditions) -> Laid:

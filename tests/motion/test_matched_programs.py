@@ -17,6 +17,7 @@ from camkit.motion import (
     Cycloidal,
     Dwell,
     FormError,
+    FreePolynomial,
     Joint,
     MatchedProgram,
     MotionProgram,
@@ -30,7 +31,7 @@ from camkit.motion import (
     Uniform,
     matched,
 )
-from camkit.program import record
+from camkit.program import CannotRecord, record
 from camkit.quantities import choices_of, members, quantities_of, value_of, with_quantities
 from camkit.units import deg, inch, mm, rpm
 
@@ -214,6 +215,16 @@ def test_a_recorded_program_does_the_same(motion, changes):
         assert program.refusal(start | changed) == ""
         for k in range(4):
             assert_allclose(found[f"motion{k}"], there[k], atol=1e-12 * max(1.0, abs(there[k]).max()))
+
+
+def test_an_open_move_whose_law_may_end_anyhow_says_why_it_is_not_recorded():
+    law = FreePolynomial(start=(0, 0, 0), end=(1, 0.5, 0))
+    parts = (Polynomial(100 * deg), OpenMove(80 * deg, law), Polynomial())
+    motion = MatchedProgram(parts, (Joint(0.0), Joint(), Joint(8 * mm)))
+    assert motion.segments[1].motion(np.array(1.0)).v == pytest.approx(0.5 * motion.segments[1].lift / (80 * deg))
+    assert all(joint.lawful for joint in motion.transitions())
+    with pytest.raises(CannotRecord, match="whether the law of an open move comes to rest at its ends follows from"):
+        record(lambda cam: {"s": cam.motion(X).s}, CAM.replace(motion=motion))
 
 
 def test_a_recorded_program_refuses_in_the_same_words():
