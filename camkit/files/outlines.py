@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ..cam.measured_outline import MeasuredOutline
-from ..cam.outlines import TURN, DrawnOutline, signed_area
-from ..quantities.kinds import one_number, refuse_arguments, shown
+from ..cam.from_outline import cam_from_outline
+from ..cam.measured_outline import LEAST, MeasuredOutline
+from ..cam.outline_contact import MEETS
+from ..cam.outlines import TURN, CamOutline, DrawnOutline, signed_area
+from ..quantities import Design
+from ..quantities.kinds import kind_words, one_number, refuse_arguments, shown
 from ..quantities.types import Array
 from ..units import deg, in_unit, mm
 from .cells import Cells, TableQuestion, cells_of
@@ -21,7 +25,11 @@ from .motions import _angles, _bytes, _digit, _refuse_answers, _unit, _words
 BENT, FINE = 1e-6, 20 * deg
 """Lines that meet at an angle between these are points on a curve, if there are many."""
 MANY = 24
+BACK = 0.2
+"""An angle that goes on from row to row steps back less often, or nearly always."""
 LINEAR = list(NAMES)
+X, Y, RADIUS, POLAR_ANGLE = r"\bx\b|x$", r"\by\b|y$", r"\br\b|radi|\brho\b", r"theta|angle|winkel|\bphi\b|polar"
+"""What the headings of columns name, but for their units."""
 
 
 def read_outline(
@@ -69,6 +77,46 @@ def read_outline(
     if len(data) > MOST_BYTES:
         raise ValueError(f"the drawing has more than {MOST_BYTES // 10**6} million bytes; no outline of a cam has")
     return _of_drawing(drawing_of(data, unit), loop, centre, tolerance)
+
+
+def takes_outline(design: Design) -> bool:
+    """Whether the cam of a design can have any outline: a disk cam with one of the usual followers."""
+    return type(design) in MEETS
+
+
+def with_outline(design: Design, outline: CamOutline) -> Any:
+    """The design with a cam of this outline (see `cam_from_outline`); ``ValueError`` for one that has no disk cam."""
+    if not takes_outline(design):
+        raise ValueError(
+            f"it goes with a disk cam, and this is {kind_words(type(design), article=True)}; in a cell, "
+            "motion_from_outline(read_outline(path), follower) is the motion of a follower on it"
+        )
+    return cam_from_outline(outline, design)
+
+
+def is_outline(file: bytes) -> bool:
+    """Whether a file is a drawing, or a table of an outline rather than of a motion.
+
+    Its heading names coordinates of a profile, or radii by an angle; or no column goes on from row to row.
+    """
+    if is_drawing(file):
+        return True
+    try:
+        cells = cells_of(file, None, None, None)
+    except (ValueError, ModuleNotFoundError):
+        return False
+    words = _words(cells)
+    if re.search("lift|hub|stroke|displ|travel|follower", " ".join(words)):
+        return False
+    of_a_profile = [*(word for word in words[:-1] if re.search("profile|outline", word)), ""]
+    named = [_named(of_a_profile, X), _named(of_a_profile, Y)], [_named(words, RADIUS), _named(words, POLAR_ANGLE)]
+    return any(None not in pair for pair in named) or _goes_to_and_fro(np.array(cells.rows, dtype=float))
+
+
+def _goes_to_and_fro(table: Array) -> bool:
+    """Whether a good part of the steps from row to row are back, in each column."""
+    back = (np.diff(table, axis=0) < 0).mean(0) if len(table) >= LEAST else np.zeros(1)
+    return bool(((back > BACK) & (back < 1 - BACK)).all())
 
 
 def _axis(axis: Sequence[float] | None) -> Array:
@@ -126,10 +174,10 @@ def _outline_columns(
         one, other = given[0] - 1, given[1] - 1
         turns = _turns(table[:, other]) and bool((table[:, one] > 0).all())
         return one, other, turns if polar is None else polar
-    across, up = (_named(words, axis) for axis in (r"\bx\b|x$", r"\by\b|y$"))
+    across, up = (_named(words, axis) for axis in (X, Y))
     if across is not None and up is not None and not polar:
         return across, up, False
-    radius, angle = _named(words, r"\br\b|radi|\brho\b"), _named(words, r"theta|angle|winkel|\bphi\b|polar")
+    radius, angle = _named(words, RADIUS), _named(words, POLAR_ANGLE)
     if radius is not None and angle is not None and polar is not False:
         return radius, angle, True
     return _unnamed(table, polar, how)

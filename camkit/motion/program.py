@@ -14,11 +14,11 @@ array([0.01, 0.02, 0.  ])
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cached_property, reduce
 from itertools import accumulate
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -314,16 +314,18 @@ class MotionProgram(Declared):
         begun = [x >= edge - SAME_JOINT for edge in self.starts[1:-1]]
         over, ahead = (*map(certain, begun), False), (False, *(certain(np.logical_not(here)) for here in begun))
         first, *others = [i for i in range(len(self.segments)) if not (over[i] or ahead[i])] or [0]
-        if others and known(x) and all(map(known, begun)):
-            return self._if_possible(*self._column_by_column(x, begun, [first, *others]))
+        if others and all(map(known, (x, *begun))):
+            pieces = self._pieces(x, begun, [first, *others])
+            if all(known(value) for *_, values in pieces for value in values):
+                return self._if_possible(*_put_together(x, begun, pieces))
         motion = self._piece(first, x)
         for i in others:
             pairs = zip(self._piece(i, x), motion, strict=True)
             motion = Kinematics(*(np.where(begun[i - 1], *pair) for pair in pairs))
         return self._if_possible(*np.broadcast_arrays(*motion, x)[:4])
 
-    def _column_by_column(self, x: Array, begun: list[Array], segments: list[int]) -> tuple[Array, ...]:
-        """The same, each segment asked at those cam angles only at which any member of a population is in it."""
+    def _pieces(self, x: Array, begun: list[Array], segments: list[int]) -> list[_Columns]:
+        """Each segment asked at those cam angles only at which any member of a population is in it."""
         whole = np.ones(1, dtype=bool)
         here = [whole, *begun], [*(np.logical_not(ahead) for ahead in begun), whole]
         inside = [np.atleast_2d(late & early).any(0) for late, early in zip(*here, strict=True)]
@@ -331,14 +333,8 @@ class MotionProgram(Declared):
         for i in segments:
             columns = np.flatnonzero(np.broadcast_to(inside[i], x.shape[-1:]))
             known_at = x if len(columns) == x.shape[-1] else x[..., columns]
-            pieces.append((i, columns, np.broadcast_arrays(*self._piece(i, known_at), known_at)[:4]))
-        shape = np.broadcast_shapes(*(values[0].shape[:-1] for *_, values in pieces), *(b.shape[:-1] for b in begun))
-        motion = tuple(np.full((*shape, x.shape[-1]), np.nan) for _ in range(4))
-        for i, columns, values in pieces:
-            mine = np.broadcast_to(begun[i - 1] if i else np.True_, (*shape, x.shape[-1]))[..., columns]
-            for found, value in zip(motion, values, strict=True):
-                found[..., columns] = np.where(mine, value, found[..., columns])
-        return motion
+            pieces.append(_Columns(i, columns, np.broadcast_arrays(*self._piece(i, known_at), known_at)[:4]))
+        return pieces
 
     def _piece(self, i: int, x: Array) -> Kinematics:
         """What segment ``i`` says at the cam angles ``x``; before it begins and after it ends it rests."""
@@ -354,6 +350,25 @@ class MotionProgram(Declared):
         if certain(self.possible):
             return Kinematics(*motion)
         return Kinematics(*(np.where(self.possible, values, np.nan) for values in motion))
+
+
+class _Columns(NamedTuple):
+    """What a segment says at some of the cam angles."""
+
+    segment: int
+    columns: Array
+    values: Sequence[Array]
+
+
+def _put_together(x: Array, begun: list[Array], pieces: list[_Columns]) -> tuple[Array, ...]:
+    """The motion at the cam angles ``x``, of what each segment says at those where it has begun."""
+    shape = np.broadcast_shapes(*(values[0].shape[:-1] for *_, values in pieces), *(b.shape[:-1] for b in begun))
+    motion = tuple(np.full((*shape, x.shape[-1]), np.nan) for _ in range(4))
+    for i, columns, values in pieces:
+        mine = np.broadcast_to(begun[i - 1] if i else np.True_, (*shape, x.shape[-1]))[..., columns]
+        for found, value in zip(motion, values, strict=True):
+            found[..., columns] = np.where(mine, value, found[..., columns])
+    return motion
 
 
 def _along(u: Array, values: Any) -> Array:

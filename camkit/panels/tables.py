@@ -7,22 +7,26 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ..files import TableQuestion, read_motion
+from ..files import TableQuestion, read_motion, read_outline
 from ..files.motions import ANGLES, LIFTS
+from ..files.outlines import is_outline, with_outline
 from ..motion import TableMotion
 from ..quantities.kinds import refuse_arguments
 from ..units import convert, in_unit
 from ..views import TABLE_VIEWS
 from .instrument import Instrument
 from .kit.drawn import LivePicture
-from .kit.files import TABLES
+from .kit.files import DRAWINGS, TABLES
 from .kit.inputs import Amount, Check, Menu, Upload
 from .kit.motions_in import motions_in, unit_of, with_motion
 from .kit.parts import Banner, Button, Group, Words, row
 from .kit.quiet import Quiet
 from .kit.sheet import IMPOSSIBLE, Panel, reason
 
-HINT = "Drop a table of a motion here (CSV, TXT or XLSX: cam angle and lift in each row), or choose one."
+HINT = (
+    "Drop a table of a motion here (CSV, TXT or XLSX: cam angle and lift in each row), or choose one. "
+    "A DXF drawing or a table of x and y is taken as the outline of the cam."
+)
 OPEN = "Its rows do not come back to where they begin, so a cam of it goes around this part of the turn alone."
 TITLE = "Table"
 TOLD = 4
@@ -34,6 +38,8 @@ QUESTIONS = {
     "columns": "Which columns are they?",
     "sheet": "Which of them is the motion?",
     "lift_unit": "What are they in?",
+    "unit": "What are they in?",
+    "loop": "Which of them is the outline?",
 }
 ENDS = (("as the rows say", None), ("at rest", True), ("free", False))
 ANGULAR = ("deg", "rad")
@@ -41,11 +47,16 @@ ANGULAR = ("deg", "rad")
 
 @dataclass(frozen=True)
 class Reading:
-    """A file, how it was read, and the motion in it."""
+    """A file, how it was read, and the motion in it; of an outline, this too."""
 
     data: bytes
     answers: Mapping[str, Any]
     motion: TableMotion
+    outline: Any = None
+
+    def of(self, design: Any, path: str) -> Any:
+        """The design with what was read."""
+        return with_outline(design, self.outline) if self.outline else with_motion(design, path, self.motion)
 
 
 class TablePanel(Panel):
@@ -61,7 +72,7 @@ class TablePanel(Panel):
         self.motion: TableMotion | None = None
         self._readings: list[Reading] = []
         self._waiting: TableMotion | None = None  # for a design that can be built with it
-        self._quiet = Quiet()
+        self._quiet, self._what = Quiet(), "table"
         self.banner, self.told, self.bad, self.more = Banner(), Words(role="status"), Words(look="missed"), Words()
         self.fold = Group(self.more, look="fold", visible=False)
         self.question, self.options = Words(look="bold", role="status"), row(description="answers")
@@ -80,7 +91,7 @@ class TablePanel(Panel):
         self._quiet.hear(self.within, lambda _: self._read_again() if self.near.value else None)
         self.picture = LivePicture(TABLE_VIEWS, "the motion of the table", width=12.6, height=7.0)
         self.picture.pixels = 150
-        choose = row(Upload("Choose a table", self.read, accept=TABLES), self.use, self.where)
+        choose = row(Upload("Choose a table", self.read, accept=TABLES + DRAWINGS), self.use, self.where)
         ask = Group(self.question, self.options, self.stays)
         super().__init__(choose, self.banner, ask, self.told, self.bad, self.ways, self.fold, self.picture)
         self._follow(explorer.design)
@@ -88,19 +99,31 @@ class TablePanel(Panel):
         explorer.add_tab(TITLE, self)
 
     def read(self, file: bytes, **answers: Any) -> None:
-        """Take the motion in a file, as `read_motion` does with these answers; what it leaves open the page asks."""
+        """Take the motion in a file, as `read_motion` does with these answers; what it leaves open the page asks.
+
+        What is the outline of a cam is read by `read_outline`: the design becomes the one that has it.
+        """
         with self.held():
             self._ask("")
             self._wait_for(None)
             try:
-                motion = self._suited(read_motion(file, **answers))
+                reading = self._reading(file, answers)
             except TableQuestion as asked:
                 self._ask(f"{_sentence(asked.why)} {QUESTIONS[asked.argument]}", self._buttons(file, answers, asked))
             except (*IMPOSSIBLE, ModuleNotFoundError) as refusal:
-                self.banner.show_message(f"This table cannot be used: {reason(refusal)}.")
+                self.banner.show_message(f"This {self._what} cannot be used: {reason(refusal)}.")
                 self._stand(self._of_a_file(self.motion))
             else:
-                self._take(Reading(file, answers, motion))
+                self._take(reading)
+
+    def _reading(self, file: bytes, answers: Mapping[str, Any]) -> Reading:
+        """What is in a file: a motion, or an outline and the motion that it gives."""
+        self._what = "outline" if is_outline(file) else "table"
+        if self._what == "table":
+            return Reading(file, answers, self._suited(read_motion(file, **answers)))
+        outline = read_outline(file, **answers)
+        design = with_outline(self.explorer.design, outline)
+        return Reading(file, answers, next(iter(motions_in(design).values())), outline)
 
     def _suited(self, motion: TableMotion) -> TableMotion:
         """A motion along a line or around a pivot, as that of the follower is."""
@@ -128,9 +151,9 @@ class TablePanel(Panel):
         self._readings = [reading, *others][:REMEMBERED]
         self._show(reading.motion)
         try:
-            self.explorer.design = with_motion(self.explorer.design, str(self.where.value), reading.motion)
+            self.explorer.design = reading.of(self.explorer.design, str(self.where.value))
         except IMPOSSIBLE as error:
-            why = f"The table is read, but the design cannot be built with it: {reason(error)}."
+            why = f"The {self._what} is read, but the design cannot be built with it: {reason(error)}."
             self._wait_for(reading.motion, f"{why} Change what stands in its way and press 'Use this motion'.")
 
     def _wait_for(self, motion: TableMotion | None, why: str = "") -> None:
@@ -190,8 +213,8 @@ class TablePanel(Panel):
 
     def _stand(self, reading: Reading | None) -> None:
         """Show how a motion was read, where its file is known."""
-        self.ways.visible = reading is not None
-        if not reading:
+        self.ways.visible = reading is not None and not reading.outline
+        if not reading or reading.outline:
             return
         unit, answers = reading.motion.unit, reading.answers
         near = answers.get("tolerance")

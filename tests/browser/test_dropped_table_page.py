@@ -96,7 +96,9 @@ def table_of(page: Page) -> bool:
 def test_from_a_dropped_table_to_a_robust_design(panel):
     page, over = panel, panel.locator(".camkit-drop")
     assert drag(page, "lobe.csv", LOBE, "dragenter", "dragover") == [True, True]
-    expect(over).to_have_text("Drop a saved design (JSON) or the table of a motion (CSV, TXT, XLSX)")
+    expect(over).to_have_text(
+        "Drop a saved design (JSON), the table of a motion or the outline of a cam (CSV, TXT, XLSX, DXF)"
+    )
     screenshot(page, SHOTS / "drop_over.png")
     drag(page, "lobe.csv", LOBE, "drop")
     expect(over).to_be_hidden()

@@ -165,6 +165,7 @@ def test_a_program_of_laws_becomes_one_that_matches():
     assert not any(row.joint.group.visible for row in editor.transitions)
     kind(editor, 2, "constant velocity")
     assert isinstance(editor.draft.parts[2], Uniform)
+    assert editor.program(150 * deg).s == pytest.approx(20 * mm)  # what does not move yet stays where it was
     do(editor, editor.rows[2].velocity, value=15.0)
     assert editor.verdict.text == SMOOTH
     assert float(editor.program(180 * deg).v) == pytest.approx(15 * mm)
@@ -177,6 +178,16 @@ def test_a_program_of_laws_becomes_one_that_matches():
     assert editor.program.levels[2] == pytest.approx(20 * mm)
     kind(editor, 1, "rise")
     assert isinstance(editor.program.parts[1], Rise)
+
+
+def test_a_lift_that_follows_and_a_place_are_0_where_they_are_rounding():
+    editor = edit_program(
+        MotionProgram((Rise(180 * deg, 20 * mm, Cycloidal()), Return(180 * deg, 20 * mm, Cycloidal())))
+    )
+    assert [cell.partition(" at ")[2] for cell in editor.numbers.rows[0]] == ["90 deg", "45 deg", "0 deg"]
+    kind(editor, 0, "polynomial")
+    want(editor, 0, "s", "match")
+    assert [seen(editor, k)[1] for k in range(2)] == ["0 mm", "0 mm"]
 
 
 def test_two_rises_are_made_to_pass_through_their_transition():

@@ -19,6 +19,7 @@ from camkit import (
     mm,
     read_motion,
 )
+from camkit.cam import BarrelCam
 from camkit.files import from_json, to_json
 from camkit.motion import TableMotion
 from camkit.panels import TablePanel, table_panel
@@ -352,3 +353,72 @@ def test_it_is_one_tab_of_a_panel(app):
     assert table_panel(app) is table_panel(app)
     assert isinstance(table_panel(app), TablePanel)
     assert [part.description for part in parts(table_panel(app), Button) if part.visible] == []
+
+
+TURN = np.arange(0.0, 360, 2) * deg
+ECCENTRIC = np.array([8 + 25 * np.cos(TURN), 25 * np.sin(TURN)])
+"""The outline of a circle beside the cam axis, mm."""
+
+
+def coordinates(outline, heading=""):
+    return heading + "".join(f"{x:.5f};{y:.5f}\n" for x, y in outline.T)
+
+
+def radii(outline, heading="angle;radius\n"):
+    angle = np.arctan2(outline[1], outline[0]) / deg % 360
+    order = np.argsort(angle)
+    return coordinates(np.array([angle, np.hypot(*outline)])[:, order], heading)
+
+
+@pytest.mark.parametrize(
+    "file", [coordinates(ECCENTRIC), coordinates(ECCENTRIC, "x [mm];y [mm]\n"), radii(ECCENTRIC)], ids=["", "x", "r"]
+)
+def test_a_dropped_outline_is_the_cam_of_the_design_and_no_table_of_a_motion(app, file):
+    open_file(app, file, "outline.csv")
+    assert app.design.base_radius == pytest.approx(17 * mm, abs=2e-5 * mm)
+    assert_allclose(app.design.motion(TURN).s, 8 * mm * (1 + np.cos(TURN - 90 * deg)), atol=5e-5 * mm)
+    panel = sheet(app)
+    assert panel.told.text.startswith("An outline of 180 points, 17 to 33 mm from the cam axis")
+    assert (alert(panel), panel.ways.visible, panel.picture.visible) == ("", False, True)
+
+
+@pytest.mark.parametrize("kind", ["dxf", "csv"])
+def test_the_profile_that_a_page_saves_comes_back_as_the_same_cam(kind):
+    design = TranslatingRollerCam(base_radius=40 * mm)
+    other = explore(TranslatingRollerCam())
+    open_file(other, file_of(explore(design), kind), f"profile.{kind}")
+    assert other.design.base_radius == pytest.approx(40 * mm, abs=1e-3 * mm)
+    assert_allclose(other.design.motion(TURN).s, design.motion(TURN).s, atol=2e-3 * mm)
+
+
+def test_an_outline_that_is_none_is_refused_as_an_outline(app):
+    open_file(app, coordinates(ECCENTRIC + np.array([[40], [0]])), "outline.csv")
+    assert alert(sheet(app)).startswith("This outline cannot be used: the outline lies beside the cam axis, the origin")
+
+
+def test_a_design_without_a_disk_cam_says_what_takes_an_outline():
+    app = explore(BarrelCam())
+    before = app.design
+    open_file(app, coordinates(ECCENTRIC), "outline.csv")
+    assert alert(sheet(app)).startswith(
+        "This outline cannot be used: it goes with a disk cam, and this is a barrel cam"
+    )
+    assert app.design == before
+
+
+def test_rows_of_a_motion_in_any_order_are_a_table_of_a_motion_if_they_say_lift(app):
+    order = np.random.default_rng(1).permutation(len(ANGLES))
+    open_file(app, rows(ANGLES[order], lifts(ANGLES[order]), "angle;lift\n"))
+    assert "the angles must increase" in alert(sheet(app))
+
+
+def test_a_saved_motion_program_is_the_motion_of_the_design(app):
+    motion = OscillatingRollerCam().motion
+    open_file(app, to_json(motion), "program.json")
+    assert (app.design, app.message) == (TranslatingFlatCam(base_radius=30 * mm, motion=motion), "")
+
+
+def test_a_saved_motion_program_without_a_place_for_it_is_refused():
+    app = explore(DoorHandleCam())
+    open_file(app, to_json(TranslatingRollerCam().motion), "program.json")
+    assert app.message == "This file cannot be used: the file holds a motion program; a door handle cam is wanted here."

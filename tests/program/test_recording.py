@@ -141,3 +141,13 @@ def test_one_design_that_cannot_be_built_is_nan_where_it_would_be_refused():
         assert np.isinf(program(start | {path: value})["f"]).all()
         with pytest.raises(ValueError, match=r"the relief roller has|the relief cam angle is|the roller of radius"):
             with_quantities(study.start, {path: value}).analyse()
+
+
+def test_a_lift_is_recorded_where_the_angles_of_its_program_stand():
+    design, path = TranslatingRollerCam(), "motion.rise.lift"
+    turn = np.linspace(0, 2 * np.pi, 91)
+
+    def levels(lift):
+        return with_quantities(design, {path: lift}).motion(turn).s
+
+    assert_array_equal(replayed(levels, [np.float64(0.03)]), levels(0.03))

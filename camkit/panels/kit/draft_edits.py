@@ -122,10 +122,15 @@ def with_kind(draft: Draft, i: int, kind: str, lift: float, law: Law) -> Draft:
 
 
 def _levels_open(draft: Draft, i: int) -> Draft:
-    """Where part ``i`` begins and ends levels and velocities follow, but for the level at cam angle 0."""
+    """Where part ``i`` begins and ends levels and velocities follow, but for the level at cam angle 0.
+
+    Where it does not move, the level at its beginning stays: nothing else would say it.
+    """
+    stays = not float(draft.program.segments[i].change)
     for k in (i, i + 1):
         if k % len(draft.joints):
-            draft = draft.with_joint(k, s=MATCH, v=MATCH)
+            level = draft.joints[k].s if stays and k == i else MATCH
+            draft = draft.with_joint(k, s=level, v=MATCH)
     return draft
 
 

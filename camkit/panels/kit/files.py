@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import ipywidgets as w
 import traitlets
 
 from ...files import designs
-from ...files.json_file import MOST_BYTES
-from ...motion import TableMotion
+from ...files.json_file import MOST_BYTES, content_of, text_of
+from ...files.outlines import takes_outline
+from ...motion import MotionProgram, TableMotion
 from ...quantities import words
 from .design_files import file_of, files_of, remarked
-from .motions_in import motions_in
+from .motions_in import motions_in, with_motion
 from .sheet import IMPOSSIBLE, reason
 
 TABLES = ".csv,.txt,.tsv,.dat,.asc,.xlsx"
 """The names of files that may hold a table end so."""
+DRAWINGS = ",.dxf"
 
 
 class Files(w.DOMWidget):
@@ -35,11 +38,12 @@ class Files(w.DOMWidget):
     def files(self) -> Mapping[str, object]:
         """What the page saves; of what it opens the most bytes, and what motions are called that a table can give."""
         motions = list(map(words, motions_in(self.design)))
-        return {"files": files_of(self.analysis), "most": MOST_BYTES + 1, "tables": motions, "readable": TABLES}
+        readable = TABLES + DRAWINGS * takes_outline(self.design)
+        return {"files": files_of(self.analysis), "most": MOST_BYTES + 1, "tables": motions, "readable": readable}
 
     def open_file(self, file: bytes, name: str = "") -> None:
-        """Show what a file holds: a saved design, or a table as the motion of this one (see `table_panel`)."""
-        if name.endswith(".json") or _is_json(file) or not motions_in(self.design):
+        """Show what a file holds: a saved design, or a motion or an outline for this one (see `table_panel`)."""
+        if name.lower().endswith(".json") or _is_json(file) or not motions_in(self.design):
             self.load_json(file)
             return
         from .. import tables  # they stand on this one
@@ -50,9 +54,12 @@ class Files(w.DOMWidget):
         panel.read(file)
 
     def load_json(self, file: str | bytes) -> None:
-        """Show the design that a saved file holds; a file that cannot be used is refused in a sentence."""
+        """Show the design that a saved file holds, or this one with the motion program in it.
+
+        A file that cannot be used is refused in a sentence.
+        """
         try:
-            found = designs.read_json(file, type(self.design))
+            found = self._read(file)
             found.thing.analyse()
         except IMPOSSIBLE as refusal:
             self.message = f"This file cannot be used: {reason(refusal)}."
@@ -60,6 +67,13 @@ class Files(w.DOMWidget):
             self.load(found.thing)
             if self.design == found.thing:  # else it cannot be computed, which the page says
                 self.message = remarked(found)
+
+    def _read(self, file: str | bytes) -> designs.Read:
+        motion = next(iter(motions_in(self.design)), None)
+        if motion is None or "program" not in content_of(text_of(file)):
+            return designs.read_json(file, type(self.design))
+        found = designs.read_json(file, MotionProgram)
+        return replace(found, thing=with_motion(self.design, motion, found.thing))
 
     def load(self, design: Any) -> None:
         """Show a design, or say why not."""

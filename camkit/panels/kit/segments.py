@@ -27,6 +27,8 @@ HEADS = ("segment", "angle", "lift", "law")
 """Over the columns."""
 DIGITS = 7
 """Of a velocity that is shown; it counts to its last digit as long as nobody types another."""
+ZERO = 9
+"""Digits after the point of a lift that follows; what is less is 0."""
 FORMS = ("polynomial", "spline")
 
 Edit = Callable[[Draft], Draft]
@@ -153,7 +155,11 @@ class SegmentRow:
         else:
             self.lift.value = 0.0
             follows = solved is not None and not isinstance(part, Dwell)
-            told = f"{float(solved.change) / factor(unit):.5g} {unit}" if solved is not None and follows else ""
+            told = (
+                f"{round(float(solved.change) / factor(unit), ZERO) + 0.0:.5g} {unit}"
+                if solved is not None and follows
+                else ""
+            )
             self._lift.tell(told, "it follows from the conditions")
 
     def _show_third(self, draft: Draft, part: Segment | Part, solved: Segment | None, units: MotionUnits) -> None:

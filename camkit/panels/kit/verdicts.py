@@ -86,7 +86,7 @@ def peaks(program: MotionProgram, units: MotionUnits) -> list[str]:
 
 
 def _size(peak: Extreme, k: int, units: MotionUnits) -> str:
-    place = f"at {in_unit(float(peak.cam_angle), 'deg'):.4g} deg"
+    place = f"at {round(in_unit(float(peak.cam_angle), 'deg'), 6):.4g} deg"
     if not np.isfinite(peak.value):
         return f"infinite {place}"
     return f"{float(peak.value) / units.factor(k):.5g} {units.name(k)} {place}"

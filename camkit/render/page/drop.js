@@ -1,7 +1,9 @@
 // Files that a person gives to a page: dropped on it, or chosen by a button.
 import { make } from "./controls.js";
 
-const DESIGN = "a saved design (JSON)", EITHER = `${DESIGN} or the table of a motion (CSV, TXT, XLSX)`;
+const DESIGN = "a saved design (JSON)";
+const wanted = (/** @type {any} */ { tables, readable }) => (!tables?.length ? DESIGN : readable.includes(".dxf")
+  ? `${DESIGN}, the table of a motion or the outline of a cam (CSV, TXT, XLSX, DXF)` : `${DESIGN} or the table of a motion (CSV, TXT, XLSX)`);
 const TABLE = "Cam angle and lift from a file (CSV, TXT, XLSX) in place of this motion; it can be dropped anywhere on this panel, too";
 
 /** A button that opens a file, and the input behind it. @param {string} words @param {string} title @param {string} accept
@@ -12,7 +14,7 @@ function chooser(words, title, accept, host) {
 }
 
 /** A button for all that a panel opens. @param {any} structure @param {import("./panel.js").Host} host */
-export const openerOf = ({ tables, readable }, host) => (tables?.length ? chooser("Open", `Open ${EITHER}`, `.json,${readable}`, host) : chooser("Open", `Open ${DESIGN}`, ".json", host));
+export const openerOf = (structure, host) => chooser("Open", `Open ${wanted(structure)}`, structure.tables?.length ? `.json,${structure.readable}` : ".json", host);
 
 /** A button beside the quantities of a motion, which takes it from a table. @param {any} structure
  * @param {import("./panel.js").Host} host */
@@ -21,7 +23,7 @@ export const tableOf = ({ readable }, host) => make("div", { class: "camkit-from
 /** Take files that are dropped on a panel whose kernel hears of them. @param {any} panel */
 export function takeDrops(panel) {
   const { root, host, structure, leaving: { signal } } = panel;
-  const over = make("div", { class: "camkit-drop", hidden: true }, `Drop ${structure.tables?.length ? EITHER : DESIGN}`);
+  const over = make("div", { class: "camkit-drop", hidden: true }, `Drop ${wanted(structure)}`);
   const files = (/** @type {any} */ event) => host && !panel.left && [...event.dataTransfer?.types ?? []].includes("Files");
   const on = (/** @type {string} */ kind, /** @type {(event: any) => void} */ act) => root.addEventListener(kind, (/** @type {any} */ event) => {
     if (!files(event)) return;
