@@ -37,6 +37,8 @@ BESIDE, DOUBTS = (-2, -1, 0, 1, 2), 4
 once were the most seen in doubt among 70 000 curves."""
 LEVEL = 1e-14
 """Values that differ by less than this share of their size are the same."""
+SAME = 1e-11
+"""Tops that differ by less than this share are those of one shape: a return that mirrors the rise has them twice."""
 EDGE, STEPS = 1e-11, 400
 """How far inside its ends a piece is sampled (a share: a kink speaks for the neighbour), and in how many steps."""
 
@@ -101,7 +103,7 @@ def crests(values: Array, inner: Value = True) -> Array:
 
 
 def highest(f: Callable[[Array], Value], angle: Array, inner: Array) -> Extreme:
-    """The largest value of ``f(cam_angle)``, sampled at the cam angles ``angle`` and then more closely.
+    """The largest value of ``f(cam_angle)``, sampled at the cam angles ``angle`` and then more closely; the first one.
 
     ``inner`` says which of them have a neighbour at the same step, without a jump in between, on both sides.
 
@@ -111,7 +113,7 @@ def highest(f: Callable[[Array], Value], angle: Array, inner: Array) -> Extreme:
     1.000000000 at 1.5708
     """
     angle, values, inner = np.broadcast_arrays(angle, f(angle), inner)
-    best = np.argmax(raised(values, inner), axis=-1, keepdims=True)
+    best = _first_of_the_highest(raised(values, inner))
     before, after = best - 1, (best + 1) % angle.shape[-1]
     inside = _at(inner, best)
     low = _at(angle, np.where(inside | _at(inner, before), before, best))
@@ -129,6 +131,14 @@ def highest(f: Callable[[Array], Value], angle: Array, inner: Array) -> Extreme:
         zoomed, there = _zoomed(f, low, high)
         value, place = np.where(found, value, zoomed), np.where(found, place, there)
     return Extreme(value[..., 0], place[..., 0])
+
+
+def _first_of_the_highest(tops: Array) -> Array:
+    """Where the largest of each row is: of those that rounding alone tells apart the first, and the first ``nan``."""
+    top = tops.max(-1, keepdims=True)
+    with np.errstate(invalid="ignore"):
+        alike = (tops >= top - SAME * np.abs(top)) | (tops == top) | np.isnan(tops)
+    return np.argmax(alike, axis=-1, keepdims=True)
 
 
 def highest_between(f: Callable[[Array], Value], ends: Sequence[Value]) -> Extreme:

@@ -459,3 +459,19 @@ def test_peaks_of_a_valve_cam(n, m):
             fine.profile_radius.min() if follower == FOLLOWERS[0] else 1 / fine.curvature.max() - cam.roller_radius
         )
         assert few.profile_margin.value == pytest.approx(tightest, abs=1e-4 * 30 * mm)
+
+
+@pytest.mark.parametrize("off", [-1e-13, 0.0, 1e-13])
+def test_of_two_tops_that_rounding_tells_apart_the_first_is_found(off):
+    x, inner = np.linspace(0, 3, 301), np.ones(301, dtype=bool)
+    inner[[0, -1]] = False
+    found = highest(lambda t: np.sin(np.pi * t) ** 2 * np.where(t > 1.5, 1 + off, 1.0), x, inner)
+    assert found.cam_angle == pytest.approx(0.5)
+    assert highest(lambda t: np.sin(np.pi * t) ** 2 * np.where(t > 2, 1 + 1e-9, 1.0), x, inner).cam_angle > 2
+
+
+def test_a_curve_that_is_infinite_or_unknown_somewhere_stays_so():
+    x, inner = np.linspace(0, 3, 301), np.zeros(301, dtype=bool)
+    for value in (np.inf, np.nan):
+        found = highest(lambda t, value=value: np.where(abs(t - 1) < 1e-9, value, np.sin(t)), x, inner)
+        assert_array_equal(found.value, value)

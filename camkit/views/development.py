@@ -74,7 +74,7 @@ def _pressure_angle_at(analysis: Unrolled, i: np.intp) -> list[Mark]:
     lean = np.where(way[0] * normal[1] - way[1] * normal[0] >= 0, angle, -angle)
     arc = 0.75 * size * rotated(way[:, None], lean * np.linspace(0, 1, 13))
     u, v = 1.3 * size * rotated(way, lean / 2)
-    lines = [("way", way, "velocity", "way of the roller"), ("normal", normal, "ink", "contact normal")]
+    lines = [("way", way, "velocity", "direction of motion"), ("normal", normal, "ink", "contact normal")]
     return [
         *(
             Line(key, np.stack([x, x + size * dx]), np.stack([y, y + size * dy]), role=role, label=label)

@@ -169,3 +169,25 @@ def test_fields_picture_and_verdict_are_on_one_screen(page: Page, editor: Locato
     page.set_viewport_size(SIZE)
     assert box is not None
     assert box["height"] < 768 - 28 - 31 - 33 - 24  # what JupyterLab keeps of it
+
+
+CUT = """(root) => {
+    const pen = document.createElement('canvas').getContext('2d'), arrow = 16;
+    return [...root.querySelectorAll('select')].filter((menu) => menu.offsetParent).filter((menu) => {
+        const style = getComputedStyle(menu), words = menu.selectedOptions[0]?.text ?? '';
+        pen.font = style.font;
+        const beside = parseFloat(style.paddingLeft) + parseFloat(style.paddingRight);
+        const taken = beside + (style.appearance !== 'none') * arrow;
+        return pen.measureText(words).width > menu.clientWidth - taken;
+    }).map((menu) => menu.selectedOptions[0].text);
+}"""
+"""The words in menus that are cut."""
+
+
+@pytest.mark.parametrize("width", [1366, 1920])
+def test_no_words_in_a_menu_are_cut(page: Page, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 768})
+    output = cell_output(page, 1)
+    expect(output.get_by_role("combobox", name="kind").nth(1)).to_be_visible()
+    assert output.evaluate(CUT) == []
+    page.set_viewport_size(SIZE)

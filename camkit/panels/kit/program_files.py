@@ -46,7 +46,7 @@ class ProgramFiles:
         tables = [(f"table, every {step:g}°", partial(self._table, step)) for step in STEPS]
         controllers = [(f"controller, {way}", partial(self._rows, way)) for way in WAYS]
         self.kind = Menu([*tables, *controllers], tooltip="what is in the table")
-        self.comma = Menu([("1.5", "."), ("1,5", ",")], tooltip="decimal sign")
+        self.comma = Menu([("decimals 1.5", "."), ("decimals 1,5", ",")], tooltip="decimal sign of the table")
         self.group = row(
             Download("Save", "motion.json", "application/json", lambda: designs.to_json(editor.program), refused),
             Upload("Open", self._open),
