@@ -315,7 +315,7 @@ class MotionProgram(Declared):
         over, ahead = (*map(certain, begun), False), (False, *(certain(np.logical_not(here)) for here in begun))
         first, *others = [i for i in range(len(self.segments)) if not (over[i] or ahead[i])] or [0]
         if others and all(map(known, (x, *begun))):
-            pieces = self._pieces(x, begun, [first, *others])
+            pieces = self._by_columns(x, begun, [first, *others])
             if all(known(value) for *_, values in pieces for value in values):
                 return self._if_possible(*_put_together(x, begun, pieces))
         motion = self._piece(first, x)
@@ -324,7 +324,7 @@ class MotionProgram(Declared):
             motion = Kinematics(*(np.where(begun[i - 1], *pair) for pair in pairs))
         return self._if_possible(*np.broadcast_arrays(*motion, x)[:4])
 
-    def _pieces(self, x: Array, begun: list[Array], segments: list[int]) -> list[_Columns]:
+    def _by_columns(self, x: Array, begun: list[Array], segments: list[int]) -> list[_Columns]:
         """Each segment asked at those cam angles only at which any member of a population is in it."""
         whole = np.ones(1, dtype=bool)
         here = [whole, *begun], [*(np.logical_not(ahead) for ahead in begun), whole]

@@ -122,8 +122,8 @@ class TablePanel(Panel):
         if self._what == "table":
             return Reading(file, answers, self._suited(read_motion(file, **answers)))
         outline = read_outline(file, **answers)
-        design = with_outline(self.explorer.design, outline)
-        return Reading(file, answers, next(iter(motions_in(design).values())), outline)
+        motion: Any = next(iter(motions_in(with_outline(self.explorer.design, outline)).values()))
+        return Reading(file, answers, motion, outline)
 
     def _suited(self, motion: TableMotion) -> TableMotion:
         """A motion along a line or around a pivot, as that of the follower is."""

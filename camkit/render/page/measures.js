@@ -62,6 +62,6 @@ export class Table {
 function write(made, { m, now, then, change, kept }, units) {
   made.m = m;
   made.line.className = kept ? "" : "camkit-bad";
-  const words = [letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(change, "+.1f")} %` : ""];
+  const words = [letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(Math.abs(change) < 0.05 ? 0 : change, "+.1f")} %` : ""];
   words.forEach((word, k) => { if (made.cells[k].textContent !== word) made.cells[k].textContent = word; });
 }
