@@ -30,6 +30,8 @@ LARGEST = 10.0
 """No cam reaches so far from its axis (m)."""
 MOST = 20_000
 """Points or corners of an outline."""
+CHORDS, ROUGH = 720, 100
+"""So many chords of an outline are tried for crossings at most, but not with the next of each, one in so many."""
 
 
 class Place(NamedTuple):
@@ -308,7 +310,27 @@ def refuse_not_around(points: Array) -> None:
     turns = round(float(steps.sum()) / TURN)
     if abs(turns) != 1:
         around = f"goes around the cam axis {abs(turns)} times" if turns else "lies beside the cam axis, the origin"
-        raise ValueError(f"the outline {around}; a cam's goes around it once")
+        order = ", its points in their order" if turns else ""
+        raise ValueError(f"the outline {around}; a cam's goes around it once{order}")
+    _refuse_crossing(points[:, :: -(-points.shape[1] // CHORDS)])
+
+
+def _refuse_crossing(corners: Array) -> None:
+    """An outline whose chords cross, other than those next to each other, which may be rough, is no cam."""
+    ahead = np.roll(corners, -1, axis=1)
+    side = _side_of(corners, ahead, corners) * _side_of(corners, ahead, ahead)
+    apart = abs(np.subtract.outer(*2 * [np.arange(corners.shape[1])]))
+    apart = np.minimum(apart, corners.shape[1] - apart)
+    crossing = (side < 0) & (side.T < 0) & (apart > corners.shape[1] // ROUGH)
+    if crossing.any():
+        x, y = corners[:, np.argmax(crossing.any(1))] / mm
+        raise ValueError(f"the outline crosses itself near x {x:.4g}, y {y:.4g} mm; the edge of a cam does not")
+
+
+def _side_of(begin: Array, end: Array, points: Array) -> Array:
+    """On which side of each line, in rows, each of some points is."""
+    (x, y), (dx, dy) = begin[:, :, None], (end - begin)[:, :, None]
+    return np.sign(dx * (points[1] - y) - dy * (points[0] - x))
 
 
 def _flank_normals(r: float, n: float, c: float, flank: float | None) -> tuple[float, float]:

@@ -241,7 +241,7 @@ def _of_drawing(
     around = [each for each in moved if _goes_around(each)]
     profiles = [each for each in around if each.layer.lower() in ("profile", "outline")]
     if not around:
-        raise ValueError(_no_loop(drawing))
+        raise ValueError(_no_loop(drawing, moved))
     chosen = _chosen(profiles if len(profiles) == 1 and loop is None else around, loop)
     said = [f"the loop on layer {shown(chosen.layer)} of a DXF drawing, {drawing.unit}"]
     if chosen.gap > 1e-6:
@@ -264,11 +264,15 @@ def _moved(loop: Loop, axis: Array) -> Loop:
 
 
 def _goes_around(loop: Loop) -> bool:
+    return not _refusal(loop)
+
+
+def _refusal(loop: Loop) -> str:
     try:
         _points(loop)
-    except ValueError:
-        return False
-    return True
+    except ValueError as refusal:
+        return str(refusal)
+    return ""
 
 
 def _chosen(around: Sequence[Loop], loop: int | None) -> Loop:
@@ -292,8 +296,10 @@ def _told(loop: Loop) -> str:
     return f"layer {shown(loop.layer)}, {far.min():.4g} to {far.max():.4g} mm from the axis"
 
 
-def _no_loop(drawing: Drawing) -> str:
-    if drawing.loops:
+def _no_loop(drawing: Drawing, moved: Sequence[Loop]) -> str:
+    if len(moved) == 1:
+        return f"{_refusal(moved[0])}; say axis=(x, y), in the unit of the drawing, for a cam axis that is elsewhere"
+    if moved:
         return (
             f"none of the {len(drawing.loops)} closed loops of the drawing goes around its origin, the cam axis; say "
             "axis=(x, y), where the axis is in the unit of the drawing"

@@ -311,6 +311,11 @@ def test_it_is_saved_with_what_it_says():
     assert read.motion.outline == cam.motion.outline
 
 
+def eight(t):
+    """A line that crosses itself at x = 8 mm."""
+    return 25 * mm * np.cos(t) + 8 * mm, 25 * mm * np.sin(2 * t)
+
+
 ROUND = [(0.04 * np.cos(t), 0.04 * np.sin(t)) for t in np.arange(0, 6.28, 0.1)]
 
 
@@ -326,7 +331,8 @@ ROUND = [(0.04 * np.cos(t), 0.04 * np.sin(t)) for t in np.arange(0, 6.28, 0.1)]
             "the outline reaches 40 m from the cam axis; .* write points [*] mm",
         ),
         (np.array(ROUND) + 0.1, FOLLOWERS["flat"], "the outline lies beside the cam axis"),
-        (ROUND * 2, FOLLOWERS["flat"], "the outline goes around the cam axis 2 times"),
+        (ROUND * 2, FOLLOWERS["flat"], "the outline goes around the cam axis 2 times.* its points in their order"),
+        (np.array(eight(np.arange(0, 6.28, 0.02))), FOLLOWERS["flat"], "the outline crosses itself near x 8"),
         ([*ROUND[:20], (np.nan, 1), *ROUND[20:]], FOLLOWERS["flat"], "point 21 of the outline holds a number"),
         (ECCENTRIC, camkit.HighSpeedCam(), "the follower is .*; it must be a design of one of"),
         (ECCENTRIC, TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]])), "the follower is a population"),
@@ -353,6 +359,7 @@ def test_what_is_no_outline_is_refused(given, cam, why):
         (lambda: DrawnOutline(((0.02, 0), (-0.02, 0)), (1.0,)), "2 corners and 1 bulges"),
         (lambda: DrawnOutline(((0.02, 0), (-0.02, 0)), (1.0, np.inf)), "it needs a finite one for each"),
         (lambda: DrawnOutline.circle(0.01, 0.02), "the outline lies beside the cam axis"),
+        (lambda: DrawnOutline(np.array(eight(np.arange(0.1, 6.2, 0.6))).T, (0.0,) * 11), "the outline crosses itself"),
         (lambda: DrawnOutline.circle(-0.01), "the radius of the circle is -0.01; it must be above 0 m"),
         (lambda: DrawnOutline.tangent(0.025, 0.008, 0.010), "the nose must stand out of the base circle"),
         (lambda: DrawnOutline.tangent(0.025, 0.008, 0.040, 0.020), "no flank touches base circle and nose"),

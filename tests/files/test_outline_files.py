@@ -212,9 +212,16 @@ def test_gaps_are_named_or_closed():
 
 def test_the_axis_of_a_drawing_may_lie_elsewhere():
     data = drawn(lambda space: space.add_circle((100, 35), 40))
-    with pytest.raises(ValueError, match=r"none of the 1 closed loops .* goes around its origin, .*; say axis="):
+    with pytest.raises(ValueError, match=r"the outline lies beside the cam axis, the origin.*; say axis="):
         read_outline(data)
     assert read_outline(data, axis=(100, 50)).remarks[0] == "an outline of 1 arc, 25 to 55 mm from the cam axis"
+
+
+def test_a_drawing_in_another_unit_says_how_far_it_would_reach():
+    data = drawn(lambda space: (space.doc.header.__setitem__("$INSUNITS", 6), space.add_circle((5, 0), 40)))
+    with pytest.raises(ValueError, match=r"the outline reaches 4.* m from the cam axis"):
+        read_outline(data)
+    assert read_outline(data, unit="mm").remarks[0] == "an outline of 1 arc, 35 to 45 mm from the cam axis"
 
 
 def blocks(space):
