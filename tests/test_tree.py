@@ -136,7 +136,7 @@ def test_a_coefficient_goes_as_far_as_its_family():
         ("motion.rise.lifts", "'motion.rise.lifts' is no path of TranslatingRollerCam; near it are motion.rise.lift, "),
         ("motion.dwell2.angle", "'motion.dwell2.angle' .*: it takes up what the other segments leave of the turn$"),
         ("motion.return.lift", "'motion.return.lift' .*: it takes the follower back to where the turn began$"),
-        ("%", "'%' is no path of TranslatingRollerCam; there are motion.rise.angle, .* and 14 more$"),
+        ("%", "'%' is no path of TranslatingRollerCam; there are motion.rise.angle, .* and 15 more$"),
         (3, "3 is no path of TranslatingRollerCam; there are "),
     ],
 )

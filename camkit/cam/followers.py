@@ -102,7 +102,12 @@ class SlidingAnalysis(CamAnalysis):
     @cached_property
     def resistance(self) -> np.ndarray:
         """Force along the travel that the cam has to overcome, N, positive against the rise."""
-        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle)
+        return self.cam.load.resisting_force(self.travel, self.acceleration, self.cam_angle, self.velocity)
+
+    @property
+    def damping(self) -> Value:
+        """Force over the follower's velocity, N s/m."""
+        return self.cam.load.damping
 
 
 class RockingAnalysis(CamAnalysis):

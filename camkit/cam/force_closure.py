@@ -34,6 +34,8 @@ FASTEST = 1e9
 def jump_speed(analysis: CamAnalysis) -> Value:
     """Speed of the cam at which the follower first leaves it: ``sqrt(static / (-J w))`` at its least.
 
+    With damping it is the least ``omega`` with ``J omega^2 w + d omega v + static = 0`` somewhere.
+
     0 if the follower does not even stay on a resting cam, or if its speed drops at once; ``inf`` if it stays at any
     speed, as it does in a groove without a spring: that is form closed.
 
@@ -45,8 +47,13 @@ def jump_speed(analysis: CamAnalysis) -> Value:
 
     def slackness(at: CamAnalysis) -> Array:
         static, throw = at.static_resistance, -at.inertia * at.acceleration
-        thrown = np.where(throw > 0, throw / np.where(static > 0, static, np.nan), 0.0 * static)
-        return np.where((static < 0) | ((throw > 0) & (static == 0)), np.inf, thrown)
+        pull = -getattr(at, "damping", 0.0) * at.velocity / 2
+        holds = np.where(static > 0, static, np.nan)
+        room = pull**2 + throw * holds  # of x = 1 / omega: static x^2 - 2 pull x - throw = 0
+        x = np.where(room >= 0, pull + np.sqrt(np.maximum(room, 0.0)), 0.0) / holds
+        thrown = np.where((throw > 0) | (pull > 0), np.maximum(x, 0.0) ** 2, 0.0 * static)
+        at_once = (static == 0) & ((pull > 0) | ((throw > 0) & (pull == 0)))
+        return np.where((static < 0) | at_once, np.inf, np.where(np.isnan(thrown) & (pull < 0), 0.0, thrown))
 
     with applied("the jump speed", analysis), np.errstate(divide="ignore"):
         slack = np.where(_thrown_off(analysis), np.inf, analysis.highest(slackness).value)
@@ -72,7 +79,8 @@ def preload_needed(analysis: TranslatingRollerAnalysis, speed: Value) -> Value:
 
     def lacking(at: TranslatingRollerAnalysis) -> Array:
         without = at.static_resistance - at.preload
-        return -(at.inertia * np.square(speed) * at.acceleration + without)
+        moving = at.inertia * np.square(speed) * at.acceleration + getattr(at, "damping", 0.0) * speed * at.velocity
+        return -(moving + without)
 
     with applied("the preload that is needed", analysis):
         least = np.maximum(analysis.highest(lacking).value, 0.0)

@@ -15,7 +15,7 @@ from .loads import FollowerFriction, Table, as_table, opposite_table, tabulated
 class SlideLoad(Design):
     """The force that a cam must put into a sliding follower, positive where it resists the rise.
 
-    ``Q = m omega^2 s'' + F + F_0 + c s + m g cos(u)`` and what the tables add.
+    ``Q = m omega^2 s'' + d omega s' + F + F_0 + c s + m g cos(u)`` and what the tables add.
 
     >>> load = SlideLoad(mass=2, force=100, preload=50, spring_rate=5e3, gravity=9.81, speed=10)
     >>> print(f"{load.resisting_force(travel=0.01, acceleration=-0.2):.2f} N")
@@ -49,6 +49,9 @@ class SlideLoad(Design):
     cam_angle_table: Table = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
     table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
+    damping: float = quantity(
+        "d", 0, 0, 200, "N s/m", "force over the follower's velocity", at_least=0, name="follower damping"
+    )
 
     def __post_init__(self) -> None:
         forces = as_table("force table", "travel", "force", self.force_table)
@@ -79,9 +82,12 @@ class SlideLoad(Design):
         k = self.table_factor
         return static + k * tabulated(self.force_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
-    def resisting_force(self, travel: Value, acceleration: Value, cam_angle: Value = 0.0) -> Array:
-        """Force along the travel, N."""
-        return self.mass * self.speed**2 * acceleration + self.static_force(travel, cam_angle)
+    def resisting_force(
+        self, travel: Value, acceleration: Value, cam_angle: Value = 0.0, velocity: Value = 0.0
+    ) -> Array:
+        """Force along the travel, N (``velocity`` and ``acceleration`` by the cam angle)."""
+        moving = self.mass * self.speed**2 * acceleration + self.damping * self.speed * velocity
+        return moving + self.static_force(travel, cam_angle)
 
     def opposite(self) -> SlideLoad:
         """The same load as a second cam on the other side of the follower feels it."""

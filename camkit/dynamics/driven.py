@@ -40,6 +40,8 @@ class Driven:
     """Of the load, all of it."""
     rate: Array
     """``k_s``: of the return spring."""
+    damping: Array
+    """Of the load to the frame, besides that of the train, N s/m or N m s/rad."""
     speed: Array
     """Of the cam, rad/s."""
     dwells: tuple[tuple[Array, Array], ...]
@@ -63,8 +65,8 @@ def driven(analysis: Any, samples: int) -> Driven:
         load = static - preload - rate * travel
         still = (i for i, segment in enumerate(motion.segments) if segment.still)
         dwells = tuple((_column(motion.starts[i]), _column(motion.starts[i + 1])) for i in still)
-        mass, speed = _column(at.inertia), _column(at.speed)
-        return Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, speed, dwells)
+        mass, rubs, speed = (_column(x) for x in (at.inertia, getattr(at, "damping", 0.0), at.speed))
+        return Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, rubs, speed, dwells)
 
 
 def _column(value: Value) -> Array:

@@ -22,7 +22,7 @@ from ..quantities.design import refuse_population
 from ..quantities.kinds import columns, refuse_arguments
 from ..quantities.types import Array
 from .driven import Driven, driven
-from .steady import a_speed, last_mass, response_of, series_matrix
+from .steady import a_speed, grounded, last_mass, response_of, series_matrix
 from .trains import Train
 
 STEPS = 2880
@@ -159,7 +159,7 @@ class _Run:
         springs = [(k, c) for k, c in self.train.springs]
         if not contact and not free:
             springs[0] = 0.0, 0.0
-        ends = float(self.given.rate[0]), self.train.ground_damping
+        ends = float(self.given.rate[0]), float(grounded(self.train, self.given)[0])
         K, C = (series_matrix([part[i] for part in springs], end) for i, end in enumerate(ends))
         size = 2 * n + 2 * free
         A, B = np.zeros((size, size)), np.zeros((size, 5))

@@ -253,7 +253,7 @@ def polydyne(motion: MotionProgram, train: Train, load: Any, speed: Value) -> Po
         stiffness,
         damping,
         rate,
-        train.ground_damping,
+        train.ground_damping + getattr(load, "damping", 0.0),
         advance=motion.advance,
     )
 

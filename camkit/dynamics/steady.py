@@ -102,6 +102,11 @@ def last_mass(train: Train, given: Driven) -> Array:
     return given.mass - train.cam_side_mass - sum(train.inner_masses)
 
 
+def grounded(train: Train, given: Driven) -> Array:
+    """``c_s``: damping of the last mass to the frame, the train's and the load's."""
+    return given.damping + train.ground_damping
+
+
 @dataclass(frozen=True)
 class Response:
     """Steady motion of a `Train` at even cam angles, ``(n,)``, or ``(p, n)`` of a population or of ``p`` speeds.
@@ -136,7 +141,15 @@ class Response:
         given = self.driven
         mass = last_mass(self.train, given)
         load = np.fft.rfft(given.load)
-        return passed(self.train, np.where(mass > 0, mass, np.nan), given.rate, self._frequency, load, self._lift)
+        return passed(
+            self.train,
+            np.where(mass > 0, mass, np.nan),
+            given.rate,
+            grounded(self.train, given),
+            self._frequency,
+            load,
+            self._lift,
+        )
 
     def _in_time(self, series: Array) -> Array:
         values = np.fft.irfft(series, len(self.cam_angle))
@@ -213,10 +226,10 @@ class Response:
 
     @cached_property
     def rigid_resistance(self) -> Array:
-        """The same of a rigid train without damping, ``N_0 + k_s s + q + (m + m_0) omega^2 w``."""
+        """The same of a rigid train, ``N_0 + k_s s + q + (m + m_0) omega^2 w``, and the damping of the load."""
         given = self.driven
         static = given.preload + given.rate * given.travel + given.load
-        return static + given.mass * self.speed**2 * given.acceleration
+        return static + given.mass * self.speed**2 * given.acceleration + given.damping * self.speed * given.velocity
 
     @cached_property
     def contact_force(self) -> Array:
@@ -237,7 +250,9 @@ class Response:
 
     @cached_property
     def _modes(self) -> tuple[Array, Array]:
-        return natural_modes(self.train, last_mass(self.train, self.driven), self.driven.rate)
+        return natural_modes(
+            self.train, last_mass(self.train, self.driven), self.driven.rate, grounded(self.train, self.driven)
+        )
 
     @property
     def natural_frequencies(self) -> Array:
@@ -320,7 +335,7 @@ def _within(angle: Array, values: Array, start: Array, end: Array) -> Array:
     return np.max(np.where(deep, raised(held, True), held), axis=-1)
 
 
-def natural_modes(train: Train, mass: Array, rate: Array) -> tuple[Array, Array]:
+def natural_modes(train: Train, mass: Array, rate: Array, ground: Value) -> tuple[Array, Array]:
     """Natural frequencies (rad/s) of a train with its end on the cam, the lowest first, and their damping ratios.
 
     A return spring counts with its rate alone.  ``(k,)``, or ``(p, k)``; ``nan`` where the load has no mass left.
@@ -328,7 +343,7 @@ def natural_modes(train: Train, mass: Array, rate: Array) -> tuple[Array, Array]
     masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.inner_masses, mass)), rate[..., 0])[:-1]
     M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
     stiff, rub = (series_matrix([part[i] for part in train.springs], end)
-                  for i, end in ((0, rate), (1, train.ground_damping)))  # fmt: skip
+                  for i, end in ((0, rate), (1, ground)))  # fmt: skip
     scale = 1 / np.sqrt(M[..., :, None] * M[..., None, :])
     given = np.broadcast_to(stiff * scale, np.broadcast_shapes(np.shape(stiff), scale.shape))
     possible = np.isfinite(given).all((-2, -1), keepdims=True)

@@ -201,17 +201,17 @@ class Passed(NamedTuple):
     """What resists a motion of the first mass with the cam's end held; 0 at resonance."""
 
 
-def passed(train: Train, mass: Array, rate: Array, frequency: Array, load: Array, lift: Array) -> Passed:
+def passed(train: Train, mass: Array, rate: Array, ground: Value, frequency: Array, load: Array, lift: Array) -> Passed:
     """What a train passes on between the series of ``s`` (``lift``) and of ``q`` (``load``), at ``n omega`` (rad/s).
 
-    ``mass`` is the last one.  From the load to the cam each part adds its own: where ``A`` resists a motion behind a
-    spring ``K``, ``K A / (K + A)`` does before it.
+    ``ground`` is the damping of the last ``mass`` to the frame.  From the load to the cam each part adds its own: where
+    ``A`` resists a motion behind a spring ``K``, ``K A / (K + A)`` does before it.
     """
     even = np.arange(frequency.shape[-1]) < frequency.shape[-1] - 1
     rubs, throws = 1j * (frequency * even), frequency**2  # the last harmonic of an even number has no derivative
     springs = [k + c * rubs for k, c in train.springs]
     masses = [*train.inner_masses, mass]
-    behind = rate * train.spring.share(frequency / (2 * np.pi)) + train.ground_damping * rubs
+    behind = rate * train.spring.share(frequency / (2 * np.pi)) + ground * rubs
     each = []
     with np.errstate(divide="ignore", invalid="ignore"):
         for K, m in zip(springs[::-1], masses[::-1], strict=True):

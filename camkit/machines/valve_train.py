@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..cam.slide import SlideLoad
-from ..quantities import quantity
+from ..quantities import quantity, unless
 from .valve_analysis import FlatValveAnalysis, RollerValveAnalysis, ValveAnalysis
 
 
@@ -51,3 +51,12 @@ over the lift, as its force table
                 "the load has a table over the cam angle; that of a valve must be the same on both flanks: "
                 "tabulate it over the lift, as its force table"
             )
+        if refuse := unless(self.damping == 0):
+            refuse(
+                f"the damping of the load is {self.damping:.6g} N s/m; that of a valve must be 0: it would not be the "
+                "same on both flanks"
+            )
+
+    def following(self) -> dict[str, str]:
+        """Nothing rubs with the velocity."""
+        return {**super().following(), "damping": "a valve's load is the same on both flanks"}
