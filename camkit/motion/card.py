@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from ..extrema import Extreme, highest
-from ..quantities import unless
+from ..quantities import known, unless
 from ..quantities.kinds import a_number, refuse_arguments, refuse_unequal
 from ..quantities.types import Array, Value
 from .closing import TURN
@@ -209,19 +210,29 @@ def _area(turn: tuple[Array, Array, Array, Array], ends: list[Array], level: Arr
     begin, end = (tuple(x[..., k : k + 1] for x in ends) for k in (0, 1))
     before, after = turn[0] < begin[0], turn[0] > end[0]
     x, s, v, a = (
-        np.where(before, first, np.where(after, last, here)) for here, first, last in zip(turn, begin, end, strict=True)
+        np.where(before, one, np.where(after, other, here)) for here, one, other in zip(turn, begin, end, strict=True)
     )
-    s, step = s - level, x[..., 1:] - x[..., :-1]
-    powers = _quintics(s, v, a, step)
-    first, last = s[..., :-1] > 0, s[..., 1:] > 0
-    passed = _through(lambda u: polynomial(powers, u), 0.0, np.where(first, 1.0, 0.0), np.where(first, 0.0, 1.0))
-    low, high = np.where(first | ~last, 0.0, passed), np.where(last, 1.0, np.where(first, passed, 0.0))
-    under: list[Value] = [0.0, *(power / (i + 1) for i, power in enumerate(powers))]
-    return (step * (polynomial(under, high).s - polynomial(under, low).s)).sum(-1, keepdims=True)
+    values, step = (s - level, v, a), x[..., 1:] - x[..., :-1]
+    low, high = ([y[..., part] for y in values] for part in (slice(None, -1), slice(1, None)))
+    first, last = low[0] > 0, high[0] > 0
+    found = step * (low[0] + high[0]) / 2 + step**2 * (low[1] - high[1]) / 10 + step**3 * (low[2] + high[2]) / 120
+    found, through = np.where(first & last, found, 0.0), first != last
+    if known(through):
+        here = [y[through] for y in low], [y[through] for y in high], step[through]
+        found[through] = _beside_zero(*here)
+    else:  # a program does the same in every step, whether it goes through or not
+        found = np.where(through, _beside_zero(low, high, step), found)
+    return found.sum(-1, keepdims=True)
 
 
-def _quintics(s: Array, v: Array, a: Array, step: Array) -> list[Array]:
-    """From each sample to the next the powers of the share of the step, that of the lowest first."""
-    s0, v0, a0 = s[..., :-1], v[..., :-1] * step, a[..., :-1] * step**2
-    d, e, f = s[..., 1:] - s0 - v0 - a0 / 2, v[..., 1:] * step - v0 - a0, a[..., 1:] * step**2 - a0
-    return [s0, v0, a0 / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2]
+def _beside_zero(low: list[Array], high: list[Array], step: Array) -> Array:
+    """The integral over a step, of ``s, v, a`` at its ends, of what is above 0 if just one of them is."""
+    (s, v, a), (s1, v1, a1) = ((y[0], y[1] * step, y[2] * step**2) for y in (low, high))
+    d, e, f = s1 - s - v - a / 2, v1 - v - a, a1 - a
+    powers: list[Any] = [s, v, a / 2, 10 * d - 4 * e + f / 2, 7 * e - 15 * d - f, 6 * d - 3 * e + f / 2]
+    below = np.where(s > 0, 1.0, 0.0)
+    passed = _through(lambda u: polynomial(powers, u), 0.0, below, 1.0 - below)
+    under: list[Any] = [0.0, *(power / (i + 1) for i, power in enumerate(powers))]
+    before, whole = polynomial(under, passed).s, polynomial(under, 1.0 + 0.0 * passed).s
+    found: Array = step * np.where(s > 0, before, whole - before)
+    return found
