@@ -70,7 +70,7 @@ class OutlineMotion(TableMotion):
     jumps: tuple[tuple[float, float, float], ...] = ()
     outline: tuple[tuple[float, float], ...] = field(default=(), repr=False, compare=False, metadata={"most": MOST})
 
-    offers: ClassVar[tuple[str, ...]] = ("outline", "outline_deviation")
+    offers: ClassVar[tuple[str, ...]] = ("outline_deviation",)
     """What is shown of a cam with this motion besides."""
 
     def compared(self, analysis: Any) -> Compared:

@@ -48,7 +48,6 @@ VIEW_OF: dict[str, View] = {
     "sizes": sizes.plane_of_sizes,
     "utilisation": sizes.utilisation,
     "rings": sizes.section,
-    "outline": outlines.outline_laid_over,
     "outline_deviation": outlines.outline_deviation,
 }
 """By what an analysis offers: the name of one of its attributes."""
