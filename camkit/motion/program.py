@@ -58,7 +58,7 @@ class MotionProgram(Declared):
     A motion that goes on, as that of an indexing table or a rotary knife does, says by how much it is further after
     each turn: its ``advance`` (m or rad), below 0 for one that goes backwards.
 
-    >>> from camkit.motion import ModifiedSine
+    >>> from camkit import Dwell, ModifiedSine, Rise, deg
     >>> index = MotionProgram((Rise(120 * deg, 60 * deg, ModifiedSine()), Dwell(240 * deg)), advance=60 * deg)
     >>> (index([-60 * deg, 60 * deg, 420 * deg, 1000 * deg]).s / deg).round(9)
     array([  0.,  30.,  90., 180.])
@@ -68,7 +68,7 @@ class MotionProgram(Declared):
     segment, where there is none) takes up the angle and the last move the lift, so these two are no quantities.  The
     ``advance`` stays.
 
-    >>> from camkit.motion import Cycloidal, Dwell, Return, Rise
+    >>> from camkit import Cycloidal, Return
     >>> from camkit.quantities import quantities_of, with_quantities
     >>> rise, back = Rise(120 * deg, 0.02, Cycloidal()), Return(120 * deg, 0.02, Cycloidal())
     >>> turn = MotionProgram((rise, Dwell(60 * deg), back, Dwell(60 * deg, name="rest")))
