@@ -17,6 +17,8 @@ DIGITS = 12
 """Fewer would spoil the acceleration between the rows: by up to 5.8 d / h^2, of a last digit d and rows h apart."""
 LAST = 1e-9
 """A row nearer (rad) to the end of the motion than this is the end."""
+FASTEST = 1e9
+"""Speed of a shaft (rad/s) in a table of values in time."""
 
 
 def motion_csv(
@@ -56,7 +58,9 @@ def motion_csv(
     columns = {"cam angle [deg]": in_unit(angle, "deg")}
     per, times = "rad", 1.0
     if speed is not None:
-        times, per = float(a_number(speed, "the speed (rad/s)", "be above 0", lambda value: value > 0)), "s"
+        may = f"be above 0 and at most {FASTEST:g}"
+        times = float(a_number(speed, "the speed (rad/s)", may, lambda value: (value > 0) & (value <= FASTEST)))
+        per = "s"
         columns["time [s]"] = angle / times
     for k, (name, column) in enumerate(zip("svaj", values, strict=True)):
         columns[f"{name} [{_per(unit, per, k)}]"] = in_unit(column * times**k, unit)
