@@ -16,14 +16,14 @@ from typing import Any, TypeGuard, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from ..motion import FormError, Joint, Law, MotionProgram, Part, Segment, Through, UserLaw
+from ..motion import Boundary, FormError, Law, MotionProgram, Part, Segment, Through, UserLaw
 from ..quantities import Choice, Design, Quantity, declarations, declared_in, unremarked, with_quantities, words
 from ..quantities.kinds import kind_words, shown
 from ..units import factor, in_unit
 from .functions import function_at, place_of
 from .renamed import Given, Renaming, fields_renamed, is_earlier
 
-OF_PROGRAMS = (MotionProgram, Segment, Part, Joint, Through)
+OF_PROGRAMS = (MotionProgram, Segment, Part, Boundary, Through)
 """Programs and what they are made of: their numbers have no unit of their own."""
 MOST_ROWS = 5000
 """Entries of a list: rows of a table, designs of a front; fewer where a field's metadata says ``most``.

@@ -25,7 +25,7 @@ from .lobe import lobe_by_acceleration
 from .made_smooth import matched
 from .matched import MatchedProgram
 from .overshoot import Overshoot
-from .parts import Joint, OpenMove, Part, Polynomial, Through, Uniform
+from .parts import Boundary, OpenMove, Part, Polynomial, Through, Uniform
 from .program import MotionProgram
 from .segments import LAW_MENU, Dwell, Return, Rise, Segment
 from .table import TableMotion, motion_from_table
@@ -39,6 +39,7 @@ __all__ = [
     "LAW_MENU",
     "SPLINE",
     "AccelerationTable",
+    "Boundary",
     "ConstantVelocity",
     "Cycloidal",
     "Degree9",
@@ -55,7 +56,6 @@ __all__ = [
     "HalfCycloidalStart",
     "HalfHarmonicEnd",
     "HalfHarmonicStart",
-    "Joint",
     "Kinematics",
     "Law",
     "MatchedProgram",

@@ -61,7 +61,7 @@ class FormError(Declared):
                 "and a machine whose motion follows from quantities of its own takes no error of form"
             )
         if isinstance(program, MatchedProgram):
-            return FormedMatchedProgram(program.parts, program.joints, program.rest, self, advance=program.advance)
+            return FormedMatchedProgram(program.parts, program.boundaries, program.rest, self, advance=program.advance)
         return FormedProgram(program.segments, program.start, self, advance=program.advance)
 
 

@@ -11,7 +11,7 @@ from ..quantities.kinds import shown
 from .families.constant_velocity import ConstantVelocity
 from .form import FormedProgram
 from .matched import MatchedProgram
-from .parts import FREE, MATCH, Joint, Part, Polynomial, Uniform
+from .parts import FREE, MATCH, Boundary, Part, Polynomial, Uniform
 from .program import MotionProgram
 from .segments import Dwell, Move, Segment
 
@@ -33,17 +33,17 @@ def matched(program: MotionProgram) -> MatchedProgram:
     if not isinstance(program, MotionProgram):
         raise ValueError(f"the program is {shown(program)}; it must be a MotionProgram")
     if isinstance(program, MatchedProgram):
-        return program.replace(joints=tuple(_all_matched(joint) for joint in program.joints))
+        return program.replace(boundaries=tuple(_all_matched(boundary) for boundary in program.boundaries))
     parts = tuple(_freed(program, i) for i in range(len(program.segments)))
     turn = certain(program.periodic)
-    joints = [_joint(program, parts, i, turn) for i in range(len(parts) + (not turn))]
-    smooth = MatchedProgram(parts, tuple(joints), advance=program.advance)
+    boundaries = [_boundary(program, parts, i, turn) for i in range(len(parts) + (not turn))]
+    smooth = MatchedProgram(parts, tuple(boundaries), advance=program.advance)
     return program.form.on(smooth) if isinstance(program, FormedProgram) else smooth
 
 
-def _all_matched(joint: Joint) -> Joint:
-    """A joint where nothing up to the acceleration may jump."""
-    return joint.replace(**{letter: MATCH for letter in "sva" if getattr(joint, letter) is FREE})
+def _all_matched(boundary: Boundary) -> Boundary:
+    """A boundary where nothing up to the acceleration may jump."""
+    return boundary.replace(**{letter: MATCH for letter in "sva" if getattr(boundary, letter) is FREE})
 
 
 def _freed(program: MotionProgram, i: int) -> Segment | Part:
@@ -69,17 +69,17 @@ def _neighbours(program: MotionProgram, i: int) -> list[tuple[Segment, bool]]:
     return [(segment, segment.still) for segment in found]
 
 
-def _joint(program: MotionProgram, parts: tuple[Segment | Part, ...], i: int, turn: bool) -> Joint:
-    """What a joint of the matched program holds, so that levels stay."""
+def _boundary(program: MotionProgram, parts: tuple[Segment | Part, ...], i: int, turn: bool) -> Boundary:
+    """What a boundary of the matched program holds, so that levels stay."""
     n, level = len(parts), program.levels[i]
     if not turn and i in (0, n):
         _, v, a, _ = program.segments[min(i, n - 1)].motion(np.array(float(i == n)))
-        return Joint(level, v, a) if isinstance(parts[min(i, n - 1)], Polynomial) else Joint(level)
+        return Boundary(level, v, a) if isinstance(parts[min(i, n - 1)], Polynomial) else Boundary(level)
     if not isinstance(parts[i], Part) and not isinstance(parts[i - 1], Part):
-        return Joint(level, FREE, FREE)
+        return Boundary(level, FREE, FREE)
     back = certain(program.segments[i - 1].change * program.segments[i].change < 0)
     return (
-        Joint(level, 0.0)
+        Boundary(level, 0.0)
         if back and not isinstance(parts[i - 1], Uniform) and not isinstance(parts[i], Uniform)
-        else Joint(level)
+        else Boundary(level)
     )

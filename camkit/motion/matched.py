@@ -26,12 +26,12 @@ from ..quantities.types import Value
 from .closing import TURN
 from .matching import Asked, solved
 from .overshoot import Overshoot, overshoots
-from .parts import FREE, Joint, Part, Uniform, refuse_names
+from .parts import FREE, Boundary, Part, Uniform, refuse_names
 from .program import MotionProgram
 from .refused import ROUNDED
 from .segments import Dwell, Segment, degrees
 
-RESERVED = ("start", "segments", "advance", "form", "parts", "joints", "rest")
+RESERVED = ("start", "segments", "advance", "form", "parts", "boundaries", "rest")
 MOST_PARTS = 100
 """Of a program: what they leave open is found at once."""
 
@@ -41,37 +41,37 @@ class MatchedProgram(MotionProgram):
     """Parts in a row from cam angle 0, and what holds where they meet; a motion program in all else.
 
     ``parts`` are segments that know their motion (`Dwell`, `Rise`, ...) and others that follow from what holds at their
-    ends: `Polynomial`, `Uniform`, `OpenMove`.  ``joints`` are the transitions where each part begins; that of the first
-    is where the turn ends, too.  A program of less than a turn has one more, where it ends.  Without ``joints``
-    position, velocity and acceleration match everywhere, and the level at cam angle 0 is 0.
+    ends: `Polynomial`, `Uniform`, `OpenMove`.  ``boundaries`` are where each part begins; that of the first is where
+    the turn ends, too.  A program of less than a turn has one more, where it ends.  Without ``boundaries`` position,
+    velocity and acceleration match everywhere, and the level at cam angle 0 is 0.
 
     In a turn one part, by name the ``rest``, takes the angle that the others leave: the one without an angle, else the
     last dwell, else the last part.  What the conditions leave open makes the integral of jerk squared over the
     polynomials least, and that of its derivative once a jerk is given or matched (``order`` 3 or 4).
 
-    Paths call the parts by their own names or by kind and count, such as ``polynomial`` and ``dwell2``, and the joints
-    by theirs or by the part that begins there, such as ``dwell2_start``.  Numbers may be columns ``(p, 1)``, a
-    population.  ``ValueError`` in a sentence for conditions that contradict each other, or leave something open; in a
-    population those rows are ``nan``.
+    Paths call the parts by their own names or by kind and count, such as ``polynomial`` and ``dwell2``, and
+    the boundaries by theirs or by the part that begins there, such as ``dwell2_start``.  Numbers may be columns
+    ``(p, 1)``, a population.  ``ValueError`` in a sentence for conditions that contradict each other, or leave
+    something open; in a population those rows are ``nan``.
     """
 
     segments: tuple[Segment, ...] = field(default=(), init=False, repr=False, compare=False)
     start: Value = field(default=0.0, init=False, repr=False, compare=False)
     parts: tuple[Segment | Part, ...] = ()
-    joints: tuple[Joint, ...] = ()
+    boundaries: tuple[Boundary, ...] = ()
     rest: str = ""
     solved_levels: tuple[Value, ...] = field(default=(), init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", listed(self.parts, "what the program is made of", "part"))
-        object.__setattr__(self, "joints", listed(self.joints, "the transitions of the program", "part"))
+        object.__setattr__(self, "boundaries", listed(self.boundaries, "the transitions of the program", "part"))
         object.__setattr__(self, "advance", a_number(self.advance, "the advance of the program"))
         _refuse_parts(self)
         refuse_lengths(self)
         if self._is_turn():
             self._take_the_rest()
         self._join_all()
-        refuse_names((*self.part_names, *self.joint_names), "a part or a joint of the program", RESERVED)
+        refuse_names((*self.part_names, *self.boundary_names), "a part or a boundary of the program", RESERVED)
         self._solve()
         super().__post_init__()
 
@@ -84,26 +84,26 @@ class MatchedProgram(MotionProgram):
         return tuple(part.name or name for part, name in zip(self.parts, by_kind, strict=True))
 
     @property
-    def joint_names(self) -> tuple[str, ...]:
-        """What paths call the joints."""
+    def boundary_names(self) -> tuple[str, ...]:
+        """What paths call the boundaries."""
         usual = (*(f"{name}_start" for name in self.part_names), "end")
-        return tuple(joint.name or name for joint, name in zip(self.joints, usual, strict=False))
+        return tuple(boundary.name or name for boundary, name in zip(self.boundaries, usual, strict=False))
 
     @property
     def turns(self) -> bool:
         """Whether the last part goes on with the first: it is a program of a turn."""
-        return len(self.joints) == len(self.parts)
+        return len(self.boundaries) == len(self.parts)
 
     @property
     def order(self) -> int:
         """The order of the derivative whose square is least: 3, or 4 where a jerk is given or matched."""
-        return 3 if all(isinstance(joint.j, str) and joint.j == FREE for joint in self.joints) else 4
+        return 3 if all(isinstance(boundary.j, str) and boundary.j == FREE for boundary in self.boundaries) else 4
 
     def branches(self) -> dict[str, Any]:
-        """The joints and the parts by name, in the order of the cam angle."""
-        joints = zip(self.joint_names, self.joints, strict=True)
+        """The boundaries and the parts by name, in the order of the cam angle."""
+        boundaries = zip(self.boundary_names, self.boundaries, strict=True)
         parts = zip(self.part_names, self.parts, strict=True)
-        pairs = chain.from_iterable(zip_longest(joints, parts))
+        pairs = chain.from_iterable(zip_longest(boundaries, parts))
         return {name: part for name, part in filter(None, pairs) if isinstance(part, Declared)}
 
     def following(self) -> dict[str, str]:
@@ -111,20 +111,22 @@ class MatchedProgram(MotionProgram):
         return {f"{self.rest}.angle": "it takes up what the other parts leave of the turn"} if self.rest else {}
 
     def changed(self, changes: Mapping[str, Any]) -> MatchedProgram:
-        """With other parts and joints by name."""
+        """With other parts and boundaries by name."""
         parts = tuple(changes.get(name, part) for name, part in zip(self.part_names, self.parts, strict=True))
-        joints = tuple(changes.get(name, joint) for name, joint in zip(self.joint_names, self.joints, strict=True))
-        return self.replace(parts=parts, joints=joints)
+        boundaries = tuple(
+            changes.get(name, boundary) for name, boundary in zip(self.boundary_names, self.boundaries, strict=True)
+        )
+        return self.replace(parts=parts, boundaries=boundaries)
 
     def with_part(self, i: int, part: Segment | Part) -> Self:
         """With another part in place of the one at ``i``."""
         i = whole(i, "the place of the part", 0, len(self.parts) - 1)
         return self.replace(parts=(*self.parts[:i], part, *self.parts[i + 1 :]))
 
-    def with_joint(self, i: int, joint: Joint) -> Self:
-        """With another joint in place of the one at ``i``."""
-        i = whole(i, "the place of the joint", 0, len(self.joints) - 1)
-        return self.replace(joints=(*self.joints[:i], joint, *self.joints[i + 1 :]))
+    def with_boundary(self, i: int, boundary: Boundary) -> Self:
+        """With another boundary in place of the one at ``i``."""
+        i = whole(i, "the place of the boundary", 0, len(self.boundaries) - 1)
+        return self.replace(boundaries=(*self.boundaries[:i], boundary, *self.boundaries[i + 1 :]))
 
     def _levels(self) -> list[Any]:
         return list(self.solved_levels)
@@ -144,7 +146,7 @@ class MatchedProgram(MotionProgram):
     def _giving(self, numbers: range) -> int:
         found = [i for i in numbers if i in self._own_angles]
         if not found:
-            raise ValueError("the joint cannot be moved: on one side of it all angles follow from other numbers")
+            raise ValueError("the boundary cannot be moved: on one side of it all angles follow from other numbers")
         return found[0]
 
     def _with_angles(self, angles: Mapping[int, Value]) -> Self:
@@ -157,9 +159,9 @@ class MatchedProgram(MotionProgram):
         return [i for i, part in enumerate(self.parts) if not (isinstance(part, Uniform) and part.angle is None)]
 
     def _is_turn(self) -> bool:
-        """Whether it is a program of a turn, as far as the joints, the rest and the angles say."""
-        if self.joints or self.rest:
-            return self.turns or not self.joints
+        """Whether it is a program of a turn, as far as the boundaries, the rest and the angles say."""
+        if self.boundaries or self.rest:
+            return self.turns or not self.boundaries
         angles = list(map(_taken, self.parts))
         return any(angle is None for angle in angles) or certain(np.abs(sum(angles) - TURN) <= ROUNDED)
 
@@ -177,17 +179,17 @@ class MatchedProgram(MotionProgram):
         object.__setattr__(self, "parts", (*self.parts[:i], part, *self.parts[i + 1 :]))
 
     def _join_all(self) -> None:
-        """The joints, each that is not given matched."""
-        if not self.joints:
+        """The boundaries, each that is not given matched."""
+        if not self.boundaries:
             more = len(self.parts) - bool(self.rest)
-            object.__setattr__(self, "joints", (Joint(s=0.0), *(Joint() for _ in range(more))))
+            object.__setattr__(self, "boundaries", (Boundary(s=0.0), *(Boundary() for _ in range(more))))
 
     def _solve(self) -> None:
         """Find the motion of each part."""
         asked = [
             Asked(part, name, _taken(part), self.order) for part, name in zip(self.parts, self.part_names, strict=True)
         ]
-        found = solved(asked, self.joints, self.advance if self.turns else None)
+        found = solved(asked, self.boundaries, self.advance if self.turns else None)
         levels = found.levels
         if not certain(found.possible):
             levels = [np.where(found.possible, level, np.nan) for level in levels]
@@ -230,7 +232,7 @@ def _refuse_parts(program: MatchedProgram) -> None:
                 f"part {i} of the program is {shown(part)}; it must be a segment, or a part such as Polynomial"
             )
     refuse_kinds(program, ("segments", "start", "parts", "solved_levels", "advance"))
-    n, given = len(program.parts), len(program.joints)
+    n, given = len(program.parts), len(program.boundaries)
     if n > MOST_PARTS:
         raise ValueError(f"the program has {n} parts; there can be at most {MOST_PARTS} whose transitions are matched")
     if given not in (0, n, n + 1):

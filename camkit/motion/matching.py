@@ -21,7 +21,7 @@ from ..quantities.types import Value
 from .curve import _Curve, _LiftedLaw, bending, hermite, newton, slope_at, slopes
 from .families.free import LETTERS
 from .linear import Conditions, Linear, weighed
-from .parts import MATCH, Joint, OpenMove, Part, Polynomial, Uniform
+from .parts import MATCH, Boundary, OpenMove, Part, Polynomial, Uniform
 from .segments import Dwell, Segment
 
 NAMES = ("level", "velocity", "acceleration", "jerk")
@@ -61,19 +61,19 @@ class Asked(NamedTuple):
     order: int
 
 
-def solved(asked: Sequence[Asked], joints: Sequence[Joint], advance: Value | None) -> Matching:
-    """The motion of parts with ``joints`` where each begins, and where the last ends unless it goes on with the first.
+def solved(asked: Sequence[Asked], boundaries: Sequence[Boundary], advance: Value | None) -> Matching:
+    """The motion of parts with ``boundaries``: where each begins, and where the last ends, unless a turn goes on.
 
     Over the end of a turn the level is an ``advance`` further; ``None``: it does not go on.
     """
     conditions = Conditions()
     with np.errstate(all="ignore"):
         laid = [_laid(each, conditions) for each in asked]
-        for i, joint in enumerate(joints):
+        for i, boundary in enumerate(boundaries):
             where = f"where {asked[i].name} begins" if i < len(asked) else f"where {asked[-1].name} ends"
             sides = _sides(laid, i, advance)
             for k in range(asked[0].order):
-                _join(conditions, [side[k] for side in sides], getattr(joint, LETTERS[k]), f"the {NAMES[k]} {where}")
+                _join(conditions, [side[k] for side in sides], getattr(boundary, LETTERS[k]), f"the {NAMES[k]} {where}")
         numbers = conditions.least(size for each in laid for size in each.sizes)
 
         def number(form: Linear) -> Value:

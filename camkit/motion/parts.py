@@ -74,13 +74,13 @@ class _Some(Declared):
 
 
 @dataclass(frozen=True)
-class Joint(_Some):
+class Boundary(_Some):
     """What holds at a transition: for each of ``s, v, a, j`` a number, ``"match"`` or ``"free"``.
 
     A number (m or rad, per rad^k) is what both sides have; ``"match"``: they have the same; ``"free"``: it may jump.
     Numbers may be columns ``(p, 1)``.  ``ValueError`` for anything else.
 
-    >>> Joint(s=0.02, v=0.0).v, Joint().a, Joint().j
+    >>> Boundary(s=0.02, v=0.0).v, Boundary().a, Boundary().j
     (0.0, 'match', 'free')
     """
 
@@ -96,7 +96,7 @@ class Joint(_Some):
             value = getattr(self, letter)
             if not (isinstance(value, str) and value in (MATCH, FREE)):
                 must = "be a finite number, 'match' or 'free'"
-                object.__setattr__(self, letter, a_number(value, f"the {letter} of a joint", must))
+                object.__setattr__(self, letter, a_number(value, f"the {letter} of a boundary", must))
         refuse_lengths(self)
 
     def following(self) -> dict[str, str]:

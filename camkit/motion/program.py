@@ -146,25 +146,25 @@ class MotionProgram(Declared):
         return self.replace(segments=tuple(segments), start=changes.get("start", self.start))
 
     def with_edge(self, number: int, angle: float) -> Self:
-        """With the joint of that number at another cam angle (rad); what one neighbour gains the other gives.
+        """With the transition of that number at another cam angle (rad); what one neighbour gains the other gives.
 
-        Joint 1 is the end of the first segment; the ends of the program stay.  A segment whose angle follows from its
-        other numbers is moved along.  ``ValueError`` where a neighbour has not so much to give.
+        Transition 1 is the end of the first segment; the ends of the program stay.  A segment whose angle follows from
+        its other numbers is moved along.  ``ValueError`` where a neighbour has not so much to give.
 
         >>> from camkit.motion import Cycloidal, Dwell, Return, Rise
         >>> rise, back = Rise(2.0, 0.02, Cycloidal()), Return(2.0, 0.02, Cycloidal())
         >>> [segment.angle for segment in MotionProgram((rise, Dwell(1.0), back)).with_edge(2, 3.5).segments]
         [2.0, 1.5, 1.5]
         """
-        number = whole(number, "the number of the joint", 1, max(1, len(self.segments) - 1))
-        to = a_number(angle, f"the cam angle of joint {number}")
+        number = whole(number, "the number of the transition", 1, max(1, len(self.segments) - 1))
+        to = a_number(angle, f"the cam angle of transition {number}")
         before, after = (self._giving(range(*ends)) for ends in ((number - 1, -1, -1), (number, len(self.segments))))
         by, angles = to - self.starts[number], [segment.angle for segment in self.segments]
         if refuse := unless((by > -angles[before]) & (by < angles[after])):
             low, high = (self.starts[number] + by for by in (-angles[before], angles[after]))
             refuse(
-                f"joint {number} is to be at {degrees(to)}; it can lie between {degrees(low)} and {degrees(high)}, "
-                f"where {self.names[before]} and {self.names[after]} have some angle left"
+                f"transition {number} is to be at {degrees(to)}; it can lie between {degrees(low)} and "
+                f"{degrees(high)}, where {self.names[before]} and {self.names[after]} have some angle left"
             )
         return self._with_angles({before: angles[before] + by, after: angles[after] - by})
 

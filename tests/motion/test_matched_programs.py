@@ -14,11 +14,11 @@ from camkit.cam.conjugate import opposite
 from camkit.cam.measures import max_pressure_angle
 from camkit.files import from_json, read_json, to_json
 from camkit.motion import (
+    Boundary,
     Cycloidal,
     Dwell,
     FormError,
     FreePolynomial,
-    Joint,
     MatchedProgram,
     MotionProgram,
     OpenMove,
@@ -46,7 +46,7 @@ def conveyor(first=60 * deg, velocity=BELT):
 
 def lobe(points, form, jerk="free"):
     part = Polynomial(150 * deg, points, form, name="lobe")
-    return MatchedProgram((part, Dwell(60 * deg), Polynomial()), (Joint(0.0, j=jerk), Joint(5 * mm), Joint()))
+    return MatchedProgram((part, Dwell(60 * deg), Polynomial()), (Boundary(0.0, j=jerk), Boundary(5 * mm), Boundary()))
 
 
 def least_by_splines(order, knots, rows, values, n=60):
@@ -79,8 +79,12 @@ def test_it_is_the_least_of_fine_splines_that_meet_the_same(order, jerk):
     """Rest at 0, 8 mm at 60 deg, 12 mm with 3 mm/rad at 100 deg, rest at 20 mm at 170 deg."""
     rest = {"v": 0.0, "a": 0.0, "j": jerk}
     parts = (Polynomial(100 * deg, (Through(0.6, s=8 * mm),), "spline"), Polynomial(70 * deg))
-    joints = (Joint(0.0, **rest), Joint(12 * mm, 3 * mm, j="match" if order == 4 else "free"), Joint(20 * mm, **rest))
-    program = MatchedProgram(parts, joints)
+    boundaries = (
+        Boundary(0.0, **rest),
+        Boundary(12 * mm, 3 * mm, j="match" if order == 4 else "free"),
+        Boundary(20 * mm, **rest),
+    )
+    program = MatchedProgram(parts, boundaries)
     assert program.order == order
     ends = [(x, k) for x in (0.0, 170 * deg) for k in range(order)]
     rows = [*ends, (60 * deg, 0), (100 * deg, 0), (100 * deg, 1)]
@@ -113,8 +117,8 @@ def test_it_closes_reaches_what_is_given_and_is_smooth(angles, levels, slope, pl
         Polynomial(angles[2] * deg),
         Polynomial(),
     )
-    joints = (Joint(first, j=jerk), Joint(j=jerk), Joint(j=jerk), Joint(top, 0.0, j=jerk))
-    program = MatchedProgram(parts, joints)
+    boundaries = (Boundary(first, j=jerk), Boundary(j=jerk), Boundary(j=jerk), Boundary(top, 0.0, j=jerk))
+    program = MatchedProgram(parts, boundaries)
     assert program(angles[0] * place * deg).s == pytest.approx(inside, abs=1e-9)
     assert_allclose(program.levels[3], top, atol=1e-12)
     assert_allclose(program([0.0, 2 * np.pi]).s, first, atol=1e-11)
@@ -146,14 +150,16 @@ STEP = Polynomial(80 * deg)
 @pytest.mark.parametrize(
     "make",
     [
-        lambda h: MatchedProgram((STEP, STEP, Dwell(1.0), Polynomial()), (Joint(0.0), Joint(h), Joint(0.02), Joint())),
+        lambda h: MatchedProgram(
+            (STEP, STEP, Dwell(1.0), Polynomial()), (Boundary(0.0), Boundary(h), Boundary(0.02), Boundary())
+        ),
         lambda h: MatchedProgram((STEP, Uniform(h, angle=0.7), Polynomial(), Dwell(1.0))),
         lambda h: MatchedProgram((STEP, Uniform(travel=h, angle=0.7), Polynomial(), Dwell(1.0))),
         lambda h: MatchedProgram((STEP, Rise(0.7, h, SimpleHarmonic()), Polynomial(), Dwell(1.0))),
         lambda h: MatchedProgram((STEP, Uniform(0.6, angle=0.7), Polynomial(), Dwell(1.0)), advance=100 * h),
         lambda h: MatchedProgram(
             (STEP.replace(through=(Through(0.4, s=h),), form="spline"), Dwell(1.0), Polynomial()),
-            (Joint(0.0), Joint(h / 3), Joint()),
+            (Boundary(0.0), Boundary(h / 3), Boundary()),
         ),
     ],
     ids=["level", "velocity", "travel", "lift", "advance", "point"],
@@ -172,7 +178,7 @@ def test_a_population_whose_angles_are_those_of_one(make):
 CAM = TranslatingRollerCam(motion=conveyor(), base_radius=120 * mm)
 
 
-def test_paths_are_those_of_parts_and_joints():
+def test_paths_are_those_of_parts_and_boundaries():
     quantities = quantities_of(CAM)
     mine = {path.removeprefix("motion."): q.unit for path, q in quantities.items() if path.startswith("motion.")}
     assert mine == {
@@ -199,7 +205,7 @@ def test_paths_are_those_of_parts_and_joints():
         (
             MatchedProgram(
                 (Polynomial(100 * deg), OpenMove(80 * deg, ShapedLaw(Cycloidal())), Dwell(180 * deg)),
-                (Joint(0.0), Joint(12 * mm, 0.0, 0.0), Joint()),
+                (Boundary(0.0), Boundary(12 * mm, 0.0, 0.0), Boundary()),
             ),
             {"polynomial.angle": 90 * deg, "open_move.law.c1": 0.1},
         ),
@@ -220,9 +226,9 @@ def test_a_recorded_program_does_the_same(motion, changes):
 def test_an_open_move_whose_law_may_end_anyhow_says_why_it_is_not_recorded():
     law = FreePolynomial(start=(0, 0, 0), end=(1, 0.5, 0))
     parts = (Polynomial(100 * deg), OpenMove(80 * deg, law), Polynomial())
-    motion = MatchedProgram(parts, (Joint(0.0), Joint(), Joint(8 * mm)))
+    motion = MatchedProgram(parts, (Boundary(0.0), Boundary(), Boundary(8 * mm)))
     assert motion.segments[1].motion(np.array(1.0)).v == pytest.approx(0.5 * motion.segments[1].lift / (80 * deg))
-    assert all(joint.lawful for joint in motion.transitions())
+    assert all(boundary.lawful for boundary in motion.transitions())
     with pytest.raises(CannotRecord, match="whether the law of an open move comes to rest at its ends follows from"):
         record(lambda cam: {"s": cam.motion(X).s}, CAM.replace(motion=motion))
 
@@ -241,7 +247,7 @@ def test_a_file_gives_back_what_was_saved():
     for motion in (
         conveyor(),
         lobe((Through(angle=1.0, s=20 * mm, name="tip"),), "spline"),
-        MatchedProgram(move, (Joint(0.0, name="zero"), Joint(12 * mm, 0.0, "free"), Joint(a="free"))),
+        MatchedProgram(move, (Boundary(0.0, name="zero"), Boundary(12 * mm, 0.0, "free"), Boundary(a="free"))),
     ):
         cam = CAM.replace(motion=motion)
         assert from_json(to_json(cam)) == cam
@@ -260,7 +266,7 @@ def test_a_study_finds_the_best_edge():
     tried = [float(peak(with_quantities(CAM, {"motion.up.angle": x * deg}).analyse(181))) for x in range(45, 91, 3)]
     assert float(peak(found.design.analyse(181))) <= min(tried) + 1e-9
     assert 45 * deg <= best <= 90 * deg
-    assert all(joint.lawful for joint in found.design.motion.transitions())
+    assert all(boundary.lawful for boundary in found.design.motion.transitions())
 
 
 def test_an_error_of_form_rides_on_it_and_the_second_cam_of_a_pair_takes_it_downwards():
@@ -279,9 +285,9 @@ def test_a_rough_program_becomes_smooth_and_keeps_its_angles_and_levels():
     rough = MotionProgram(
         (Rise(60 * deg, 8 * mm, law), Rise(80 * deg, 12 * mm, law), Return(100 * deg, 20 * mm, law), Dwell(120 * deg))
     )
-    assert not any(joint.lawful for joint in rough.transitions())
+    assert not any(boundary.lawful for boundary in rough.transitions())
     smooth = matched(rough)
-    assert all(joint.lawful for joint in smooth.transitions())
+    assert all(boundary.lawful for boundary in smooth.transitions())
     assert smooth.part_names == rough.names
     assert_allclose(smooth.edges, rough.edges)
     assert_allclose(smooth.levels, rough.levels, atol=1e-15)
@@ -300,7 +306,7 @@ def test_a_rough_motion_that_goes_on_stays_one_and_keeps_its_error_of_form():
         smooth = matched(rough)
         assert smooth.advance == rough.advance
         assert_allclose(smooth.levels, rough.levels, atol=1e-15)
-        assert all(joint.lawful for joint in smooth.transitions())
+        assert all(boundary.lawful for boundary in smooth.transitions())
     made = FormError(amplitude=1e-5, waves=5).on(MotionProgram((Rise(1.0, 0.02, law), Dwell(1.0))))
     assert matched(made).form == made.form
 
@@ -310,7 +316,7 @@ def test_a_moved_joint_takes_from_its_neighbour_in_every_program():
     plain = MotionProgram((Rise(2.0, 0.02, law), Dwell(1.0), Return(2.0, 0.02, law)))
     assert_allclose(plain.with_edge(1, 2.5).edges, [0, 2.5, 3, 5])
     assert_allclose(plain.with_edge(2, 2.5).edges, [0, 2, 2.5, 5])
-    with pytest.raises(ValueError, match="joint 1 is to be at 180 deg; it can lie between 0 deg and 171"):
+    with pytest.raises(ValueError, match="transition 1 is to be at 180 deg; it can lie between 0 deg and 171"):
         plain.with_edge(1, np.pi)
 
 
@@ -320,23 +326,26 @@ POLY = Polynomial(1.0)
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: conveyor().with_joint(0, Joint()), "the level where up ends is not determined"),
-        (lambda: conveyor().with_joint(1, Joint(v=0.05)), "contradict each other: the velocity where hold begins"),
-        (lambda: conveyor().with_joint(3, Joint(s=0.1)), "contradict each other: the level where .* 0.1 apart"),
+        (lambda: conveyor().with_boundary(0, Boundary()), "the level where up ends is not determined"),
+        (
+            lambda: conveyor().with_boundary(1, Boundary(v=0.05)),
+            "contradict each other: the velocity where hold begins",
+        ),
+        (lambda: conveyor().with_boundary(3, Boundary(s=0.1)), "contradict each other: the level where .* 0.1 apart"),
         (lambda: conveyor().with_part(3, Dwell(300 * deg)), "the other parts take 377.4 deg of the turn"),
-        (lambda: conveyor().replace(joints=(Joint(),)), "1 transitions and 4 parts"),
+        (lambda: conveyor().replace(boundaries=(Boundary(),)), "1 transitions and 4 parts"),
         (lambda: MatchedProgram(()), "the program is empty"),
         (lambda: MatchedProgram((POLY, 3)), "part 2 of the program is 3"),
         (lambda: MatchedProgram((Polynomial(), Polynomial())), "polynomial and polynomial2 have no angle"),
         (lambda: MatchedProgram((POLY, Dwell(1.0)), rest="x"), "given to x; the parts are polynomial, dwell"),
-        (lambda: MatchedProgram((POLY, POLY), (Joint(0.0), Joint())), "name the part that takes the rest"),
+        (lambda: MatchedProgram((POLY, POLY), (Boundary(0.0), Boundary())), "name the part that takes the rest"),
         (lambda: MatchedProgram((POLY,) * 101), "at most 100"),
         (lambda: MatchedProgram((Polynomial(1.0, name="rest"), Dwell(1.0))), "is called rest"),
         (lambda: Uniform(0.1, -0.1), "a travel of -0.1"),
         (lambda: Uniform(0.1, 0.1, 1.0), "give two of them"),
         (lambda: Through(0.5), "gives nothing"),
         (lambda: Through(s=1.0), "a share or an angle"),
-        (lambda: Joint(s="fee"), "the s of a joint is 'fee'"),
+        (lambda: Boundary(s="fee"), "the s of a boundary is 'fee'"),
         (lambda: Polynomial(1.0, form="cubic"), "the form of the polynomial is 'cubic'"),
         (lambda: lobe((Through(0.5, s=0.01), Through(0.4, s=0.02)), "spline"), "one after the other"),
         (
@@ -344,7 +353,10 @@ POLY = Polynomial(1.0)
             "the velocity inside lobe cannot be met",
         ),
         (lambda: conveyor().with_part(9, POLY), "the place of the part is 9; it must be a whole number of at most 3"),
-        (lambda: conveyor().with_joint(-1, Joint()), "the place of the joint is -1; it must be a whole number"),
+        (
+            lambda: conveyor().with_boundary(-1, Boundary()),
+            "the place of the boundary is -1; it must be a whole number",
+        ),
         (lambda: matched(3), "it must be a MotionProgram"),
     ],
 )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit.motion import Dwell, Joint, MatchedProgram, OpenMove, Poly345, Polynomial, Through, Uniform
+from camkit.motion import Boundary, Dwell, MatchedProgram, OpenMove, Poly345, Polynomial, Through, Uniform
 from camkit.units import deg, inch, mm, rpm
 
 BELT = 22 * inch / (58 * rpm)
@@ -22,7 +22,7 @@ def conveyor(first=60 * deg, velocity=BELT, jerk="free"):
         Polynomial(name="back"),
         Dwell(60 * deg),
     )
-    return MatchedProgram(parts, (Joint(s=0.0, j=jerk), *(Joint(j=jerk) for _ in range(3))))
+    return MatchedProgram(parts, (Boundary(s=0.0, j=jerk), *(Boundary(j=jerk) for _ in range(3))))
 
 
 def dense(program, n=72001):
@@ -90,10 +90,10 @@ def test_where_the_conveyor_is_fastest():
 @pytest.mark.parametrize("jerk", ["free", JERK])
 def test_nothing_jumps_where_parts_meet(jerk):
     for first in (55, 60, 65):
-        for joint in conveyor(first * deg, jerk=jerk).transitions():
-            assert max(abs(joint.s), abs(joint.v), abs(joint.a)) < 1e-12 * (1 if jerk == "free" else 100)
-            assert joint.lawful
-            assert joint.order == (3 if jerk == "free" else None)
+        for boundary in conveyor(first * deg, jerk=jerk).transitions():
+            assert max(abs(boundary.s), abs(boundary.v), abs(boundary.a)) < 1e-12 * (1 if jerk == "free" else 100)
+            assert boundary.lawful
+            assert boundary.order == (3 if jerk == "free" else None)
 
 
 def test_a_moved_edge_takes_from_its_neighbour():
@@ -102,7 +102,7 @@ def test_a_moved_edge_takes_from_its_neighbour():
     assert_allclose(moved.levels, conveyor(65 * deg).levels, atol=1e-15)
     later = conveyor().with_edge(2, 80 * deg)  # the held stretch keeps its angle, so both its ends move
     assert_allclose([segment.angle / deg for segment in later.segments], [62.6, 17.4, 220, 60])
-    with pytest.raises(ValueError, match=r"joint 1 is to be at 300 deg; it can lie between 0 deg and 282\.6 deg"):
+    with pytest.raises(ValueError, match=r"transition 1 is to be at 300 deg; it can lie between 0 deg and 282\.6 deg"):
         conveyor().with_edge(1, 300 * deg)
 
 
@@ -151,8 +151,8 @@ def test_up_and_down_as_a_spline():
 ])  # fmt: skip
 def test_an_indexer(jerk, top, values):
     """45 deg in 100 deg, every turn."""
-    joints = (Joint(s=0.0, j=jerk), Joint(j=jerk))
-    program = MatchedProgram((Polynomial(100 * deg), Dwell(260 * deg)), joints, advance=45 * deg)
+    boundaries = (Boundary(s=0.0, j=jerk), Boundary(j=jerk))
+    program = MatchedProgram((Polynomial(100 * deg), Dwell(260 * deg)), boundaries, advance=45 * deg)
     assert program.peaks().velocity.value == pytest.approx(top, rel=1e-9)
     for angle, wanted in values.items():
         assert_allclose(program(angle * deg)[:3], wanted, atol=1e-12)
@@ -163,13 +163,13 @@ def test_an_indexer(jerk, top, values):
 @pytest.mark.parametrize(("jerk", "least"), [("free", 0.3890625), (JERK, 0.35390625)])
 def test_a_rotary_knife(jerk, least):
     """180 deg a turn, at 0.6 of the shaft's speed for 40 deg."""
-    joints = (Joint(s=0.0, j=jerk), Joint(j=jerk))
-    program = MatchedProgram((Uniform(0.6, angle=40 * deg), Polynomial()), joints, advance=180 * deg)
+    boundaries = (Boundary(s=0.0, j=jerk), Boundary(j=jerk))
+    program = MatchedProgram((Uniform(0.6, angle=40 * deg), Polynomial()), boundaries, advance=180 * deg)
     assert program([200 * deg]).v == pytest.approx(least)
     assert program(np.linspace(0, 2 * np.pi, 3601)).v.min() == pytest.approx(least)
     if jerk == "free":
         assert_allclose(program(120 * deg)[:2], (1.1915962760295669, 0.48134765625))
-    assert all(joint.lawful for joint in program.transitions())
+    assert all(boundary.lawful for boundary in program.transitions())
 
 
 @pytest.mark.parametrize(("jerk", "at_60"), [
@@ -178,9 +178,9 @@ def test_a_rotary_knife(jerk, least):
 def test_a_waypoint(jerk, at_60):
     """Rest, 8 mm at 60, rest at 20 mm at 140, dwell to 200 and back: what is left open is smooth by itself."""
     parts = (Polynomial(60 * deg), Polynomial(80 * deg), Dwell(60 * deg), Polynomial(160 * deg))
-    start = Joint(0.0, 0.0, 0.0, 0.0 if jerk == JERK else "free")
-    joints = (start, Joint(8 * mm, j=jerk), Joint(20 * mm, j=jerk), Joint(j=jerk))
-    program = MatchedProgram(parts, joints)
+    start = Boundary(0.0, 0.0, 0.0, 0.0 if jerk == JERK else "free")
+    boundaries = (start, Boundary(8 * mm, j=jerk), Boundary(20 * mm, j=jerk), Boundary(j=jerk))
+    program = MatchedProgram(parts, boundaries)
     for motion in (program.segments[0].motion(np.array(1.0)), program.segments[1].motion(np.array(0.0))):
         assert_allclose(np.array(motion[1:]) / mm, at_60, rtol=1e-6)
     if jerk == "free":
@@ -192,7 +192,7 @@ def test_a_waypoint(jerk, at_60):
 def test_a_reversal():
     """a = -(20 h / 3) (1/b1^2 - 1/(b1 b2) + 1/b2^2) where it turns back."""
     parts = (Polynomial(120 * deg), Polynomial(180 * deg), Dwell(60 * deg))
-    program = MatchedProgram(parts, (Joint(0.0), Joint(25 * mm, 0.0), Joint(0.0)))
+    program = MatchedProgram(parts, (Boundary(0.0), Boundary(25 * mm, 0.0), Boundary(0.0)))
     b1, b2 = 120 * deg, 180 * deg
     wanted = -20 * 25 / 3 * (1 / b1**2 - 1 / (b1 * b2) + 1 / b2**2)
     assert wanted == pytest.approx(-29.552012)
@@ -234,12 +234,14 @@ def test_rest_to_rest_gives_the_polynomials_of_the_books():
         (JERK, "free", [-20, 70, -84, 35, 0, 0, 0, 0]),
         ("free", JERK, [-6, 21, -21, 0, 7, 0, 0, 0]),
     ):
-        program = MatchedProgram(parts, (Joint(0.0, j=up), Joint(0.03, j=up), Joint(j=down), Joint(0.0, j=down)))
+        program = MatchedProgram(
+            parts, (Boundary(0.0, j=up), Boundary(0.03, j=up), Boundary(j=down), Boundary(0.0, j=down))
+        )
         assert_allclose(program(2 * u).s, 0.03 * np.polyval(law, u), atol=1e-15)
 
 
 def test_an_open_move_finds_its_lift():
     parts = (Polynomial(100 * deg), OpenMove(80 * deg, Poly345()), Dwell(180 * deg))
-    program = MatchedProgram(parts, (Joint(0.0), Joint(12 * mm, 0.0, 0.0), Joint()))
+    program = MatchedProgram(parts, (Boundary(0.0), Boundary(12 * mm, 0.0, 0.0), Boundary()))
     assert_allclose(program.levels, [0, 12 * mm, 0, 0], atol=1e-15)
     assert program(140 * deg).s == pytest.approx(6 * mm)

@@ -7,7 +7,7 @@ from try_everything import try_everything
 
 from camkit import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic, deg, edit_program, mm, rpm
 from camkit.files import from_json
-from camkit.motion import Joint, MatchedProgram, OpenMove, Polynomial, ShapedLaw, Through, Uniform
+from camkit.motion import Boundary, MatchedProgram, OpenMove, Polynomial, ShapedLaw, Through, Uniform
 from camkit.panels.kit.inputs import Copy
 from camkit.panels.kit.parts import Button
 from camkit.panels.kit.program_code import code_of
@@ -27,7 +27,7 @@ def editor():
 
 def condition(editor, transition, letter):
     """A condition of the transition behind a segment."""
-    return editor.transitions[transition].joint.conditions["svaj".index(letter)]
+    return editor.transitions[transition].boundary.conditions["svaj".index(letter)]
 
 
 def want(editor, transition, letter, wanted):
@@ -62,8 +62,8 @@ def test_the_conveyor_says_what_is_given_and_what_follows(editor):
     assert [row.note.text for row in editor.rows] == ["", "", "closes the turn", ""]
     assert editor.rest.value == 2
     assert editor.verdict.text == SMOOTH
-    assert [row.joint.group.visible for row in editor.transitions] == [True] * 4
-    assert [[c.menu.value for c in row.joint.conditions] for row in editor.transitions] == [
+    assert [row.boundary.group.visible for row in editor.transitions] == [True] * 4
+    assert [[c.menu.value for c in row.boundary.conditions] for row in editor.transitions] == [
         *[["match", "match", "match", "free"]] * 3,
         ["value", "match", "match", "free"],
     ]
@@ -123,7 +123,7 @@ def test_what_holds_at_a_transition_is_matched_free_or_a_value(editor):
     want(editor, 3, "s", "value")
     do(editor, condition(editor, 3, "s").box, value=12.5)
     assert editor.program.start == pytest.approx(12.5 * mm)
-    assert editor.program.joints[0] == Joint(s=12.5 * mm)
+    assert editor.program.boundaries[0] == Boundary(s=12.5 * mm)
 
 
 def test_values_at_a_transition_are_in_time_at_the_speed(editor):
@@ -162,7 +162,7 @@ def test_a_program_of_laws_becomes_one_that_matches():
         Return(90 * deg, 20 * mm, Cycloidal()),
     )
     editor = edit_program(MotionProgram((*segments, Dwell(60 * deg))))
-    assert not any(row.joint.group.visible for row in editor.transitions)
+    assert not any(row.boundary.group.visible for row in editor.transitions)
     kind(editor, 2, "constant velocity")
     assert isinstance(editor.draft.parts[2], Uniform)
     assert editor.program(150 * deg).s == pytest.approx(20 * mm)  # what does not move yet stays where it was
@@ -267,10 +267,12 @@ def test_segments_of_a_matched_program_come_and_go(editor):
 
 
 def test_a_motion_of_less_than_a_turn_has_conditions_at_both_ends():
-    editor = edit_program(MatchedProgram((Polynomial(90 * deg),), (Joint(0.0, 0.0, 0.0), Joint(20 * mm, 0.0, 0.0))))
+    editor = edit_program(
+        MatchedProgram((Polynomial(90 * deg),), (Boundary(0.0, 0.0, 0.0), Boundary(20 * mm, 0.0, 0.0)))
+    )
     assert editor.first.row.visible
     want(editor, 0, "v", "free")
-    assert isinstance(editor.program.joints[1].v, str)
+    assert isinstance(editor.program.boundaries[1].v, str)
 
 
 def test_every_control_of_a_matched_program_can_be_moved(editor):

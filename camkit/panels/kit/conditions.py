@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ...motion import Joint, Through
+from ...motion import Boundary, Through
 from ...motion.parts import FREE, MATCH
 from ...units import deg, in_unit
 from ...views.laws import MotionUnits
@@ -17,7 +17,7 @@ from .quiet import Quiet
 LETTERS = ("s", "v", "a", "j")
 NAMES = ("position", "velocity", "acceleration", "jerk")
 VALUE = "value"
-USUAL = Joint()
+USUAL = Boundary()
 """What holds at a transition of which nothing is said."""
 DIGITS = 6
 """Of a value that is taken from the motion as it is; one that is shown has one more."""
@@ -50,17 +50,17 @@ class Condition:
         self.group.look = "condition usual" if usual else "condition"
 
 
-class JointRow:
+class BoundaryRow:
     """The conditions of one transition."""
 
     def __init__(self, quiet: Quiet, take: Callable[[int, Wanted], None]) -> None:
         self.conditions = [Condition(k, (MATCH, FREE), quiet, take) for k in range(4)]
-        self.group = row(*(condition.group for condition in self.conditions), look="joint")
+        self.group = row(*(condition.group for condition in self.conditions), look="boundary")
 
-    def show(self, joint: Joint, now: Sequence[float], units: MotionUnits) -> None:
-        """Show the conditions of a joint; ``now`` are s, v, a, j there."""
+    def show(self, boundary: Boundary, now: Sequence[float], units: MotionUnits) -> None:
+        """Show the conditions of a boundary; ``now`` are s, v, a, j there."""
         for condition, letter, there in zip(self.conditions, LETTERS, now, strict=True):
-            wanted = getattr(joint, letter)
+            wanted = getattr(boundary, letter)
             condition.show(wanted, there, units, wanted == getattr(USUAL, letter))
 
 
@@ -72,7 +72,7 @@ class PointRow:
         self.conditions = [Condition(k, (FREE,), quiet, self._given) for k in range(3)]
         self._take = take
         drop = icon("−", lambda: take(lambda: None), "remove this point")
-        self.group = row(self.place, *(one.group for one in self.conditions), drop, look="joint point")
+        self.group = row(self.place, *(one.group for one in self.conditions), drop, look="boundary point")
         quiet.hear(self.place, self._placed)
 
     def show(self, point: Through, angle: float, now: Sequence[float], units: MotionUnits) -> None:

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ...motion import Joint, MatchedProgram, MotionProgram, Segment, Uniform, matched
+from ...motion import Boundary, MatchedProgram, MotionProgram, Segment, Uniform, matched
 from ...motion.parts import Part
 from ...quantities.kinds import kind_words
 from ...units import in_unit
@@ -17,13 +17,13 @@ from .program_edits import DIGITS
 class Draft:
     """The parts of a motion program and what holds where they meet; ``program`` is the last one that was possible.
 
-    A program of laws alone is always possible; it has no ``joints``.  ``rest`` is the place of the part that takes the
-    rest of the turn.
+    A program of laws alone is always possible; it has no ``boundaries``.  ``rest`` is the place of the part that takes
+    the rest of the turn.
     """
 
     program: MotionProgram
     parts: tuple[Segment | Part, ...]
-    joints: tuple[Joint, ...] = ()
+    boundaries: tuple[Boundary, ...] = ()
     rest: int | None = None
 
     @classmethod
@@ -32,19 +32,19 @@ class Draft:
         if not isinstance(program, MatchedProgram):
             return cls(program, program.segments)
         rest = program.part_names.index(program.rest) if program.rest else None
-        return cls(program, program.parts, program.joints, rest)
+        return cls(program, program.parts, program.boundaries, rest)
 
     @property
     def matched(self) -> bool:
         """Whether conditions where the parts meet say how it moves, and not laws alone."""
-        return bool(self.joints)
+        return bool(self.boundaries)
 
     @property
     def turns(self) -> bool:
         """Whether it goes around: the last part meets the first."""
-        return len(self.joints) == len(self.parts) if self.matched else bool(self.program.periodic)
+        return len(self.boundaries) == len(self.parts) if self.matched else bool(self.program.periodic)
 
-    def with_joints(self) -> Draft:
+    def with_boundaries(self) -> Draft:
         """The same with conditions: moves by a law become polynomials with the same levels."""
         return self if self.matched else Draft.of(matched(self.program))
 
@@ -54,7 +54,7 @@ class Draft:
             return self
         rest = "" if self.rest is None else self.names()[self.rest]
         try:
-            return Draft.of(MatchedProgram(self.parts, self.joints, rest, advance=self.program.advance))
+            return Draft.of(MatchedProgram(self.parts, self.boundaries, rest, advance=self.program.advance))
         except ValueError as refusal:
             raise ValueError(self._counted(str(refusal))) from None
 
@@ -88,9 +88,11 @@ class Draft:
         """With another part at a place."""
         return replace(self, parts=(*self.parts[:i], part, *self.parts[i + 1 :]))
 
-    def with_joint(self, i: int, **wanted: Any) -> Draft:
-        """With other conditions at a joint, if there are any: numbers, ``match`` or ``free`` by their letter."""
+    def with_boundary(self, i: int, **wanted: Any) -> Draft:
+        """With other conditions at a boundary, if there are any: numbers, ``match`` or ``free`` by their letter."""
         if not self.matched:
             return self
-        i %= len(self.joints)
-        return replace(self, joints=(*self.joints[:i], replace(self.joints[i], **wanted), *self.joints[i + 1 :]))
+        i %= len(self.boundaries)
+        return replace(
+            self, boundaries=(*self.boundaries[:i], replace(self.boundaries[i], **wanted), *self.boundaries[i + 1 :])
+        )

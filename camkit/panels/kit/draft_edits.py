@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...motion import (
+    Boundary,
     Dwell,
-    Joint,
     Law,
     MotionProgram,
     OpenMove,
@@ -72,8 +72,8 @@ def with_edge(draft: Draft, edge: int, angle: float, level: float) -> Draft:
     """An edge at another cam angle (deg), and at another level (m or rad) where one is given; see `program_edits`."""
     if not draft.matched:
         return _plainly(draft, lambda program: plain.with_edge(program, edge, angle, level))
-    given = draft.joints[edge % len(draft.joints)].s
-    moved = draft.with_joint(edge, s=level) if not isinstance(given, str) else draft
+    given = draft.boundaries[edge % len(draft.boundaries)].s
+    moved = draft.with_boundary(edge, s=level) if not isinstance(given, str) else draft
     return Draft.of(moved.made().program.with_edge(edge, angle * deg))
 
 
@@ -109,7 +109,7 @@ def with_kind(draft: Draft, i: int, kind: str, lift: float, law: Law) -> Draft:
     """Part ``i`` as another kind, with a lift and a law where it has some."""
     if not draft.matched and kind in plain.KINDS:
         return _plainly(draft, lambda program: plain.with_kind(program, i, kind, lift, law))
-    draft = draft.with_joints()
+    draft = draft.with_boundaries()
     name, angle = draft.parts[i].name, draft.angles()[i] * deg
     if kind in plain.KINDS:
         return draft.with_part(i, plain.made(kind, angle, lift, law, name))
@@ -128,9 +128,9 @@ def _levels_open(draft: Draft, i: int) -> Draft:
     """
     stays = not float(draft.program.segments[i].change)
     for k in (i, i + 1):
-        if k % len(draft.joints):
-            level = draft.joints[k].s if stays and k == i else MATCH
-            draft = draft.with_joint(k, s=level, v=MATCH)
+        if k % len(draft.boundaries):
+            level = draft.boundaries[k].s if stays and k == i else MATCH
+            draft = draft.with_boundary(k, s=level, v=MATCH)
     return draft
 
 
@@ -177,10 +177,10 @@ def inserted(draft: Draft, i: int) -> Draft:
     gives = max(can, key=lambda k: (k in (i - 1, i), angles[k]))
     room = min(plain.FRESH, round(angles[gives] / 2, plain.DIGITS))
     angles[gives] = round(angles[gives] - room, plain.DIGITS)
-    parts, joints = list(_with_angles(draft, angles).parts), list(draft.joints)
+    parts, boundaries = list(_with_angles(draft, angles).parts), list(draft.boundaries)
     parts.insert(i, Polynomial(room * deg))
-    joints.insert(max(i, 1), Joint())
-    return replace(draft, parts=tuple(parts), joints=tuple(joints), rest=_moved(draft.rest, i, 1))
+    boundaries.insert(max(i, 1), Boundary())
+    return replace(draft, parts=tuple(parts), boundaries=tuple(boundaries), rest=_moved(draft.rest, i, 1))
 
 
 def _moved(rest: int | None, i: int, by: int) -> int | None:
@@ -194,10 +194,10 @@ def duplicated(draft: Draft, i: int) -> Draft:
         return _plainly(draft, lambda program: plain.duplicated(program, i))
     half, part = draft.angles()[i] / 2 * deg, draft.parts[i]
     one = _halved(part, half)
-    parts, joints = list(draft.parts), list(draft.joints)
+    parts, boundaries = list(draft.parts), list(draft.boundaries)
     parts[i : i + 1] = [one, replace(one, name="")]
-    joints.insert(i + 1, Joint())
-    return replace(draft, parts=tuple(parts), joints=tuple(joints), rest=_moved(draft.rest, i + 1, 1))
+    boundaries.insert(i + 1, Boundary())
+    return replace(draft, parts=tuple(parts), boundaries=tuple(boundaries), rest=_moved(draft.rest, i + 1, 1))
 
 
 def _halved(part: Segment | Part, angle: float) -> Segment | Part:
@@ -214,11 +214,11 @@ def removed(draft: Draft, i: int) -> Draft:
     """Without part ``i``; its angle goes to a neighbour."""
     if not draft.matched:
         return _plainly(draft, lambda program: plain.removed(program, i))
-    angles, parts, joints = draft.angles(), list(draft.parts), list(draft.joints)
+    angles, parts, boundaries = draft.angles(), list(draft.parts), list(draft.boundaries)
     freed = angles.pop(i)
     rest = None if draft.rest == i else _moved(draft.rest, i, -1)
-    del parts[i], joints[max(i, 1)]
-    left = replace(draft, parts=tuple(parts), joints=tuple(joints), rest=rest)
+    del parts[i], boundaries[max(i, 1)]
+    left = replace(draft, parts=tuple(parts), boundaries=tuple(boundaries), rest=rest)
     near = [k for k in (i - 1, i, *range(len(parts))) if 0 <= k < len(parts) and (k == rest or left.own_angle(k))]
     if draft.turns and near and near[0] != rest:
         parts[near[0]] = replace(parts[near[0]], angle=round(angles[near[0]] + freed, plain.DIGITS) * deg)
@@ -230,12 +230,12 @@ def smoothed(draft: Draft, k: int) -> Draft:
     """Nothing up to the acceleration jumps where part ``k`` begins, the moves beside it as smooth as they can be."""
     if not draft.matched and _rests(draft.program, k):
         return _plainly(draft, lambda program: plain.smoothed(program, k - 1))
-    draft = draft.with_joints()
+    draft = draft.with_boundaries()
     for i in (k - 1, k % len(draft.parts)):
         if isinstance(draft.parts[i], (Rise, Return)):
             draft = draft.with_part(i, Polynomial(draft.parts[i].angle, name=draft.parts[i].name))
-    joint = draft.joints[k % len(draft.joints)]
-    return draft.with_joint(k, **{letter: MATCH for letter in "sva" if getattr(joint, letter) == FREE})
+    boundary = draft.boundaries[k % len(draft.boundaries)]
+    return draft.with_boundary(k, **{letter: MATCH for letter in "sva" if getattr(boundary, letter) == FREE})
 
 
 def _rests(program: MotionProgram, k: int) -> bool:

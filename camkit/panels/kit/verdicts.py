@@ -10,7 +10,7 @@ from ...extrema import Extreme
 from ...motion import MotionProgram, Transition
 from ...units import deg, in_unit
 from ...views.laws import MotionUnits
-from .conditions import LETTERS, JointRow, Wanted
+from .conditions import LETTERS, BoundaryRow, Wanted
 from .draft import Draft
 from .draft_edits import smoothed
 from .parts import Button, Line, Piece, Words, row
@@ -28,8 +28,8 @@ class TransitionRow:
         self.place, self.hand = place, hand
         self.verdict = Words()
         self.smooth = Button("Make it smooth", self._smooth, tooltip="the moves beside it as smooth as they can be")
-        self.joint = JointRow(hand.quiet, self._given)
-        self.row = row(self.verdict, self.joint.group, self.smooth, look="transition")
+        self.boundary = BoundaryRow(hand.quiet, self._given)
+        self.row = row(self.verdict, self.boundary.group, self.smooth, look="transition")
 
     def show(self, draft: Draft, transition: Transition | None, edge: float, units: MotionUnits) -> None:
         """Say what happens there: at an ``edge`` (rad) that is none where the draft is not possible."""
@@ -38,16 +38,16 @@ class TransitionRow:
         self.verdict.look = "" if told else "place"
         self.verdict.say(_said(transition, units) if transition and told else f"{in_unit(edge, 'deg'):.6g}°")
         self.smooth.visible = transition is not None and not transition.lawful
-        self.joint.group.visible = draft.matched
+        self.boundary.group.visible = draft.matched
         if draft.matched:
-            joint = draft.joints[self.place % len(draft.joints)]
-            self.joint.show(joint, _motion_at(draft.program, self.place), units)
+            boundary = draft.boundaries[self.place % len(draft.boundaries)]
+            self.boundary.show(boundary, _motion_at(draft.program, self.place), units)
 
     def _smooth(self) -> None:
         self.hand.edit(lambda draft: smoothed(draft, self.place))
 
     def _given(self, k: int, wanted: Wanted) -> None:
-        self.hand.edit(lambda draft: draft.with_joint(self.place, **{LETTERS[k]: wanted}))
+        self.hand.edit(lambda draft: draft.with_boundary(self.place, **{LETTERS[k]: wanted}))
 
 
 def _motion_at(program: MotionProgram, edge: int) -> Sequence[float]:
@@ -66,7 +66,7 @@ def _said(transition: Transition, units: MotionUnits) -> Piece:
 
 def at_edges(program: MotionProgram) -> list[Transition | None]:
     """The transition at each edge, where there is one; that of the turn's end is at the last."""
-    found = {round(joint.angle / deg, 6): joint for joint in program.transitions()}
+    found = {round(boundary.angle / deg, 6): boundary for boundary in program.transitions()}
     edges = np.asarray(program.edges)[1:]
     return [None, *(found.get(round(float(edge) / deg, 6)) for edge in edges)]
 
