@@ -22,7 +22,7 @@ from ..quantities.design import refuse_population
 from ..quantities.kinds import columns, refuse_arguments
 from ..quantities.types import Array
 from ..units import in_unit
-from .driven import bottom, top
+from .driven import Analysed, bottom, top
 from .steady import Response, response_of
 from .trains import Train
 
@@ -113,7 +113,7 @@ class Camshaft(Design):
         return np.fft.irfft(theta, n), np.fft.irfft(rubs * theta, n)
 
 
-def _turned(first: Response, analysis: Any, theta: Array) -> Response:
+def _turned(first: Response, analysis: Analysed, theta: Array) -> Response:
     """The response to a cam that leads its drive by ``theta``."""
     given = first.driven
     at = analysis.at(np.mod(given.cam_angle + theta, 2 * np.pi))

@@ -3,16 +3,48 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, Self
 
 import numpy as np
 
-from ..extrema import raised
+from ..extrema import Extreme, raised
+from ..motion import Kinematics
 from ..motion.closing import TURN
 from ..quantities import unless
 from ..quantities.applied import applied
 from ..quantities.types import Array, Value
 from ..units import in_unit
+
+
+class Analysed(Protocol):
+    """The analysis of a cam with one follower, as every cam of `camkit.cam` has it."""
+
+    cam: Any
+
+    @property
+    def motion(self) -> Kinematics: ...
+
+    @property
+    def static_resistance(self) -> Array: ...
+
+    @property
+    def closing_rate(self) -> Value: ...
+
+    @property
+    def inertia(self) -> Value: ...
+
+    @property
+    def speed(self) -> Value: ...
+
+    @property
+    def lever(self) -> Array: ...
+
+    @property
+    def buildable(self) -> Array: ...
+
+    def at(self, cam_angle: Array) -> Self: ...
+
+    def corner(self, way: int) -> Extreme: ...
 
 
 @dataclass(frozen=True)
@@ -48,7 +80,7 @@ class Driven:
     """From which cam angle to which the follower rests."""
 
 
-def driven(analysis: Any, samples: int) -> Driven:
+def driven(analysis: Analysed, samples: int) -> Driven:
     """What drives a train, from the ``analysis`` of any cam with one follower.
 
     ``ValueError`` (``nan`` in a population) for a motion that is shorter than a turn, or whose position or velocity
@@ -74,7 +106,7 @@ def _column(value: Value) -> Array:
     return np.atleast_1d(value)[..., :1]
 
 
-def _possible(analysis: Any) -> Array:
+def _possible(analysis: Analysed) -> Array:
     """Whether a train can follow, ``(1,)`` or ``(p, 1)``."""
     periodic = np.atleast_1d(analysis.cam.motion.periodic)
     if refuse := unless(periodic.all() if periodic.ndim == 1 else periodic):

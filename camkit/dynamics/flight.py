@@ -21,7 +21,7 @@ from ..quantities import counted
 from ..quantities.design import refuse_population
 from ..quantities.kinds import columns, refuse_arguments
 from ..quantities.types import Array
-from .driven import Driven, driven
+from .driven import Analysed, Driven, driven
 from .steady import a_speed, grounded, last_mass, response_of, series_matrix
 from .trains import Train
 
@@ -129,7 +129,7 @@ class _Phase(NamedTuple):
 class _Run:
     """The equations of one train on one cam, in contact and in flight."""
 
-    def __init__(self, analysis: Any, train: Train, speed: float | None) -> None:
+    def __init__(self, analysis: Analysed, train: Train, speed: float | None) -> None:
         self.analysis, self.train = analysis, train
         response = response_of(train, driven(analysis, 720), speed)
         self.given: Driven = response.driven

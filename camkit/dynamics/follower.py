@@ -12,21 +12,43 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, make_dataclass
 from functools import cache, cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, cast
 
 import numpy as np
 
+from ..motion import MotionProgram
 from ..motion.resolution import Resolution, resolve
 from ..quantities import Analysable, Design, LeastMeasure, Measure, PeakMeasure, choice
 from ..quantities.kinds import shown, whole
 from ..quantities.types import Array, Value
-from .driven import top
+from .driven import Analysed, top
 from .speeds import contact_loss_speed
 from .steady import LEAST, MOST, Response, respond
-from .trains import ElasticArm, ElasticTrain, TrainChain
+from .trains import ElasticArm, ElasticTrain, Train, TrainChain
 
 TRAINS = ElasticTrain(), ElasticArm(), TrainChain()
 """What a cam can drive, for a menu."""
+
+
+class Elastic(Analysed, Protocol):
+    """The analysis of a cam with an elastic train."""
+
+    response: Response
+    samples: int
+
+    @property
+    def cam_angle(self) -> Array: ...
+
+    @property
+    def acceleration(self) -> Array: ...
+
+    @property
+    def resistance(self) -> Array: ...
+
+    @property
+    def program(self) -> MotionProgram: ...
+
+    def steps(self) -> int: ...
 
 
 @dataclass(frozen=True)
@@ -42,7 +64,7 @@ class ElasticFollower(Design):
     """
 
     cam: Design
-    train: Any = choice("T", TRAINS[0], TRAINS, "elastic train between cam and load")
+    train: Train = choice("T", TRAINS[0], TRAINS, "elastic train between cam and load")
     samples: int = LEAST
     """Of a turn, at which steady motion is found, at least."""
 
@@ -57,8 +79,7 @@ class ElasticFollower(Design):
 
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, with the forces of the train."""
-        cam: Any = self.cam
-        rigid = cam.analyse(n)
+        rigid = cast(Analysable, self.cam).analyse(n)
         response = respond(self.train, rigid, least=self.samples + self.samples % 2)
         given = {f.name: getattr(rigid, f.name) for f in fields(rigid)}
         kind: Any = type(rigid)
@@ -75,7 +96,7 @@ def _elastic(kind: Any) -> Any:
     return make_dataclass(f"Elastic{kind.__name__}", more, bases=(kind,), frozen=True, namespace=own)
 
 
-def _resistance(analysis: Any) -> Array:
+def _resistance(analysis: Elastic) -> Array:
     """What the cam has to overcome along the travel, N or N m."""
     response = analysis.response
     part = response.train.cam_side_mass * response.speed**2 * analysis.acceleration
@@ -83,7 +104,7 @@ def _resistance(analysis: Any) -> Array:
     return force
 
 
-def _resolution(analysis: Any) -> Resolution:
+def _resolution(analysis: Elastic) -> Resolution:
     """Cam angles that show the swings of the train, in the dwells too: as many for every train."""
     load, steps = getattr(analysis.cam, "load", None), max(analysis.steps(), analysis.samples // 4)
     angles, levels = (getattr(load, name, ()) for name in ("cam_angle_table", "travel_table"))
@@ -93,7 +114,7 @@ def _resolution(analysis: Any) -> Resolution:
 # ---------------------------------------------------------------- measures
 
 
-def _still(analysis: Any) -> Array:
+def _still(analysis: Elastic) -> Array:
     """Vibration in each dwell over the travel; 0 where there is no dwell."""
     response = analysis.response
     found, travel = response.dwell_vibration, np.ptp(response.driven.travel, axis=-1)
@@ -101,16 +122,16 @@ def _still(analysis: Any) -> Array:
     return shares if shares.shape[-1] else np.zeros((*shares.shape[:-1], 1))
 
 
-def _margin(analysis: Any) -> Array:
+def _margin(analysis: Elastic) -> Array:
     margin: Array = analysis.resistance / analysis.response.held
     return margin
 
 
-def _left(analysis: Any) -> Value:
+def _left(analysis: Elastic) -> Value:
     return contact_loss_speed(analysis, analysis.response.train)
 
 
-def _swing(analysis: Any) -> Value:
+def _swing(analysis: Elastic) -> Value:
     response = analysis.response
     return response.max_acceleration / top(response.driven.acceleration * response.speed**2)
 

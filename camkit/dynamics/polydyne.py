@@ -47,7 +47,7 @@ class PolydyneProgram(MotionProgram):
     analysis of a cam, is what the cam has to do.  So are its `transitions`.
     """
 
-    design_speed: Any = quantity("omega_d", 600, 10, 6000, "rpm", "at which the end of the train moves as wanted")
+    design_speed: Value = quantity("omega_d", 600, 10, 6000, "rpm", "at which the end of the train moves as wanted")
     mass: Value = field(default=1.0)
     """``m``: of the end of the train, kg or kg m^2."""
     stiffness: Value = field(default=1e6)
@@ -112,7 +112,7 @@ class PolydyneProgram(MotionProgram):
             motion = Kinematics(*(np.where(x >= piece.begin, *pair) for pair in pairs))
         return self._if_possible(*motion)
 
-    def changed(self, changes: Mapping[str, Any]) -> Self:
+    def changed(self, changes: Mapping[str, object]) -> Self:
         """With other segments by name, and for another speed."""
         wanted = super().changed(changes)
         speed = changes.get("design_speed", self.design_speed)
@@ -264,10 +264,10 @@ def _number(value: Value) -> Value:
     return float(several[0]) if several.ndim == 1 else several[..., :1]
 
 
-def _refuse_load(load: Any) -> None:
+def _refuse_load(load: object) -> None:
     """``ValueError`` for a load that is more than a spring and a constant."""
     tables = any(len(getattr(load, name, ())) for name in ("cam_angle_table", "travel_table"))
-    if tables or (hasattr(load, "torque_table") and np.any(load.gravity)):
+    if tables or (hasattr(load, "torque_table") and np.any(getattr(load, "gravity", 0.0))):
         raise ValueError(
             "the load has a table, or a weight on an arm; a polydyne cam is made for a spring, its preload and a "
             "constant"

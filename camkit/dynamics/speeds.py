@@ -9,10 +9,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
-from .driven import Driven, bottom, driven
+from .driven import Analysed, Driven, bottom, driven
 from .steady import LEAST, Response, a_speed, enough
 from .trains import Train
 
@@ -46,7 +47,7 @@ class SpeedSweep(NamedTuple):
     """The largest deviation from rest in each dwell, m or rad."""
 
 
-def speed_sweep(analysis: Any, train: Train, speeds: Any, samples: int | None = None) -> SpeedSweep:
+def speed_sweep(analysis: Any, train: Train, speeds: ArrayLike, samples: int | None = None) -> SpeedSweep:
     """Steady motion behind one cam, or each of a population, at several ``speeds`` (rad/s), ``(k,)``.
 
     >>> from camkit import TranslatingFlatCam, rpm
@@ -116,7 +117,7 @@ def _at_rest(train: Train, given: Driven) -> Array:
 class _Scan:
     """The search for the lowest speed at which the least force of a train is 0."""
 
-    def __init__(self, analysis: Any, train: Train, frequency: Array, ratio: Array) -> None:
+    def __init__(self, analysis: Analysed, train: Train, frequency: Array, ratio: Array) -> None:
         self.analysis, self.train, self.frequency = analysis, train, frequency
         step = float(np.clip(np.nanmin(ratio) / 2, FINEST, STEP))
         self.factors = np.exp(np.arange(1, int(np.ceil(np.log(2) / step)) + 1) * step)

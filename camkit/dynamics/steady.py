@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -26,7 +25,7 @@ from ..quantities import certain, counted, unless
 from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import in_unit
-from .driven import Driven, bottom, driven, top
+from .driven import Analysed, Driven, bottom, driven, top
 from .trains import Passed, Train, passed
 
 LEAST, ALONE, MOST = 720, 11520, 46080
@@ -40,7 +39,7 @@ FASTEST = 1e9
 
 
 def respond(
-    train: Train, analysis: Any, speed: Value | None = None, samples: int | None = None, least: int | None = None
+    train: Train, analysis: Analysed, speed: Value | None = None, samples: int | None = None, least: int | None = None
 ) -> Response:
     """See `Train.follow`; ``least`` are samples that there are at least, of several designs and of one."""
     turns = None if speed is None else a_speed(speed)

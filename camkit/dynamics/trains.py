@@ -23,6 +23,7 @@ from ..quantities.types import Array, Value
 from .spring import HelicalSpring, MasslessSpring
 
 if TYPE_CHECKING:
+    from .driven import Analysed
     from .steady import Response
 
 SPRINGS = MasslessSpring(), HelicalSpring()
@@ -39,7 +40,7 @@ class Train(Design, ABC):
 
     ground_damping: Value
     cam_side_mass: Value
-    spring: Any
+    spring: MasslessSpring | HelicalSpring
 
     @property
     @abstractmethod
@@ -56,7 +57,7 @@ class Train(Design, ABC):
         """``k_f`` of all springs in series: ``1 / k_f = sum 1 / k_i``, N/m or N m/rad."""
         return 1 / sum(1 / stiffness for stiffness, _ in self.springs)
 
-    def follow(self, analysis: Any, speed: Value | None = None, samples: int | None = None) -> Response:
+    def follow(self, analysis: Analysed, speed: Value | None = None, samples: int | None = None) -> Response:
         """Steady motion behind the cam of an ``analysis`` that turns at ``speed`` (rad/s; that of its load).
 
         It is found at so many even ``samples`` of a turn: 11520 of one design, 720 of several, more where it takes
@@ -90,7 +91,7 @@ class ElasticTrain(Train):
     cam_side_mass: float = quantity(
         "m_0", 0, 0, 5, "kg", "of the load's mass, what follows the cam rigidly", at_least=0, name="mass at the cam"
     )
-    spring: Any = spring_choice()
+    spring: MasslessSpring | HelicalSpring = spring_choice()
 
     name: ClassVar[str] = "one mass"
 
@@ -116,7 +117,7 @@ class ElasticArm(Train):
         "J_0", 0, 0, 0.1, "kg m^2", "of the load's inertia, what follows the cam rigidly", at_least=0,
         name="inertia at the cam",
     )  # fmt: skip
-    spring: Any = spring_choice()
+    spring: MasslessSpring | HelicalSpring = spring_choice()
 
     name: ClassVar[str] = "one inertia, on an arm"
 
@@ -158,7 +159,7 @@ class TrainChain(Train):
     cam_side_mass: float = quantity(
         "m_0", 0, 0, 5, "kg", "of the load's mass, what follows the cam rigidly", at_least=0, name="mass at the cam"
     )
-    spring: Any = spring_choice()
+    spring: MasslessSpring | HelicalSpring = spring_choice()
 
     name: ClassVar[str] = "masses in series"
 
