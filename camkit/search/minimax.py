@@ -18,6 +18,8 @@ from ..study.weighted import parts_of, points_of
 
 STEP = 1e-6
 """Step of a central difference, as a share of the bounds' width."""
+EDGE = 1e-12
+"""A share of the bounds this near to one of them is that one: a roller of 5e-25 mm is none."""
 BAD = 1e3
 """What stands for a design that cannot be built, in sizes of the objective at the start."""
 SEEN, NEAR = 100, 0.02
@@ -55,9 +57,9 @@ class Epigraph:
         self.margins, self._last = self.margins + margins, (b"", np.empty(0))
 
     def x(self, u: np.ndarray) -> np.ndarray:
-        """Free values from shares of their bounds."""
+        """Free values from shares of their bounds; a share that only rounding keeps from a bound is on it."""
         low, high = self.study.bounds
-        return low + np.clip(u, 0, 1) * (high - low)
+        return low + np.where(u < EDGE, 0.0, np.where(u > 1 - EDGE, 1.0, u)) * (high - low)
 
     def u(self, x: np.ndarray) -> np.ndarray:
         """Shares of the bounds from free values."""

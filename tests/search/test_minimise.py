@@ -54,6 +54,15 @@ def chebyshev(**limits):
     return Study(Polynomial(), FREE, (size,), angles=401, **limits)
 
 
+def test_what_only_rounding_keeps_from_a_bound_is_on_it():
+    """A roller of 5e-25 mm cannot be made, and no roller can."""
+    problem = Epigraph(chebyshev())
+    low, high = problem.study.bounds
+    assert (problem.x(np.full(len(low), 1e-20)) == low).all()
+    assert (problem.x(np.full(len(low), 1 - 1e-15)) == high).all()
+    assert (problem.x(np.full(len(low), 1e-9)) > low).all()
+
+
 @pytest.mark.parametrize("moved", [0, 1e-3, -1e-2])
 def test_a_design_is_flat_where_no_small_change_in_any_direction_lowers_it(moved):
     problem = Epigraph(chebyshev())
