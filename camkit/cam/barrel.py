@@ -17,7 +17,7 @@ Source: Norton, Cam Design and Manufacturing Handbook (barrel cams); Litvin, Fue
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any, ClassVar
@@ -48,11 +48,10 @@ CLOSURES = {"groove": True, "end face": False}
 
 
 @dataclass(frozen=True)
-class Drum(Design):
+class Drum(Design, ABC):
     """A drum that moves a roller along its axis.
 
-    ``groove_depth`` is the length on which roller and flank touch, the mean radius in its middle; ``rotation`` is
-    ``sigma``: +1 counter-clockwise, as seen along the rise.
+    ``groove_depth`` is the length on which roller and flank touch, the mean radius in its middle.
     """
 
     motion: MotionProgram
@@ -69,8 +68,8 @@ class Drum(Design):
         self._keep(comes_back(self.motion, "barrel cam"))
         if refuse := unless(self.bottom_radius > 0):
             refuse(
-                f"the groove is {self.groove_depth / mm:.4g} mm deep around a mean radius of "
-                f"{self.mean_radius / mm:.4g} mm; its bottom must stay above 0 mm from the drum's axis"
+                f"the groove is {self.groove_depth / mm:.4g} mm deep around {self.mean_radius / mm:.4g} mm; its bottom "
+                "must stay above 0 mm from the drum's axis"
             )
         self._keep(self.bottom_radius > 0)
 
@@ -83,6 +82,10 @@ class Drum(Design):
     def surface_radius(self) -> Value:
         """Drum's axis to its surface, m."""
         return self.mean_radius + self.groove_depth / 2
+
+    @abstractmethod
+    def analyse(self, n: int = 721) -> DrumAnalysis:
+        """Geometry and forces at ``n`` cam angles over the motion's whole span."""
 
 
 @dataclass(frozen=True)
