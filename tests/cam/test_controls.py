@@ -43,8 +43,9 @@ ARM_TABLES = ArmLoad(torque_table=((0.1, 5.0), (0.2, 25.0)), cam_angle_table=((1
 
 # ---------------------------------------------------------------- every field of every design
 
-DATA = {"force_table", "torque_table", "cam_angle_table"}
-"""Measured loads are data, not numbers that one chooses; their common factor is a quantity, ``table_factor``."""
+DATA = {"force_table", "torque_table", "cam_angle_table", "advance"}
+"""Measured loads are data, not numbers that one chooses; their common factor is a quantity, ``table_factor``.  How far
+a motion goes on with each turn is what the machine asks, and 0 for a cam."""
 PLACES = {"u"}
 """Where the points of a spline's law stand: that they are in order is a property of the row, their heights are free."""
 NAMES = {"name"}
