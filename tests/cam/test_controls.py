@@ -3,6 +3,7 @@
 import dataclasses
 import enum
 import importlib
+import inspect
 import numbers
 import pkgutil
 
@@ -60,7 +61,7 @@ def designs_of_the_family():
 
 
 def can_be_analysed_when_made(kind):
-    return isinstance(kind, type) and issubclass(kind, Design) and kind is not Design and hasattr(kind, "analyse")
+    return isinstance(kind, type) and issubclass(kind, Design) and kind is not Design and not inspect.isabstract(kind)
 
 
 def undeclared(part, where=""):

@@ -638,7 +638,10 @@ ABSURD = {
     "an angle of text": (
         design_with("motion", "segments", 1, "angle", of="program", to="12"), "for 'angle'; a number belongs"
     ),
-    "two things in one file": (json.dumps(json.loads(GOOD["session"]) | json.loads(GOOD["design"])), "hold one design, program"),
+    "two things in one file": (
+        json.dumps(json.loads(GOOD["session"]) | json.loads(GOOD["design"])),
+        "hold one design, program",
+    ),
 }  # fmt: skip
 
 
