@@ -513,3 +513,13 @@ def test_refusals(build, sentence):
     with pytest.raises(ValueError) as refusal:  # noqa: PT011  the whole sentence is compared
         build()
     assert str(refusal.value) == sentence
+
+
+@pytest.mark.parametrize(("exponents", "k"), [((1.2, 1.5, 5), 2), ((2.2, 2.5, 5), 3)])
+def test_the_lowest_of_two_broken_exponents_rules_at_the_start(exponents, k):
+    assert PowerPolynomial(exponents)(0.0)[k] == np.inf
+    assert PowerPolynomial(exponents)(1e-9)[k] > 1e3
+
+
+def test_powers_of_a_population_that_cannot_be_have_a_continuity():
+    assert PowerPolynomial((np.array([[np.nan], [np.nan]]), 4, 5)).continuity == 2

@@ -85,12 +85,12 @@ class PowerPolynomial(Law):
         """As for every law; at the start all derivatives below the first exponent are 0."""
         met = [bool(np.all(np.equal(value, 0))) for value in self.end]
         at_end = met.index(False) if False in met else len(self.exponents) - 1
-        return min(at_end, int(np.ceil(np.nanmin(self.exponents[0]))) - 1)
+        return min(at_end, int(np.ceil(np.nanmin(self.exponents[0], initial=at_end + 1))) - 1)
 
     def at(self, u: Array) -> Kinematics:
-        terms = list(zip(self.c, self.exponents, strict=True))
-        with np.errstate(divide="ignore"):
-            return Kinematics(*(reduce(np.add, (_derivative(u, c, p, k) for c, p in terms)) for k in range(4)))
+        terms = list(zip(self.c, self.exponents, strict=True))[::-1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return Kinematics(*(reduce(_and_lower, (_derivative(u, c, p, k) for c, p in terms)) for k in range(4)))
 
     def peaks(self) -> Peaks:
         found = enumerate(law_peaks(self), start=1)
@@ -110,6 +110,11 @@ def _derivative(u: Array, c: Value, p: Value, k: int) -> Array:
     """The ``k``-th derivative of ``c u^p``; 0 where a whole exponent leaves nothing of it."""
     factor = c * prod(p - m for m in range(k))
     return np.where(factor == 0, 0.0, factor * u ** np.where(factor == 0, 1.0, p - k))
+
+
+def _and_lower(higher: Array, term: Array) -> Array:
+    """The sum with the term of a lower exponent, which alone counts where it has no end."""
+    return np.where(abs(term) == np.inf, term, higher + term)
 
 
 def _exponents(given: object) -> tuple[Value, ...]:
