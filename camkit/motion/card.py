@@ -116,7 +116,7 @@ def _card(motion: MotionProgram, lift: Array, lash: Array, ratio: Array) -> CamC
     angle, s, v, a = _turn(motion)
     base = -_highest(motion, -1).value[..., None]
     top = _highest(motion, 1)
-    nose, peak = _nose(angle, s, top), ratio * (top.value[..., None] - base - lash)
+    nose, peak = _nose(angle, s, top), np.maximum(ratio * (top.value[..., None] - base - lash), 0.0)
     levels = np.concatenate(np.broadcast_arrays(base + lash + lift / ratio, base + lash), axis=-1)
     angle, s, v, a = np.broadcast_arrays(angle, s, v, a, levels[..., :1])[:4]
     passed, reached = _passed(motion, angle, s, levels)
@@ -130,7 +130,7 @@ def _card(motion: MotionProgram, lift: Array, lash: Array, ratio: Array) -> CamC
     whole = np.where(peak > 0, areas[2], 0.0)
     opens, closes = (np.where(reached, passed[..., k : k + 1] - nose, np.nan) for k in (0, 1))
     found = opens, closes, duration, area, over, whole, np.mod(nose, TURN), peak
-    possible = np.atleast_1d(motion.possible)
+    possible = np.atleast_1d(motion.possible) & np.isfinite(levels[..., :1])
     return CamCard(*(np.where(possible, value, np.nan)[..., 0][()] for value in found))
 
 
@@ -161,7 +161,9 @@ def _nose(angle: Array, s: Array, top: Extreme) -> Array:
     """The cam angle of the highest level, from the start of the turn on; between places that share it, midway."""
     size = s.max(-1, keepdims=True) - s.min(-1, keepdims=True)
     high = s >= s.max(-1, keepdims=True) - FLAT * size
-    first, last = np.argmax(high, axis=-1, keepdims=True), _last(high)
+    first = np.argmax(high, axis=-1, keepdims=True)
+    over = np.logical_not(high) & (np.arange(high.shape[-1]) > first)
+    last = np.where(over.any(-1, keepdims=True), np.argmax(over, axis=-1, keepdims=True) - 1, _last(high))
     begin, end = (np.take_along_axis(angle, at, axis=-1) for at in (first, last))
     alone = top.cam_angle[..., None]
     alone = np.where(alone < angle[..., :1], alone + TURN, alone)

@@ -300,3 +300,20 @@ def test_a_search_can_limit_the_duration_at_a_lift():
 def test_refusals(ask, sentence):
     with pytest.raises(ValueError, match=sentence):
         ask()
+
+
+def test_a_lash_above_the_lift_leaves_no_lift():
+    with pytest.raises(ValueError, match=r"the largest is 0$"):
+        cam_card(unequal(), 1 * mm, lash=12 * mm)
+
+
+def test_a_design_without_a_lift_has_no_card():
+    card = cam_card(unequal(), np.array([[1 * mm], [np.nan]]))
+    assert np.isfinite(card.duration[0])
+    assert np.isnan([card.duration[1], card.area[1], card.whole_area[1]]).all()
+
+
+def test_the_nose_of_two_equal_lobes_is_on_one_of_them():
+    up, down = Rise(40 * deg, 10 * mm, Cycloidal()), Return(40 * deg, 10 * mm, Cycloidal())
+    card = cam_card(MotionProgram((up, down, Dwell(60 * deg), up, down, Dwell(140 * deg))), 1 * mm)
+    assert card.nose / deg == pytest.approx(40, abs=1e-6)
