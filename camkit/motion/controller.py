@@ -65,6 +65,10 @@ def controller_rows(program: MotionProgram, way: str = "poly5", step: float | No
     grid = _multiples(program, step)
     angle, before, after = _joined(_segments(program, grid))
     before, after = before[:held], after[:held]
+    if not np.isfinite(before + after).all():
+        raise ValueError(
+            f"a derivative that rows of {way} hold is infinite somewhere; take a way that holds fewer, such as cubic"
+        )
     scale = program_scales(program)[:held]
     jumps = abs(after - before) > JUMPS * scale
     if jumps[0].any():

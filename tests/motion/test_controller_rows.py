@@ -8,14 +8,17 @@ import pytest
 from scipy.interpolate import BPoly
 
 from camkit.motion import (
+    Boundary,
     ConstantVelocity,
     Cycloidal,
     Dwell,
+    MatchedProgram,
     ModifiedSine,
     MotionProgram,
     Parabolic,
     Poly345,
     Poly4567,
+    PowerPolynomial,
     Return,
     Rise,
     SimpleHarmonic,
@@ -29,6 +32,9 @@ from camkit.units import deg, mm
 
 PRINTED = json.loads((Path(__file__).parents[1] / "data" / "motion_tables.json").read_text())["electronic"]
 LAWS = {"3-4-5": Poly345(), "4-5-6-7": Poly4567(), "cycloidal": Cycloidal(), "modified sine": ModifiedSine()}
+
+
+LEAPS = MatchedProgram((Dwell(1.0), Dwell(1.0)), (Boundary(0.0), Boundary("free"), Boundary(0.02)))
 
 
 def stroke(law, lift=20 * mm):
@@ -159,9 +165,16 @@ def test_a_motion_that_goes_on():
         (lambda: controller_rows(stroke(Cycloidal()), step=0.0), "the step of the table"),
         (lambda: controller_rows(stroke(Cycloidal()), step=1e-5), "the table would have 628319 rows"),
         (lambda: controller_rows(stroke(Cycloidal(), np.array([[0.01], [0.02]]))), "the program is a population"),
-        (lambda: controller_rows(stroke(lambda u: (u + 0.5, 1 + 0 * u, 0 * u, 0 * u))), "leaps to another level"),
+        (lambda: controller_rows(LEAPS), "leaps to another level"),
     ],
 )  # fmt: skip
 def test_refusals(ask, sentence):
     with pytest.raises(ValueError, match=sentence):
         ask()
+
+
+def test_no_controller_follows_an_infinite_jerk():
+    law = PowerPolynomial((2.5, 4, 5))
+    with pytest.raises(ValueError, match="a derivative that rows of poly7 hold is infinite somewhere"):
+        controller_rows(stroke(law), "poly7")
+    assert np.isfinite(controller_rows(stroke(law), "cubic").values).all()
