@@ -33,7 +33,7 @@ GIVEN = tuple(
 """``s, v, a, j`` as a condition gives them, per rad^k."""
 FORM = Choice("form", "polynomial", {"polynomial": "polynomial", "spline": "spline"}, "of a part with conditions in it")
 MATCH, FREE = "match", "free"
-MOST_POINTS = 12
+MOST_POINTS, MOST_VALUES = 12, 8
 """Conditions inside one part."""
 Wanted = Value | str
 """A number that both sides have, ``match`` or ``free``."""
@@ -181,6 +181,12 @@ class Polynomial(Part):
         if len(self.through) > MOST_POINTS:
             raise ValueError(f"the polynomial goes through {len(self.through)} points; there can be {MOST_POINTS}")
         refuse_kinds(self, ("angle", "form"))
+        values = sum(len(point.given) for point in self.through)
+        if self.form == "polynomial" and values > MOST_VALUES:
+            raise ValueError(
+                f"one polynomial is to meet {values} values inside; beyond {MOST_VALUES} it loses digits: "
+                "form='spline' meets them"
+            )
         if not FORM.allows(self.form):
             raise ValueError(f"the form of the polynomial is {shown(self.form)}; it must be {FORM.possible}")
         refuse_names(self.point_names, "a point of the polynomial", ("angle", "through", "form"))
