@@ -85,6 +85,8 @@ def simulate(analysis: Any, train: Train, speed: float | None = None, turns: int
     refuse_arguments(simulate, locals())
     refuse_population(analysis, "the analysis")
     counted(turns, "turns", 1, MOST_TURNS)
+    if np.any(getattr(analysis, "form_closed", False)):
+        raise ValueError("a groove holds the follower from both sides; there is no flight to follow")
     if columns(train):
         raise ValueError("the train is a population; a flight is that of one train")
     if train.spring.name != "without mass":

@@ -105,7 +105,9 @@ def contact_loss_speed(analysis: Any, train: Train) -> Value:
     scan = _Scan(analysis, train, frequency, ratio)
     low, high = scan.bracket()
     speed = scan.between(low, high)
-    return np.where(rest <= 0, 0.0, speed[..., 0])[()]
+    closed = getattr(analysis, "form_closed", False)
+    lost = np.where(closed, np.inf, np.where(rest <= 0, 0.0, speed[..., 0]))
+    return np.where(np.isnan(rest), np.nan, lost)[()]
 
 
 def _at_rest(train: Train, given: Driven) -> Array:
@@ -137,7 +139,7 @@ class _Scan:
         low, high = (np.full(self.frequency.shape, np.inf) for _ in range(2))
         begin = self.frequency * SLOWEST
         while np.isinf(high).any() and (begin < FASTEST * self.frequency).any():
-            samples = enough(self.frequency[..., 0], np.min(begin))
+            samples = enough(self.frequency[..., 0], np.nanmin(begin, initial=np.inf))
             low, high = self._octave(begin, samples, low, high)
             begin = begin * self.factors[-1]
         return low, high

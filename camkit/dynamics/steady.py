@@ -161,14 +161,15 @@ class Response:
         if all(certain(c > 0) for c in dampers):
             return None
         stiffness = self.train.springs[0][0] + self.driven.rate
-        there = abs(self._lift) > AT_RESONANCE * abs(self._lift).max(-1, keepdims=True)
+        size = np.maximum(stiffness * abs(self._lift), abs(np.fft.rfft(self.driven.load)))
+        there = size > AT_RESONANCE * size.max(-1, keepdims=True)
         return (abs(self._passed.whole) < AT_RESONANCE * stiffness) & there
 
     def refuse_resonance(self) -> None:
         """``ValueError`` in a sentence if an undamped train is at resonance with a harmonic that is there."""
         if self._hit is not None and self._hit.ndim == 1 and self._hit.any():
             raise ValueError(
-                f"harmonic {int(np.argmax(self._hit))} of the motion is at resonance with the undamped train at "
+                f"harmonic {int(np.argmax(self._hit))} of motion or load is at resonance with the undamped train at "
                 f"{in_unit(float(self.speed[0]), 'rpm'):.6g} rpm; give the train some damping or the cam another speed"
             )
 

@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from camkit import rpm
-from camkit.cam import jump_speed
-from camkit.dynamics import ElasticTrain, contact_loss_speed, speed_sweep
+from camkit.cam import BarrelCam, jump_speed
+from camkit.dynamics import ElasticTrain, contact_loss_speed, simulate, speed_sweep
 from train_cases import VALUES, A, flat, valve
 
 
@@ -81,3 +81,17 @@ def test_refusals():
         speed_sweep(flat().analyse(), A, 3.0)
     with pytest.raises(ValueError, match="the speed of the cam is -1; it must be a finite number above 0"):
         speed_sweep(flat().analyse(), A, [10.0, -1.0])
+
+
+def test_a_groove_lets_no_follower_leave_it():
+    analysis = BarrelCam().analyse()
+    assert contact_loss_speed(analysis, ElasticTrain()) == jump_speed(analysis) == np.inf
+    with pytest.raises(ValueError, match="a groove holds the follower from both sides"):
+        simulate(analysis, ElasticTrain(), 300 * rpm)
+
+
+def test_a_train_that_cannot_be_has_no_speed_and_changes_no_other_one():
+    analysis = flat("cycloidal").analyse()
+    found = contact_loss_speed(analysis, ElasticTrain(stiffness=np.array([[8e5], [np.nan]])))
+    assert np.isnan(found[1])
+    assert found[0] == pytest.approx(contact_loss_speed(analysis, ElasticTrain(stiffness=8e5)), rel=1e-6)

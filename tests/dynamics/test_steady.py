@@ -263,7 +263,7 @@ def test_a_jump_of_the_velocity_is_refused_with_its_place():
 def test_resonance_without_damping_is_refused_with_its_harmonic():
     w = 25.0
     train = ElasticTrain(2.0 * (3 * w) ** 2 - 1e3, 0.0)
-    with pytest.raises(ValueError, match=re.escape("harmonic 3 of the motion is at resonance")):
+    with pytest.raises(ValueError, match=re.escape("harmonic 3 of motion or load is at resonance")):
         train.follow(flat(spring_rate=1e3).analyse(), w)
     two = np.array([[w], [2.2 * w]])
     assert_allclose(np.isnan(train.follow(flat(spring_rate=1e3).analyse(), two).max_force), [True, False])
@@ -272,3 +272,11 @@ def test_resonance_without_damping_is_refused_with_its_harmonic():
 def test_any_cam_with_one_follower_drives_a_train():
     for cam in (TranslatingRollerCam(groove=False), TranslatingFlatCam(), valve()):
         assert ElasticTrain().follow(cam.analyse()).dynamic_factor > 1
+
+
+def test_a_load_shakes_a_train_at_resonance_too():
+    turn = np.linspace(0, 2 * np.pi, 721)
+    wave = tuple((float(x), 20 * np.cos(5 * x)) for x in turn)
+    train, cam = ElasticTrain(8e5, 0.0), flat(mass=2.0, spring_rate=5e3, cam_angle_table=wave)
+    with pytest.raises(ValueError, match="harmonic 5 of motion or load is at resonance"):
+        train.follow(cam.analyse(), np.sqrt((8e5 + 5e3) / 2) / 5)
