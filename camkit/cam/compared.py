@@ -8,6 +8,7 @@ import numpy as np
 
 from ..motion import MotionProgram
 from ..motion.closing import TURN
+from ..motion.program import SAME_ANGLE
 from ..quantities import Measure
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
@@ -17,6 +18,8 @@ MOST = 720
 """Points that are compared: of more one of each few, that which stands out most from its neighbours."""
 SHARPEST = 1e9
 """Curvature of a corner, 1/m."""
+TIE = 1e-6
+"""Of places as near as each other, to this share of their distance, the one whose normal points there is taken."""
 
 
 class Compared(NamedTuple):
@@ -47,12 +50,17 @@ def compared(points: Array, analysis: Any) -> Compared:
     profile, normals = analysis.profile, analysis.on_cam(analysis.normal)
     bend = np.minimum(np.maximum(analysis.profile_curvature, -SHARPEST), SHARPEST)
     x, y = (np.expand_dims(row, -1) for row in points)
-    near = np.argmin((x - profile[0]) ** 2 + (y - profile[1]) ** 2, axis=-1)
+    far = np.hypot(x - profile[0], y - profile[1])
+    out = (x - profile[0]) * normals[0] + (y - profile[1]) * normals[1]
+    near = np.argmin(far * (far - TIE * out), axis=-1)  # at a corner, which has many normals, the one that fits
     px, py, nx, ny, k = (
         np.take_along_axis(row, near, axis=-1) for row in (profile[0], profile[1], normals[0], normals[1], bend)
     )
     out = (points[0] - px) * nx + (points[1] - py) * ny
     along = (points[1] - py) * nx - (points[0] - px) * ny
+    ahead = np.where(analysis.cam.rotation * along < 0, 1, -1)
+    beside = np.minimum(np.maximum(near + ahead, 0), len(analysis.cam_angle) - 1)
+    k = np.where(abs(k) < SHARPEST, k, np.take_along_axis(bend, beside, axis=-1))  # beside a corner its flank counts
     deviation = (2 * out + k * (out**2 + along**2)) / (1 + np.sqrt((1 + k * out) ** 2 + (k * along) ** 2))
     foot, normal = np.stack([points[0] - deviation * nx, points[1] - deviation * ny]), np.stack([nx, ny])
     lost = _leapt(analysis, near, along)
@@ -75,8 +83,8 @@ def _leapt(analysis: Any, near: Array, along: Array) -> Array:
     before = np.zeros(len(angle))
     after = np.zeros(len(angle))
     for jump in jumps:
-        k = int(np.searchsorted(angle, jump[0]))
-        if 0 < k < len(angle):
+        k = 0 if jump[0] > TURN - SAME_ANGLE else int(np.searchsorted(angle, jump[0]))
+        if k < len(angle):  # 0: behind the start of the turn, and ahead of its end
             after[k - 1] = before[k] = 1.0
     way = -analysis.cam.rotation * along  # the contact runs clockwise on a cam that turns the other way
     level = 0.0 * analysis.profile[0]

@@ -155,11 +155,12 @@ def _motion(outline: CamOutline, follower: Design, stretches: list[Stretch]) -> 
     if highest - lowest < RESTS:
         raise ValueError("the follower does not move: for it the outline is a circle about the cam axis")
     still = [_rests(stretch) for stretch in stretches]
-    joints, healed = _joints(ends, still, highest)
+    height = highest if _unit(follower) == "mm" else 1.0
+    joints, healed = _joints(ends, still, height)
     jumps = tuple(
         ContactJump(stretch.end, joint.before, joint.after)
         for stretch, joint in zip(stretches, joints[1:], strict=True)
-        if abs(joint.after - joint.before) > ROUNDING * highest
+        if abs(joint.after - joint.before) > ROUNDING * height
     )
     told = [*outline.remarks, _place_in_words(follower, lowest, highest)]
     told += [_jump_in_words(jump, _unit(follower)) for jump in jumps]
@@ -232,6 +233,10 @@ def _joints(ends: list[Met], still: list[bool], height: float) -> tuple[list[_Jo
         close = abs(jump) <= 2 * TANGENT * height
         healed += close and abs(jump) > ROUNDING * height
         joints.append(_Joint(s, mean, mean) if close else _Joint(s, before[k - 1], after[k]))
+    begin = still.index(False)
+    for k in range(begin, begin + len(still)):  # a dwell ends where it began, though its arc was rounded
+        if still[k % len(still)]:
+            joints[(k + 1) % len(still)] = joints[(k + 1) % len(still)]._replace(s=joints[k % len(still)].s)
     return [*joints, joints[0]], healed
 
 

@@ -340,9 +340,9 @@ def _flank_normals(r: float, n: float, c: float, flank: float | None) -> tuple[f
         angles = np.arccos([cosine, cosine]) if abs(cosine) < 1 else [np.nan] * 2
     else:
         R = one_number(flank, "the flank's radius", "be a number other than 0 m, below 0 if it is hollow", bool)
-        one, other = abs(R - r), abs(R - n)
-        cosines = np.array([(one**2 + c**2 - other**2) / (2 * one * c), (one**2 - c**2 - other**2) / (2 * other * c)])
-        with np.errstate(invalid="ignore"):
+        one, other = abs(R - np.array([r, n]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cosines = [(one**2 + c**2 - other**2) / (2 * one * c), (one**2 - c**2 - other**2) / (2 * other * c)]
             away = np.arccos(cosines)
         angles = np.pi - away if R > 0 else away
     if not (np.isfinite(angles).all() and 0 < angles[0] < np.pi and 0 < angles[1] < np.pi and c + n > r):

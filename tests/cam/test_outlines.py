@@ -363,6 +363,8 @@ def test_what_is_no_outline_is_refused(given, cam, why):
         (lambda: DrawnOutline.circle(-0.01), "the radius of the circle is -0.01; it must be above 0 m"),
         (lambda: DrawnOutline.tangent(0.025, 0.008, 0.010), "the nose must stand out of the base circle"),
         (lambda: DrawnOutline.tangent(0.025, 0.008, 0.040, 0.020), "no flank touches base circle and nose"),
+        (lambda: DrawnOutline.tangent(0.025, 0.008, 0.040, 0.025), "no flank touches base circle and nose"),
+        (lambda: DrawnOutline.tangent(0.025, 0.008, 0.040, 0.008), "no flank touches base circle and nose"),
         (
             lambda: DrawnOutline.tangent(0.025, 0.008, 0.040, 0.0),
             "the flank's radius is 0; it must be a number",
@@ -389,3 +391,20 @@ def test_flanks_of_a_tangent_cam_are_tangent_to_both(flank):
     radii = sorted(float(piece.at(ends).radius[0]) / mm for piece in pieces)
     other = np.inf if flank is None else flank / mm
     assert_allclose(radii, sorted([25, 8, other, other]))
+
+
+@pytest.mark.parametrize("digits", [4, 5, 6, 7])
+def test_an_outline_drawn_to_so_many_digits_of_a_millimetre_closes(digits):
+    follower = TranslatingRollerCam(roller_radius=12 * mm, groove=False)
+    for turned in (0.3, 1.7, 4.0):
+        turn = np.array([[np.cos(turned), np.sin(turned)], [-np.sin(turned), np.cos(turned)]])
+        corners = np.round(np.array(TANGENT.corners) @ turn / mm, digits) * mm
+        motion = motion_from_outline(DrawnOutline(corners, np.round(TANGENT.bulges, digits + 3)), follower)
+        assert motion.closes
+        whole = motion_from_outline(DrawnOutline(np.array(TANGENT.corners) @ turn, TANGENT.bulges), follower)
+        x = np.linspace(0, 2 * np.pi, 400)
+        assert_allclose(motion(x).s, whole(x).s, rtol=0, atol=20 * 10.0**-digits * mm)
+
+
+def test_a_smooth_outline_has_no_jumps_however_the_arm_is_set():
+    assert motion_from_outline(ECCENTRIC, OscillatingFlatCam(centre_distance=90 * mm, face_offset=60 * mm)).jumps == ()

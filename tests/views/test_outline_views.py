@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingFlatCam, TranslatingRollerCam
 from camkit.cam import DrawnOutline, MeasuredOutline, cam_from_outline
+from camkit.cam.compared import compared
 from camkit.program import record
 from camkit.quantities import quantities_of, value_of
 from camkit.units import deg, mm, um
@@ -104,3 +105,23 @@ def test_it_follows_the_sliders_of_a_page():
     assert found["title"] == expected["title"] == "Outline against the design, deviation x 50"
     for name in ("x", "y", "line"):
         assert_allclose(found[name], expected[name], rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("rotation", [1, -1])
+def test_a_leap_at_the_turns_end_is_seen_as_one(rotation):
+    hollow = DrawnOutline.tangent(25 * mm, 8 * mm, 40 * mm, -60 * mm)
+    cam = TranslatingRollerCam(roller_radius=75 * mm, groove=False, rotation=rotation)
+    at = rotation * cam_from_outline(hollow, cam).motion.jumps[0][0]
+    turn = np.array([[np.cos(at), np.sin(at)], [-np.sin(at), np.cos(at)]])
+    turned = DrawnOutline(np.array(hollow.corners) @ turn, hollow.bulges)
+    found = cam_from_outline(turned, cam)
+    assert min(found.motion.jumps[0][0], 2 * np.pi - found.motion.jumps[-1][0]) < 1e-6
+    assert found.motion.compared(found.analyse()).largest < 1e-9
+
+
+def test_points_beside_a_corner_are_compared_with_its_flanks():
+    square = DrawnOutline(tuple((0.02 * x, 0.02 * y) for x, y in ((1, -1), (1, 1), (-1, 1), (-1, -1))))
+    analysis = cam_from_outline(square, TranslatingRollerCam(roller_radius=12 * mm, groove=False)).analyse()
+    points = np.array([[0.02, 0.0199, -0.02, 0.02], [0.0199, 0.02, 0.0199, -0.0199]])
+    assert_allclose(compared(points, analysis).deviation, 0, atol=0.5 * um)
+    assert_allclose(compared(points * 1.0005, analysis).deviation, 0.0005 * 0.02, atol=0.5 * um)
