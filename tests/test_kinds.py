@@ -41,7 +41,18 @@ from camkit.linkage import Box
 from camkit.machines import CamLever, SliderLoad, cam_lever_study
 from camkit.machines.high_speed_measures import peak_stress
 from camkit.machines.shaft import shaft_study
-from camkit.motion import AccelerationTable, FreePolynomial, ModifiedSine, Skewed, SplineLaw, TableLaw, UserLaw
+from camkit.motion import (
+    AccelerationTable,
+    DoubleHarmonic,
+    FreePolynomial,
+    Mirrored,
+    ModifiedSine,
+    OpenMove,
+    Skewed,
+    SplineLaw,
+    TableLaw,
+    UserLaw,
+)
 from camkit.quantities import Choice, LeastMeasure, Quantity, UnitRemark
 from camkit.search.epsilon_constraint import epsilon_constraint_steps
 from camkit.search.front import dominated, front_of
@@ -128,6 +139,8 @@ GIVEN = {
     SplineLaw: ((0.5,), (0.5,)),
     TableLaw: ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)),
     UserLaw: (ModifiedSine(),),
+    Mirrored: (DoubleHarmonic(),),
+    OpenMove: (1.0, LAW),
     AccelerationTable: ((0.0, 0.5, 1.0), (1.0, -1.0, 0.0), "steps"),
     Box: ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
     Measure: ("height", "mm", len),
@@ -161,6 +174,7 @@ NOT_MADE_BY_HAND |= {
     "Compared",
     "ContactJump",
     "OutlineMotion",
+    "Overshoot",
     "TableMotion",
     "TorqueBalance",
     "WeightedSum",

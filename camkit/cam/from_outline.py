@@ -82,7 +82,7 @@ class OutlineMotion(TableMotion):
         super().__post_init__()
 
 
-def motion_from_outline(points: Any, follower: Design) -> OutlineMotion:
+def motion_from_outline(points: object, follower: Design) -> OutlineMotion:
     """The motion of a ``follower`` on a cam of which the outline is known, m, about the cam axis at the origin.
 
     ``points`` are measured ones (x, y), pairs or two rows (see `MeasuredOutline`, also for polar ones), or a
@@ -110,7 +110,7 @@ def motion_from_outline(points: Any, follower: Design) -> OutlineMotion:
     return _motion(outline, follower, stretches)
 
 
-def cam_from_outline(points: Any, follower: Design) -> Any:
+def cam_from_outline(points: object, follower: Design) -> Any:
     """The cam with a given outline, designed anew: ``follower`` with the `motion_from_outline` and the size to it.
 
     Its profile is the outline, but for what the follower does not touch.

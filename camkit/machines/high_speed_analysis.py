@@ -84,7 +84,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """The same cam seen between two cam angles (rad) alone."""
         zone = super().between(low, high)
         for part in (zone, zone.moving):
-            part.__dict__.update({name: getattr(self, name) for name in OF_THE_WHOLE})
+            part.__dict__.update({name: getattr(self, name) for name in OF_THE_WHOLE if hasattr(self, name)})
         return zone
 
     @cached_property
@@ -350,7 +350,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
 
 
 OF_THE_WHOLE = ("buildable", "spring_rate", "rounding", "response")
-"""What is the same wherever a cam is looked at, and follows from all of it."""
+"""What is the same wherever a cam is looked at, and follows from all of it; a rigid follower has no response."""
 
 
 def _picked(values: Array, rows: Array | None, columns: Array) -> Array:

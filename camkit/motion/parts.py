@@ -181,14 +181,14 @@ class Polynomial(Part):
         if len(self.through) > MOST_POINTS:
             raise ValueError(f"the polynomial goes through {len(self.through)} points; there can be {MOST_POINTS}")
         refuse_kinds(self, ("angle", "form"))
+        if not FORM.allows(self.form):
+            raise ValueError(f"the form of the polynomial is {shown(self.form)}; it must be {FORM.possible}")
         values = sum(len(point.given) for point in self.through)
         if self.form == "polynomial" and values > MOST_VALUES:
             raise ValueError(
                 f"one polynomial is to meet {values} values inside; beyond {MOST_VALUES} it loses digits: "
                 "form='spline' meets them"
             )
-        if not FORM.allows(self.form):
-            raise ValueError(f"the form of the polynomial is {shown(self.form)}; it must be {FORM.possible}")
         refuse_names(self.point_names, "a point of the polynomial", ("angle", "through", "form"))
         refuse_lengths(self)
 

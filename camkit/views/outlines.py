@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -16,6 +16,17 @@ MOST_LARGER = 1e5
 SECTORS = 8
 """The largest deviation of so many sectors is told."""
 LETTERS = "ABCDEFGH"
+
+
+class Compared(Protocol):
+    """Points of an outline, and how far each stands out of a profile, m (see `camkit.cam.Compared`)."""
+
+    points: Array
+    angle: Array
+    deviation: Array
+    foot: Array
+    normal: Array
+    largest: Value
 
 
 def outline_laid_over(analysis: Any) -> Picture:
@@ -50,7 +61,7 @@ def deviation_over(outline: Any) -> View:
     return view
 
 
-def _laid_over(shown: Any) -> Picture:
+def _laid_over(shown: Compared) -> Picture:
     size = np.max(np.hypot(*shown.points)) / mm
     larger = _times(SHARE * size * mm, shown.largest)
     x, y = (shown.foot + larger * shown.deviation * shown.normal) / mm
@@ -88,7 +99,7 @@ def _closed(points: Array) -> Array:
     return np.concatenate([points, points[:, :1]], axis=-1)
 
 
-def _largest(shown: Any) -> tuple[Array, Array, Array]:
+def _largest(shown: Compared) -> tuple[Array, Array, Array]:
     """Of each sector the number of the point that deviates most, by how much, and its polar angle."""
     sizes = np.where(np.isnan(shown.deviation), -1.0, abs(shown.deviation))
     sector = np.minimum(shown.angle * SECTORS // (2 * np.pi), SECTORS - 1)
@@ -97,7 +108,7 @@ def _largest(shown: Any) -> tuple[Array, Array, Array]:
     return at, *(np.take_along_axis(row, at, -1) for row in (shown.deviation, shown.angle + 0.0 * sizes))
 
 
-def _over_angle(shown: Any) -> Picture:
+def _over_angle(shown: Compared) -> Picture:
     angle = shown.angle / deg
     return Picture.of(
         Axes(title="Outline against the design", xlabel="polar angle  [deg]", ylabel="stands out  [mm]"),

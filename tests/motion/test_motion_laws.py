@@ -376,7 +376,7 @@ def test_a_population_has_nan_where_a_member_cannot_be():
         ),
         (
             lambda: Mirrored(Cycloidal),
-            "the law to be mirrored is the class Cycloidal; it must be a motion law such as DoubleHarmonic()",
+            "the law to be mirrored is the class Cycloidal; it must be a motion law such as Cycloidal()",
         ),
         (
             lambda: PowerPolynomial(()),

@@ -278,11 +278,13 @@ def test_a_law_that_lacks_what_is_free_is_shaped(cam, path, stress):
     assert study.around(cam).freeing({f"{path}.c1": (-0.1, 0.1)}).x0 == [0.0]
 
 
-def test_a_law_that_is_a_function_cannot_be_shaped():
+def test_a_law_that_is_a_function_is_shaped_as_any_other():
     cam = with_quantities(TranslatingRollerCam(), {"motion.rise.law": "shaped"})
     study = Study(cam, ["motion.rise.law.c0"], [camkit.cam.max_pressure_angle])
-    with pytest.raises(ValueError, match=r"^'motion\.rise\.law\.c0' is no quantity of TranslatingRollerCam"):
-        study.around(with_quantities(cam, {"motion.rise.law": Cycloidal().at}))
+    other = with_quantities(cam, {"motion.rise.law": Cycloidal().at})
+    around = study.around(other)
+    assert around.start.motion.segments[0].law.base == other.motion.segments[0].law
+    assert around.evaluate(around.x0).f == pytest.approx(study.evaluate(study.x0).f, rel=1e-12)
 
 
 def test_a_study_goes_around_another_design():

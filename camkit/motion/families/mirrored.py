@@ -26,7 +26,7 @@ class Mirrored(Law):
     >>> Mirrored("double harmonic")
     Traceback (most recent call last):
         ...
-    ValueError: the law to be mirrored is 'double harmonic'; it must be a motion law such as DoubleHarmonic()
+    ValueError: the law to be mirrored is 'double harmonic'; it must be a motion law such as Cycloidal()
     """
 
     law: Law = field(
@@ -36,7 +36,7 @@ class Mirrored(Law):
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
             given = shown(self.law)
-            raise ValueError(f"the law to be mirrored is {given}; it must be a motion law such as DoubleHarmonic()")
+            raise ValueError(f"the law to be mirrored is {given}; it must be a motion law such as Cycloidal()")
 
     @property
     def name(self) -> str:
