@@ -59,7 +59,8 @@ def test_a_panel_needs_the_cells_whose_names_it_uses():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LIVE)
 def test_every_control_moves_and_comes_back(name, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook
+    monkeypatch.chdir(tmp_path)  # a search is kept beside the notebook, and tables lie there
+    (tmp_path / "data").symlink_to(NOTEBOOKS / "data")
     made, others = {"__name__": "__main__"}, set(widget._instances)
     for code in behind_panels(nbformat.read(NOTEBOOKS / name, as_version=4).cells):
         exec(code, made)
