@@ -97,6 +97,7 @@ def compare(shown, design, views, measures, limits=None):
 PLACES = """() => camkit.structure.measures.map((m) => [m.name, camkit.places.of(m)?.chart.picture.name])
     .filter(([, picture]) => picture)"""
 CURVES = {
+    "skid": ["skid"],
     "pressure angle": ["pressure_angle", "pressure_angles"],
     "radius": ["curvature", "radius_of_curvature"],
     "contact pressure": ["contact_pressure", "hertz_pressure", "stress_over_event"],
