@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import numpy as np
@@ -41,23 +42,21 @@ def outline_deviation(analysis: Any) -> Picture:
 
 def laid_over(outline: Any) -> View:
     """A view of any design's profile with an outline, or the motion read from one, laid over it."""
-
-    def view(analysis: Any) -> Picture:
-        return _laid_over(outline.compared(analysis))
-
-    view.__doc__ = "A measured outline laid over the profile of the design."
-    view.__name__ = "outline_laid_over"
-    return view
+    return _against(outline, _laid_over, outline_laid_over)
 
 
 def deviation_over(outline: Any) -> View:
     """A view of how much an outline stands out of any design's profile, over the polar angle."""
+    return _against(outline, _over_angle, outline_deviation)
+
+
+def _against(outline: Any, drawn: Callable[[Compared], Picture], like: View) -> View:
+    """A view that is called ``like`` another one, of an outline of its own."""
 
     def view(analysis: Any) -> Picture:
-        return _over_angle(outline.compared(analysis))
+        return drawn(outline.compared(analysis))
 
-    view.__doc__ = "A measured outline's deviation from the profile of the design."
-    view.__name__ = "outline_deviation"
+    view.__name__, view.__doc__ = like.__name__, like.__doc__
     return view
 
 
