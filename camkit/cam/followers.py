@@ -138,10 +138,15 @@ class RockingAnalysis(CamAnalysis):
     @cached_property
     def resisting_torque(self) -> np.ndarray:
         """Torque about the arm's pivot that the cam has to overcome, N m, positive against a growing angle."""
-        load, l = self.cam.load, self.cam.arm_length
-        return load.resisting_torque(l, self.arm_angle, self.motion.s, self.acceleration, self.cam_angle)
+        load, l, s = self.cam.load, self.cam.arm_length, self.motion.s
+        return load.resisting_torque(l, self.arm_angle, s, self.acceleration, self.cam_angle, self.velocity)
 
     @property
     def resistance(self) -> np.ndarray:
         """The `resisting_torque`."""
         return self.resisting_torque
+
+    @property
+    def damping(self) -> Value:
+        """Torque over the arm's velocity, N m s/rad."""
+        return self.cam.load.damping

@@ -17,7 +17,7 @@ class ArmLoad(Design):
 
     Inertia of a uniform arm, ``I = m l^2 / 3`` (Gong, Liu, He 2025), and what a real machine adds: a
     constant torque, torques tabulated over the arm's travel and over the cam angle, a torsion spring, the
-    arm's weight.  Torque counts positive where it resists a growing arm angle.
+    arm's weight, damping.  Torque counts positive where it resists a growing arm angle.
     """
 
     mass: float = quantity("m", 2, 0, 10, "kg", "uniform arm", at_least=0, name="arm mass")
@@ -38,6 +38,9 @@ class ArmLoad(Design):
     cam_angle_table: tuple[tuple[float, float], ...] = ()
     """The same over the cam angle [rad]: the work of the machine, which differs between rise and return."""
     table_factor: float = quantity("k", 1, 0, 3, "", "by which what the tables give is multiplied", above=None)
+    damping: float = quantity(
+        "d", 0, 0, 10, "N m s/rad", "torque over the arm's velocity", at_least=0, name="arm damping"
+    )
 
     def __post_init__(self) -> None:
         torques = as_table("torque table", "travel", "torque", self.torque_table)
@@ -68,11 +71,20 @@ class ArmLoad(Design):
         return static + k * tabulated(self.torque_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
     def resisting_torque(
-        self, arm_length: Value, arm_angle: Value, travel: Value, acceleration: Value, cam_angle: Value = 0.0
+        self,
+        arm_length: Value,
+        arm_angle: Value,
+        travel: Value,
+        acceleration: Value,
+        cam_angle: Value = 0.0,
+        velocity: Value = 0.0,
     ) -> Array:
-        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from the motion's level 0, rad)."""
-        static = self.static_torque(arm_length, arm_angle, travel, cam_angle)
-        return self.inertia(arm_length) * self.speed**2 * acceleration + static
+        """Torque about the arm's pivot, N m, at each arm angle (``travel`` from the motion's level 0, rad).
+
+        ``velocity`` and ``acceleration`` are those by the cam angle.
+        """
+        moving = self.inertia(arm_length) * self.speed**2 * acceleration + self.damping * self.speed * velocity
+        return moving + self.static_torque(arm_length, arm_angle, travel, cam_angle)
 
     def opposite(self, spread: Value, arm_length: Value, other_length: Value) -> ArmLoad:
         """The same load as a second arm of ``other_length`` on the same shaft feels it, mirrored.
