@@ -5,7 +5,7 @@ from time import process_time
 import numpy as np
 
 from camkit.cam import SlideLoad, TranslatingFlatCam
-from camkit.dynamics import ElasticTrain, contact_loss_speed, speed_sweep
+from camkit.dynamics import ElasticFollower, ElasticTrain, contact_loss_speed, dwell_vibration_between, speed_sweep
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
 from camkit.units import deg, mm, rpm
 
@@ -57,6 +57,14 @@ def test_many_speeds(report):
     taken = least(lambda: speed_sweep(analysis, train, speeds, SAMPLES))
     report(f"an elastic train, {SPEEDS} speeds x {SAMPLES} angles", f"{taken:.0f} ms")
     assert taken < 50
+
+
+def test_a_measure_between_two_speeds(report):
+    within = dwell_vibration_between(200 * rpm, 600 * rpm, SPEEDS)
+    analysis = ElasticFollower(cam(120 * deg, 20 * mm, 2.0), ElasticTrain(8e5, 100.0, 20.0)).analyse()
+    taken = least(lambda: within.curve(analysis))
+    report(f"vibration between two speeds, {SPEEDS} speeds x {SAMPLES} angles", f"{taken:.0f} ms")
+    assert taken < 20
 
 
 def test_contact_loss(report):

@@ -247,6 +247,11 @@ GOOD = {
     "parts": lambda: [Part("rod", 0.1, 1e6)],
     "ElasticFollower.cam": lambda: CAM,
     "PolydyneProgram.segments": lambda: CAM.motion.segments,
+    **{
+        f"{of}_between.{end}": lambda: 60.0
+        for of in ("dwell_vibration", "peak_force", "min_force")
+        for end in ("low", "high")
+    },
     "polydyne.motion": lambda: CAM.motion,
     "polydyne.load": lambda: CAM.load,
     "train": ElasticTrain,

@@ -13,6 +13,7 @@ from .follower import (
     natural_frequency,
 )
 from .polydyne import PolydyneProgram, polydyne
+from .ranges import dwell_vibration_between, min_force_between, peak_force_between
 from .reduction import Part, Reduced, reduced, spring_part
 from .speeds import SpeedSweep, contact_loss_speed, speed_sweep
 from .spring import HelicalSpring, MasslessSpring
@@ -42,8 +43,11 @@ __all__ = [
     "contact_margin",
     "damping_ratio",
     "dwell_vibration",
+    "dwell_vibration_between",
     "dynamic_factor",
+    "min_force_between",
     "natural_frequency",
+    "peak_force_between",
     "polydyne",
     "reduced",
     "simulate",

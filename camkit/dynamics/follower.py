@@ -22,6 +22,7 @@ from ..quantities import Analysable, Design, LeastMeasure, Measure, PeakMeasure,
 from ..quantities.kinds import shown, whole
 from ..quantities.types import Array, Value
 from .driven import Analysed, top
+from .ranges import MAKERS
 from .speeds import contact_loss_speed
 from .steady import LEAST, MOST, Response, respond
 from .trains import ElasticArm, ElasticTrain, Train, TrainChain
@@ -150,6 +151,7 @@ acceleration_ratio = Measure("peak acceleration of the load, of the cam's", "%",
 natural_frequency = Measure("natural frequency", "Hz", lambda a: a.response.natural_frequency / (2 * np.pi))
 damping_ratio = Measure("damping ratio", "%", lambda a: a.response.damping_ratio)
 
+ElasticFollower.makers = MAKERS
 ElasticFollower.measures = (
     dynamic_factor,
     contact_margin,
