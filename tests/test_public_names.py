@@ -256,6 +256,7 @@ GOOD = {
     "polydyne.load": lambda: CAM.load,
     "train": ElasticTrain,
     "speeds": lambda: [20.0, 30.0],
+    "tuned.period_ratio": lambda: 5.0,
     "trials": lambda: TRIALS[:2],
     "tubes": lambda: TUBES,
     "unit": lambda: "mm",

@@ -6,11 +6,14 @@ from .follower import (
     ElasticFollower,
     acceleration_ratio,
     contact_loss,
+    contact_loss_margin,
     contact_margin,
     damping_ratio,
     dwell_vibration,
     dynamic_factor,
+    elastic_study,
     natural_frequency,
+    period_ratio,
 )
 from .polydyne import PolydyneProgram, polydyne
 from .ranges import dwell_vibration_between, min_force_between, peak_force_between
@@ -19,6 +22,7 @@ from .speeds import SpeedSweep, contact_loss_speed, speed_sweep
 from .spring import HelicalSpring, MasslessSpring
 from .steady import Response
 from .trains import ElasticArm, ElasticTrain, Train, TrainChain
+from .tuning import tuned
 
 __all__ = [
     "Camshaft",
@@ -39,18 +43,22 @@ __all__ = [
     "Windup",
     "acceleration_ratio",
     "contact_loss",
+    "contact_loss_margin",
     "contact_loss_speed",
     "contact_margin",
     "damping_ratio",
     "dwell_vibration",
     "dwell_vibration_between",
     "dynamic_factor",
+    "elastic_study",
     "min_force_between",
     "natural_frequency",
     "peak_force_between",
+    "period_ratio",
     "polydyne",
     "reduced",
     "simulate",
     "speed_sweep",
     "spring_part",
+    "tuned",
 ]

@@ -91,17 +91,17 @@ def driven(analysis: Analysed, samples: int) -> Driven:
         possible = _possible(analysis)
         at = analysis.at(angle)
         s, v, w, _ = at.motion
-        static, rate = np.where(possible, at.static_resistance, np.nan), _column(at.closing_rate)
+        static, rate = np.where(possible, at.static_resistance, np.nan), column(at.closing_rate)
         level, preload = s[..., :1], static[..., :1]
         travel = s - level
         load = static - preload - rate * travel
         still = (i for i, segment in enumerate(motion.segments) if segment.still)
-        dwells = tuple((_column(motion.starts[i]), _column(motion.starts[i + 1])) for i in still)
-        mass, rubs, speed = (_column(x) for x in (at.inertia, getattr(at, "damping", 0.0), at.speed))
+        dwells = tuple((column(motion.starts[i]), column(motion.starts[i + 1])) for i in still)
+        mass, rubs, speed = (column(x) for x in (at.inertia, getattr(at, "damping", 0.0), at.speed))
         return Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, rubs, speed, dwells)
 
 
-def _column(value: Value) -> Array:
+def column(value: Value) -> Array:
     """A number of a design, ``(1,)`` or ``(p, 1)``."""
     return np.atleast_1d(value)[..., :1]
 

@@ -10,22 +10,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, make_dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields, make_dataclass, replace
 from functools import cache, cached_property
-from typing import Any, ClassVar, Protocol, cast
+from typing import Any, ClassVar, Protocol, Self, cast
 
 import numpy as np
 
 from ..motion import MotionProgram
+from ..motion.closing import TURN
 from ..motion.resolution import Resolution, resolve
 from ..quantities import Analysable, Design, LeastMeasure, Measure, PeakMeasure, choice
-from ..quantities.kinds import shown, whole
+from ..quantities.kinds import refuse_arguments, shown, whole
 from ..quantities.types import Array, Value
+from ..study import Study
+from ..study.free import Menu
 from .driven import Analysed, top
 from .ranges import MAKERS
 from .speeds import contact_loss_speed
 from .steady import LEAST, MOST, Response, respond
 from .trains import ElasticArm, ElasticTrain, Train, TrainChain
+from .tuning import first_stroke
 
 TRAINS = ElasticTrain(), ElasticArm(), TrainChain()
 """What a cam can drive, for a menu."""
@@ -78,6 +83,12 @@ class ElasticFollower(Design):
         whole(self.samples, "the number of samples of a turn", 8, MOST)
         super().__post_init__()
 
+    def ready_for(self, paths: Iterable[str]) -> Self:
+        """The same design with a cam that is ready for what is free in it (see `Design.ready_for`)."""
+        needed = {*paths}
+        cam = self.cam.ready_for([path.removeprefix("cam.") for path in needed if path.startswith("cam.")])
+        return super().ready_for(needed) if cam is self.cam else self.replace(cam=cam).ready_for(needed)
+
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, with the forces of the train."""
         rigid = cast(Analysable, self.cam).analyse(n)
@@ -85,6 +96,28 @@ class ElasticFollower(Design):
         given = {f.name: getattr(rigid, f.name) for f in fields(rigid)}
         kind: Any = type(rigid)
         return _elastic(kind)(**given, response=response, samples=self.samples)
+
+
+def elastic_study(study: Study[Any], train: Train, samples: int = LEAST) -> Study[ElasticFollower]:
+    """A study of a cam with an elastic ``train`` behind it: the same free quantities, objectives and limits.
+
+    They are those of the forces of the train; the paths of what is free begin with ``cam``.  Quantities of the train
+    are freed with `Study.freeing`, its measures limited with ``replace``.
+
+    >>> from camkit import HighSpeedCam
+    >>> from camkit.dynamics import tuned
+    >>> from camkit.machines import high_speed_study
+    >>> train = tuned(ElasticArm(), HighSpeedCam().analyse(), period_ratio=5)
+    >>> study = elastic_study(high_speed_study(), train)
+    >>> print(list(study.free)[0], f"{study.evaluate(study.x0).f[0, 0] * 0.001**0.5:.4f}")
+    cam.arm_length 2.5954
+    """
+    refuse_arguments(elastic_study, locals())
+    free = {
+        f"cam.{name}": replace(b, paths=tuple(f"cam.{path}" for path in b.paths)) if isinstance(b, Menu) else b
+        for name, b in study.free.items()
+    }
+    return study.replace(start=ElasticFollower(study.start, train, samples), free=free)
 
 
 @cache
@@ -129,7 +162,21 @@ def _margin(analysis: Elastic) -> Array:
 
 
 def _left(analysis: Elastic) -> Value:
-    return contact_loss_speed(analysis, analysis.response.train)
+    return contact_loss_speed(analysis, analysis.response.train) + _unknown(analysis)
+
+
+def _margin_of_speed(analysis: Elastic) -> Value:
+    return contact_loss_speed(analysis, analysis.response.train) / analysis.response.speed[..., 0] - 1
+
+
+def _unknown(analysis: Elastic) -> float:
+    """0; ``nan`` if the cam has its speed as a share of a rated one and nobody knows that."""
+    return np.nan if getattr(analysis, "rated", False) else 0.0
+
+
+def _periods(analysis: Elastic) -> Value:
+    response = analysis.response
+    return response.natural_frequency / response.speed[..., 0] * first_stroke(analysis)[..., 0] / TURN
 
 
 def _swing(analysis: Elastic) -> Value:
@@ -146,9 +193,11 @@ contact_margin = LeastMeasure(
     points=lambda a: a.seen(_margin, -1),
 )
 contact_loss = Measure("speed at which the train leaves the cam", "rpm", _left)
+contact_loss_margin = Measure("overspeed before the train leaves the cam", "%", _margin_of_speed)
 dwell_vibration = PeakMeasure("vibration in the dwells, of the travel", "%", _still)
 acceleration_ratio = Measure("peak acceleration of the load, of the cam's", "%", _swing)
-natural_frequency = Measure("natural frequency", "Hz", lambda a: a.response.natural_frequency / (2 * np.pi))
+natural_frequency = Measure("natural frequency", "Hz", lambda a: a.response.natural_frequency / TURN + _unknown(a))
+period_ratio = Measure("natural periods in the first stroke", "", _periods)
 damping_ratio = Measure("damping ratio", "%", lambda a: a.response.damping_ratio)
 
 ElasticFollower.makers = MAKERS
@@ -156,8 +205,10 @@ ElasticFollower.measures = (
     dynamic_factor,
     contact_margin,
     contact_loss,
+    contact_loss_margin,
     dwell_vibration,
     acceleration_ratio,
     natural_frequency,
+    period_ratio,
     damping_ratio,
 )

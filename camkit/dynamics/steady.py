@@ -78,7 +78,7 @@ def response_of(train: Train, given: Driven, speed: Value | None) -> Response:
     """The response to what drives a train, at the cam's own speed or another; what cannot be is refused."""
     _refuse_mass(train, given)
     turns = given.speed if speed is None else np.atleast_1d(speed)
-    if refuse := unless(np.all(turns > 0) if turns.size == 1 else turns > 0):
+    if refuse := unless(np.all(turns > 0) if turns.ndim == 1 else turns > 0):
         refuse("the cam is at rest; for steady motion its speed must be above 0 rpm")
     response = Response(train, given, np.where(turns > 0, turns, np.nan))
     response.refuse_resonance()
@@ -88,7 +88,7 @@ def response_of(train: Train, given: Driven, speed: Value | None) -> Response:
 def _refuse_mass(train: Train, given: Driven) -> None:
     """``ValueError`` in a sentence for one load that has no mass left for the end of the train."""
     rest = last_mass(train, given)
-    if refuse := unless(np.all(rest > 0) if rest.size == 1 else rest > 0):
+    if refuse := unless(np.all(rest > 0) if rest.ndim == 1 else rest > 0):
         parts = float((given.mass - rest)[0])
         refuse(
             f"the load has a mass of {float(given.mass[0]):.6g} and the train's parts before its end {parts:.6g} "

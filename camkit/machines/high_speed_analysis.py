@@ -28,6 +28,8 @@ from . import high_speed_curves as curves
 
 AWAY, BACK = 0, 2
 """The segments of the motion in which the arm swings, by their numbers."""
+WHOLE = (0, 1, 2, 3)
+"""All of them: between the two in which the arm swings it dwells."""
 
 
 def inverse_root(ease: Array) -> Array:
@@ -106,8 +108,9 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
 
     @cached_property
     def moving(self) -> HighSpeedAnalysis:
-        """Rise and fall together, at the cam angles that show their peaks."""
-        moving: HighSpeedAnalysis = self._part(AWAY, BACK) if self is self.resolved else self.resolved.moving
+        """Rise and fall together, at the cam angles that show their peaks; the dwells too if a train swings in them."""
+        shown = WHOLE if hasattr(self, "response") else (AWAY, BACK)
+        moving: HighSpeedAnalysis = self._part(*shown) if self is self.resolved else self.resolved.moving
         return moving
 
     def tops(self, curve: Callable[[HighSpeedAnalysis], Array], but: Value = False) -> np.ndarray:
@@ -191,6 +194,11 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def speed(self) -> Value:
         """At which the cam turns, as a share of the rated speed."""
         return self.cam.speed
+
+    @property
+    def rated(self) -> bool:
+        """Whether that is a share, as of a `HighSpeedCam` by itself, and no speed in rad/s."""
+        return self.machine is self.cam
 
     @property
     def way(self) -> Array:
@@ -322,7 +330,8 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     @property
     def lead(self) -> np.ndarray:
         """Travel from either end over rise and fall as a share of what a 3-4-5 polynomial makes of it (see `lag`)."""
-        return -self.tops(curves.lag)
+        lead, moves = -self.tops(curves.lag), self.moving.resolution.moves
+        return lead if moves.all() else np.where(moves, lead, 1.0)
 
     @cached_property
     def passes_start(self) -> Array:

@@ -6,8 +6,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import HighSpeedCam, Study, Tolerances, TranslatingRollerCam, deg, explore, minimise, mm, rpm
+from camkit import (
+    HighSpeedCam,
+    OscillatingRollerCam,
+    Study,
+    Tolerances,
+    TranslatingRollerCam,
+    deg,
+    explore,
+    minimise,
+    mm,
+    rpm,
+)
 from camkit.cam import (
+    ArmLoad,
     ContactPair,
     contact_along,
     jump_speed,
@@ -23,13 +35,20 @@ from camkit.dynamics import (
     ElasticFollower,
     ElasticTrain,
     contact_loss,
+    contact_loss_margin,
     contact_loss_speed,
     contact_margin,
+    damping_ratio,
     dwell_vibration,
     dynamic_factor,
+    elastic_study,
+    natural_frequency,
+    period_ratio,
+    tuned,
 )
-from camkit.machines.high_speed_measures import peak_stress, peak_wear
-from camkit.motion import Cycloidal
+from camkit.machines import CamLever, high_speed_measures, high_speed_study
+from camkit.machines.high_speed_measures import min_lead, overrun, peak_stress, peak_wear, undercut_margin
+from camkit.motion import Cycloidal, ModifiedSine
 from camkit.quantities import measures_of, quantities_of
 from train_cases import GIVEN, VALUES, A, flat, program
 
@@ -66,21 +85,98 @@ def test_pressure_is_that_of_the_dynamic_force():
     assert peak_pressure(elastic) > 1.02 * peak_pressure(ROLLER.analyse())
 
 
+def elastic_high_speed(tau, **fields):
+    cam = HighSpeedCam(**fields)
+    return ElasticFollower(cam, tuned(ElasticArm(), cam.analyse(), tau), samples=2880)
+
+
 @pytest.mark.parametrize("tau", GIVEN["high_speed"]["ratios"])
 def test_stress_and_wear_of_a_high_speed_cam(tau):
-    """Of rise and return; ``nan`` where contact is lost, of which the reference takes no notice."""
-    cam, expected = HighSpeedCam(), VALUES["high_speed"][f"tau {tau}"]
-    frequency, inertia = tau * 2 * np.pi / (90 * deg), 10.0
-    stiffness = inertia * frequency**2 - cam.analyse().closing_rate[0]
-    analysis = ElasticFollower(cam, ElasticArm(stiffness, 0.1 * inertia * frequency), samples=2880).analyse()
+    """Of rise and return and of the turn; ``nan`` where contact is lost, of which the reference takes no notice."""
+    analysis, expected = elastic_high_speed(tau).analyse(), VALUES["high_speed"][f"tau {tau}"]
     lost = expected["least_moment"] < 0
     for name, part in (("rise", analysis.rise), ("return", analysis.fall)):
-        for kind, curve in (("sigma", part.stress_coefficient), ("wear", part.wear_coefficient)):
-            assert np.nanmax(curve) == pytest.approx(expected[f"{kind}_{name}"], rel=1e-4)
-    assert np.isnan(peak_stress(analysis)) == lost
-    if not lost:
-        most = max(expected["wear_rise"], expected["wear_return"])
-        assert peak_wear(analysis) * mm**0.5 == pytest.approx(most, rel=1e-5)
+        for kind in ("sigma", "wear"):
+            curve = {"sigma": "stress_coefficient", "wear": "wear_coefficient"}[kind]
+            found = part.highest(lambda at, curve=curve: np.nan_to_num(getattr(at, curve))).value
+            assert found == pytest.approx(expected[f"{kind}_{name}"], rel=1e-6)
+    moments = [getattr(analysis, way)(lambda at: at.resistance).value for way in ("lowest", "highest")]
+    most = expected["most_moment"]
+    assert_allclose(moments, [expected["least_moment"], most], rtol=0, atol=1e-6 * most)
+    assert (min_force(analysis) < 0) == lost
+    for measure, kind in ((peak_stress, "sigma"), (peak_wear, "wear")):
+        assert np.isnan(measure(analysis)) == lost
+        if not lost:
+            assert measure(analysis) * mm**0.5 == pytest.approx(expected[f"{kind}_turn"], rel=1e-6)
+
+
+def test_the_force_of_a_high_speed_cam_is_seen_in_the_dwells_too():
+    """At ``tau`` 10 the train swings back in the dwell at the near end: the least force of the turn is there."""
+    analysis = elastic_high_speed(10).analyse()
+    least = analysis.lowest(lambda at: at.contact_force)
+    assert least.cam_angle > 270 * deg
+    assert high_speed_measures.min_force(analysis) == pytest.approx(least.value, rel=1e-6)
+    assert analysis.fall.contact_force.min() > 1.1 * least.value
+    for measure in (min_lead, overrun, undercut_margin):
+        assert measure(analysis) == pytest.approx(measure(HighSpeedCam().analyse()), rel=1e-6)
+
+
+def test_a_train_by_its_natural_periods():
+    arm = OscillatingRollerCam(groove=False, load=ArmLoad(mass=3.0, speed=200 * rpm, spring_rate=8.0, preload=5.0))
+    slide = flat(damping=15.0)
+    for cam, train in (
+        (arm, ElasticArm(cam_side_mass=1e-4)),
+        (slide, ElasticTrain(ground_damping=4.0)),
+        (CamLever(), ElasticArm()),
+    ):
+        tau, zeta = np.array([[2.5], [7.0]]), 0.08
+        made = tuned(train, cam.analyse(), tau, zeta)
+        analysis = ElasticFollower(cam, made).analyse()
+        beta = analysis.cam.motion.starts[1]
+        frequency = tau[:, 0] * 2 * np.pi * analysis.response.speed[..., 0] / beta
+        assert_allclose(analysis.response.natural_frequency, frequency, rtol=1e-12)
+        assert_allclose(damping_ratio(analysis), zeta, rtol=1e-12)
+        assert_allclose(period_ratio(analysis), tau[:, 0], rtol=1e-12)
+        assert tuned(train, cam.analyse(), 7, zeta).stiffness == pytest.approx(made.stiffness[1, 0], rel=1e-14)
+
+
+def test_refusals_of_natural_periods():
+    analysis = HighSpeedCam().analyse()
+    with pytest.raises(ValueError, match="the period ratio is 0; it must be a finite number above 0 and at most 10000"):
+        tuned(ElasticArm(), analysis, 0)
+    with pytest.raises(ValueError, match=r"the return spring alone has 25\.4416 .* the period ratio must be larger"):
+        tuned(ElasticArm(), analysis, 0.3)
+    with pytest.raises(ValueError, match=r"that to the frame alone is 5 .* the damping ratio must be larger"):
+        tuned(ElasticArm(ground_damping=5.0), analysis, 3, 0.01)
+    with pytest.raises(ValueError, match="the cam is at rest"):
+        tuned(ElasticArm(), OscillatingRollerCam(load=ArmLoad(speed=0.0)).analyse(), 3)
+    many = tuned(ElasticArm(), analysis, np.array([[0.3], [3.0]]))
+    assert np.isnan(many.stiffness[:, 0]).tolist() == [True, False]
+
+
+def test_a_share_of_the_rated_speed_is_no_speed_in_rpm():
+    analysis = elastic_high_speed(5).analyse()
+    assert np.isnan([contact_loss(analysis), natural_frequency(analysis)]).all()
+    faster = elastic_high_speed(5, speed=1 + contact_loss_margin(analysis), spring_factor=analysis.spring_factor)
+    faster = faster.replace(train=elastic_high_speed(5).train).analyse()
+    assert contact_margin(faster) == pytest.approx(0, abs=1e-4)
+
+
+def test_the_study_of_a_high_speed_cam_with_a_train():
+    study = elastic_study(high_speed_study(), elastic_high_speed(5).train)
+    assert [*study.free] == ["cam.arm_length", "cam.roller_radius", "cam.max_radius"]
+    start = peak_stress(study.start.analyse())
+    found = minimise(study, "slsqp", starts=1, seed=1, designs=400)
+    assert peak_stress(found.design.analyse()) < 0.75 * start  # 2.595 to 1.835
+    assert min_force(found.design.analyse()) > 0
+    laws = elastic_study(high_speed_study(free_laws=True), elastic_high_speed(5).train)
+    assert laws.around(laws.start.replace(cam=HighSpeedCam())).start.cam.spring_factor == pytest.approx(
+        2.54416, rel=1e-5
+    )
+    menus = high_speed_study().replace(free={"rise_law": (Cycloidal(), ModifiedSine())})
+    menus = elastic_study(menus, elastic_high_speed(10).train)
+    assert menus.design([1.0]).cam.rise_law == ModifiedSine()
+    assert np.isfinite(menus.evaluate([[0.0], [1.0]]).f).all()
 
 
 def test_forces_between_the_samples_are_those_of_more_samples():
