@@ -31,8 +31,10 @@ PER_RADIAN = 0.1
 """Of the natural motion, in a step, at most."""
 MOST_STEPS = 100_000
 MOST_TURNS = 1000
+HAIR = 1e-14
+"""To this an event is found, rad; the phase has then ended by a few of them."""
 HALVINGS, MOST_EVENTS = 40, 8
-"""Of a step, in which an event is found; so many of them are followed in one step."""
+"""Of a step, until a phase has begun; so many events are followed in one step."""
 
 
 class Event(NamedTuple):
@@ -114,11 +116,10 @@ class _Step(NamedTuple):
         slope, bend = second / h, 2 * third / h**2
         return cls(E, (first - 3 * slope + 2 * bend, 4 * slope - 4 * bend, 2 * bend - slope))
 
-    def __call__(self, y: Array, f: Array) -> Array:
-        """``y`` after the step; ``f`` has a row for each of the three values."""
-        a, b, c = self.weights
-        moved: Array = self.E @ y + a @ f[0] + b @ f[1] + c @ f[2]
-        return moved
+    def adds(self, f: Array) -> Array:
+        """What steps from end to end add to ``E y``; ``f`` has a row for each of their ends and middles."""
+        a, b, c = (weight.T for weight in self.weights)
+        return f[:-2:2] @ a + f[1::2] @ b + f[2::2] @ c
 
 
 class _Phase(NamedTuple):
@@ -212,7 +213,8 @@ class _Run:
     def advance(self, phase: _Phase, y: Array, begin: float, by: float) -> tuple[Array, Array]:
         """``y`` and ``u`` at ``by`` rad after the cam angle ``begin``."""
         u = self.drive((begin + by * np.array([0.0, 0.5, 1.0])) % TURN)
-        return _Step.of(phase.A, by)(y, u @ phase.B.T), u[-1]
+        step = _Step.of(phase.A, by)
+        return step.E @ y + step.adds(u @ phase.B.T)[0], u[-1]
 
     def over(self, turns: int) -> Flight:
         """The run from rest over some turns."""
@@ -234,8 +236,8 @@ class _Path:
         self.events: list[Event] = []
         self.seen: list[tuple[float, float, float, float]] = []
         u = run.drive(np.zeros(1))[0]
-        self._note(0.0, u)
-        if run.press(self.y, u) < 0:
+        self._note(0.0, force := run.press(self.y, u))
+        if force < 0:
             self._leave(0.0, u)
 
     @property
@@ -254,29 +256,28 @@ class _Path:
     def through(self, begin: float, step: float, u: Array) -> None:
         """Over one smooth piece of the motion."""
         phases = (self.run.contact, self.run.flight)
-        steps = [(_Step.of(phase.A, step), phase.B.T) for phase in phases]
-        for i in range(len(u) // 2):
-            move, B = steps[self.flies]
-            here, now, end = u[2 * i : 2 * i + 3], begin + i * step, begin + (i + 1) * step
-            y = move(self.y, here @ B)
-            if self._ends(y, here[2], end):
+        steps = [(each.E, each.adds(u @ phase.B.T)) for phase in phases for each in [_Step.of(phase.A, step)]]
+        for i, here in enumerate(u[2::2]):
+            E, adds = steps[self.flies]
+            now, end = begin + i * step, begin + (i + 1) * step
+            y = E @ self.y + adds[i]
+            kept = self._left(y, here, end)
+            if kept < 0 or (self.flies and kept == 0):
                 self._through_events(now, end)
+                kept = self._left(self.y, here, end)
             else:
                 self.y = y
-            self._note(end, here[2])
+            self._note(end, kept)
 
-    def _ends(self, y: Array, u: Array, angle: float) -> bool:
-        """Whether the phase has ended before a state."""
-        if not self.flies:
-            return self.run.press(y, u) < 0
-        gap = self.gap(y, u, angle)
-        return gap <= 0
+    def _left(self, y: Array, u: Array, angle: float) -> float:
+        """What is left of a phase before it ends at 0: of the force in contact, of the gap in flight."""
+        return self.gap(y, u, angle) if self.flies else self.run.press(y, u)
 
     def _through_events(self, now: float, end: float) -> None:
         """From one cam angle to another, with the events between."""
         for _ in range(MOST_EVENTS):
             y, u = self.run.advance(self.phase, self.y, now, end - now)
-            if not self._ends(y, u, end):
+            if (kept := self._left(y, u, end)) > 0 or (kept == 0 and not self.flies):
                 break
             now = self._event(now, end)
         else:
@@ -284,17 +285,28 @@ class _Path:
         self.y = y
 
     def _event(self, now: float, end: float) -> float:
-        """The end of the phase between two cam angles, by halves; the state is then that after it."""
-        low, high = now, end
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            y, u = self.run.advance(self.phase, self.y, now, middle - now)
-            low, high = (low, middle) if self._ends(y, u, middle) else (middle, high)
+        """The end of the phase between two cam angles; the state is then that after it."""
+        high = self._root(now, end)
         self.y, u = self.run.advance(self.phase, self.y, now, high - now)
         if self.flies:
             self._strike(high, u)
         else:
             self._leave(high, u)
+        return high
+
+    def _root(self, now: float, end: float) -> float:
+        """Where the phase ends between two cam angles; it may have begun with nothing left at the first."""
+        from scipy.optimize import brentq
+
+        def left(angle: float) -> float:
+            return self._left(*self.run.advance(self.phase, self.y, now, angle - now), angle)
+
+        high = end
+        for _ in range(HALVINGS):
+            middle = (now + high) / 2
+            if left(middle) > 0:
+                return min(float(brentq(left, middle, high, xtol=HAIR)) + 4 * HAIR, high)
+            high = middle
         return high
 
     def _leave(self, angle: float, u: Array) -> None:
@@ -313,10 +325,8 @@ class _Path:
         if run.press(self.y, u) < 0:
             self._leave(angle, u)
 
-    def _note(self, angle: float, u: Array) -> None:
-        gap = self.gap(self.y, u, angle) if self.flies else 0.0
-        force = 0.0 if self.flies else self.run.press(self.y, u)
-        self.seen.append((angle, float(self.y[self.run.n - 1]), gap, force))
+    def _note(self, angle: float, kept: float) -> None:
+        self.seen.append((angle, float(self.y[self.run.n - 1]), *((kept, 0.0) if self.flies else (0.0, kept))))
 
     def flight(self) -> Flight:
         """What was seen."""
