@@ -108,11 +108,15 @@ class Living:
     """Of a measure: value in SI and sense (1 for at most, -1 for at least), of one limit or two."""
     first: Mapping[str, float]
     free: Sequence[str] | None = None
+    _last: list[tuple[Analysable, object]] = field(default_factory=list, init=False, repr=False, compare=False)
+    """The last design that was shown, and its analysis: while a mechanism turns, nothing else is computed."""
 
     def show(self, design: Analysable, **position: float) -> dict[str, Json]:
         """Pictures, positions and measures of a design that stands at a position, and the arrays that they name."""
         outputs = Outputs()
-        return _plainly(self._shown(design, position, outputs), outputs)
+        if not self._last or self._last[0][0] != design:
+            self._last[:] = [(design, design.analyse())]
+        return _plainly(self._shown(self._last[0][1], position, outputs), outputs)
 
     def show_still(self, design: Analysable) -> dict[str, Json]:
         """The pictures that do not compute, by their number, and the arrays that they name."""
@@ -122,9 +126,8 @@ class Living:
         shown = {str(k): self._picture(self.views[k], analysis, self.first, outputs, why) for k, why in still.items()}
         return _plainly({"pictures": shown}, outputs)
 
-    def _shown(self, design: Analysable, position: Mapping[str, float], outputs: Outputs) -> dict[str, Json]:
-        """Everything that follows from a design, which may be recorded."""
-        now = design.analyse()
+    def _shown(self, now: object, position: Mapping[str, float], outputs: Outputs) -> dict[str, Json]:
+        """Everything that follows from the analysis of a design, which may be recorded."""
         return {
             "pictures": [self._seen(view, now, position, outputs) for view in self.views],
             "positions": [outputs.at(row) for row in _position_rows(now, self.first)],
@@ -167,7 +170,7 @@ class Living:
 
         def show(design: Analysable, **position: float) -> dict[str, Any]:
             outputs = Outputs()
-            shown.update(self._shown(design, position, outputs))
+            shown.update(self._shown(design.analyse(), position, outputs))
             return outputs.found | outputs.texts
 
         try:
