@@ -19,7 +19,7 @@ class Body(ABC):
 
     ``x``, ``y`` and ``angle`` are numbers, or ``(n,)`` with one for each position.  Parts of one ``name`` belong
     together; ``part`` is what it is: "body", "profile", "flank", "pitch", "axis", "guide", "arm",
-    "face", "block", "roller", "pivot".
+    "face", "block", "roller", "pivot", "spring", "mass".
     """
 
     name: str
@@ -61,6 +61,33 @@ class Disc(Body):
     def at(self, i: SupportsIndex) -> np.ndarray:
         """Its centre at position ``i``, ``(2,)``, m."""
         return np.stack([_at(value, i) for value in (self.x, self.y)])
+
+
+@dataclass(frozen=True)
+class Coil(Body):
+    """A spring from its place to its ``end`` ``(2,)`` or ``(2, n)``, m, drawn flat: a zigzag of a ``width`` (m).
+
+    >>> Coil("", "spring", end=np.array([0.0, 0.4]), width=0.1, turns=2).at(0)[0].round(6).tolist()
+    [0.0, 0.0, 0.05, -0.05, 0.05, -0.05, 0.0, 0.0]
+    """
+
+    end: Array
+    width: Value
+    turns: int = 6
+
+    def at(self, i: SupportsIndex) -> np.ndarray:
+        """Its points at position ``i``, ``(2, k)``, m."""
+        start, end = (vector(*(_at(part, i) for part in place)) for place in ((self.x, self.y), self.end))
+        whole = end - start
+        across = vector(-whole[1], whole[0]) / np.hypot(*whole)
+        bends = np.linspace(LEAD, 1 - LEAD, 4 * self.turns + 1)[1::2]
+        side = np.append(np.tile([-0.5, 0.5], self.turns), [0.0, 0.0])
+        share = np.concatenate([[0.0, LEAD], bends, [1 - LEAD, 1.0]])
+        return start[:, None] + whole[:, None] * share + self.width * across[:, None] * np.append([0.0, 0.0], side)
+
+
+LEAD = 0.12
+"""This share of a spring is straight, at each end."""
 
 
 @dataclass(frozen=True)

@@ -25,9 +25,9 @@ from ..quantities.kinds import refuse_arguments, shown, whole
 from ..quantities.types import Array, Value
 from ..study import Study
 from ..study.free import Menu
+from .at_speed import Shown
 from .driven import Analysed, top
 from .ranges import MAKERS
-from .speeds import contact_loss_speed
 from .steady import LEAST, MOST, Response, respond
 from .trains import ElasticArm, ElasticTrain, Train, TrainChain
 from .tuning import first_stroke
@@ -53,6 +53,9 @@ class Elastic(Analysed, Protocol):
 
     @property
     def program(self) -> MotionProgram: ...
+
+    @property
+    def leaves_at(self) -> Value: ...
 
     def steps(self) -> int: ...
 
@@ -127,7 +130,7 @@ def _elastic(kind: Any) -> Any:
     resolution = cached_property(_resolution)
     resolution.__set_name__(kind, "resolution")
     own = {"resistance": property(_resistance), "resolution": resolution}
-    return make_dataclass(f"Elastic{kind.__name__}", more, bases=(kind,), frozen=True, namespace=own)
+    return make_dataclass(f"Elastic{kind.__name__}", more, bases=(Shown, kind), frozen=True, namespace=own)
 
 
 def _resistance(analysis: Elastic) -> Array:
@@ -162,11 +165,11 @@ def _margin(analysis: Elastic) -> Array:
 
 
 def _left(analysis: Elastic) -> Value:
-    return contact_loss_speed(analysis, analysis.response.train) + _unknown(analysis)
+    return analysis.leaves_at + _unknown(analysis)
 
 
 def _margin_of_speed(analysis: Elastic) -> Value:
-    return contact_loss_speed(analysis, analysis.response.train) / analysis.response.speed[..., 0] - 1
+    return analysis.leaves_at / analysis.response.speed[..., 0] - 1
 
 
 def _unknown(analysis: Elastic) -> float:

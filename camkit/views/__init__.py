@@ -1,5 +1,13 @@
 """Views: ``view(analysis) -> Picture``.  They compute no physics, and know numpy and units only."""
 
+from .at_speed import (
+    acceleration_beside_cam,
+    cam_and_train,
+    force_beside_rigid,
+    force_over_speed,
+    gap_and_strikes,
+    spectrum_of_lift,
+)
 from .beside import Beside, cams_beside, curves_beside
 from .cam import cam_torque, contact_force, contact_pressure, curvature, efficiency, mechanism, motion, pressure_angle
 from .decision import ShownDecision, brushed_designs, front_winners, judgement_bars, winners_by_weight
@@ -43,9 +51,11 @@ __all__ = [
     "ShownVibration",
     "Text",
     "View",
+    "acceleration_beside_cam",
     "band",
     "brushed_designs",
     "cam_and_follower",
+    "cam_and_train",
     "cam_torque",
     "cams_beside",
     "candidates",
@@ -64,8 +74,11 @@ __all__ = [
     "deviation_over",
     "drive",
     "efficiency",
+    "force_beside_rigid",
+    "force_over_speed",
     "front_winners",
     "fronts_overlaid",
+    "gap_and_strikes",
     "hertz_pressure",
     "judgement_bars",
     "laid_over",
@@ -90,6 +103,7 @@ __all__ = [
     "section",
     "shapes_in_space",
     "sobol_bars",
+    "spectrum_of_lift",
     "spring_and_inertia",
     "stress_over_event",
     "stress_over_way",

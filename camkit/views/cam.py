@@ -102,6 +102,10 @@ def _body(body: Body, i: SupportsIndex, away: float, key: str, style: LabelStyle
         yield Points(key, x, y, mark="plus" if body.part == "axis" else "dot", size=10, fill="paper", **style)
     elif body.part == "body":
         yield Polygon(key, x, y, role="body")
+    elif body.part == "mass":
+        yield Polygon(key, x, y, edged=True, **style)
+    elif body.part in ("spring", "frame"):
+        yield Line(key, x, y, stroke="line" if body.part == "spring" else "bold", **style)
     elif body.part in ("arm", "face", "block"):
         yield Line(key, x, y, stroke="arm", opacity=1.0 if body.part == "face" else 0.85, **style)
     else:

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import cam, development, event, intervals, outlines, shafts, sizes, space
+from . import at_speed, cam, development, event, intervals, outlines, shafts, sizes, space
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
     "bodies": cam.mechanism,
+    "train_bodies": at_speed.cam_and_train,
+    "response": at_speed.force_beside_rigid,
+    "load_acceleration": at_speed.acceleration_beside_cam,
+    "over_speed": at_speed.force_over_speed,
+    "harmonics": at_speed.spectrum_of_lift,
+    "flight": at_speed.gap_and_strikes,
     "development": development.unrolled_cam,
     "shapes": development.shapes_in_space,
     "motion": cam.motion,

@@ -13,7 +13,6 @@ from camkit import (
     Tolerances,
     TranslatingRollerCam,
     deg,
-    explore,
     minimise,
     mm,
     rpm,
@@ -215,12 +214,6 @@ def test_a_search_and_tolerances():
     assert contact_margin(at) > 0.2 - 1e-6
     spread = Tolerances(STUDY, {"train.stiffness": 5e4, "cam.load.preload": 20.0}, parts=64)
     assert spread.share == 1
-
-
-def test_a_panel_opens_with_the_curves_of_the_cam():
-    app = explore(ElasticFollower(ROLLER, A), free=["train.stiffness", "cam.load.preload"])
-    assert [view.__name__ for view in app.views][:4] == ["mechanism", "motion", "pressure_angle", "contact_force"]
-    assert app.analysis.contact_force.max() == pytest.approx(614, rel=0.1)
 
 
 def test_a_population_of_trains_behind_one_cam():
