@@ -68,6 +68,16 @@ def cam_and_train(analysis: AtSpeed, turn: float = 0.0) -> Picture:
     return Picture.of(axes, bodies(analysis.train_bodies, position(analysis.cam_angle, turn)))
 
 
+def _rated(analysis: AtSpeed) -> bool:
+    """Whether speeds are shares of a rated one that nobody knows."""
+    return bool(getattr(analysis, "rated", False))
+
+
+def _speeds(analysis: AtSpeed) -> tuple[str, float]:
+    """The unit in which speeds of the cam are shown, and its size."""
+    return ("% of rated", 0.01) if _rated(analysis) else ("rpm", rpm)
+
+
 def _turn(response: Any, *curves: Array) -> Iterator[Array]:
     """Cam angle (deg) and curves over a whole turn, closed, in as many places as are drawn."""
     step = max(1, len(response.cam_angle) // MOST_DRAWN)
@@ -108,6 +118,7 @@ def acceleration_beside_cam(analysis: AtSpeed) -> Picture:
         Line("load", x, load, role="acceleration", label="load"),
     ]
     unit = "rad/s²" if analysis.rocks else "m/s²"
+    unit = "by rated speed squared" if _rated(analysis) else unit
     return Picture.of(Axes(title="Acceleration of the load", xlabel=ANGLE, ylabel=f"[{unit}]"), marks)
 
 
@@ -116,8 +127,9 @@ def force_over_speed(analysis: AtSpeed) -> Picture:
 
     Harmonic n meets the natural frequency at its n-th part: a line there, the bolder the larger the harmonic is.
     """
-    found, now = analysis.over_speed, float(analysis.response.speed[0]) / rpm
-    x, least, leaves = found.sweep.speed / rpm, found.sweep.least_force, float(found.leaving) / rpm
+    unit, size = _speeds(analysis)
+    found, now = analysis.over_speed, float(analysis.response.speed[0]) / size
+    x, least, leaves = found.sweep.speed / size, found.sweep.least_force, float(found.leaving) / size
     kept = (least >= 0) | analysis.form_closed
     low, high = _window(found, x, now)
     there = bool(leaves <= x[-1])
@@ -129,11 +141,11 @@ def force_over_speed(analysis: AtSpeed) -> Picture:
         Line("most", x, found.sweep.max_force, role="position", label="largest"),
         Line("least", x, gaps(least, kept), role="follower", label="least"),
         Line("formal", x, gaps(least, ~kept), role="follower", stroke="thin dotted"),
-        Line("now", [now, now], [low, high], role="ink", label=f"now {now:.4g} rpm"),
+        Line("now", [now, now], [low, high], role="ink", label=f"now {now:.4g} {unit}"),
         Line("leaves", *(([leaves] * 2, [low, high]) if there else ([], [])), role="limit", label="leaves" * there),
     ]
-    title = "Force over speed" + (f": leaves at {leaves:.4g} rpm" if there else "")
-    axes = Axes(title=title, xlabel="cam speed  [rpm]", ylabel="contact force  [N]",
+    title = "Force over speed" + (f": leaves at {leaves:.4g} {unit}" if there else "")
+    axes = Axes(title=title, xlabel=f"cam speed  [{unit}]", ylabel="contact force  [N]",
                 xlim=(0.0, x[-1]), ylim=(low, high))  # fmt: skip
     return Picture.of(axes, marks)
 
@@ -147,8 +159,8 @@ def _window(found: Any, x: Array, now: float) -> tuple[float, float]:
 
 def _hits(analysis: AtSpeed, high: float) -> Iterator[Mark]:
     """Where harmonics of the lift meet the natural frequency, by number."""
-    found, force = analysis.over_speed, "N m" if analysis.rocks else "N"
-    places = np.array([hit.speed for hit in found.hits]) / rpm
+    found, force, (_, size) = analysis.over_speed, "N m" if analysis.rocks else "N", _speeds(analysis)
+    places = np.array([hit.speed for hit in found.hits]) / size
     for k, (at, hit) in enumerate(zip(places, found.hits, strict=True)):
         label = "natural frequency / n" if k == 0 else ""
         yield Line(f"hit {hit.number}", [at, at], [0.0, 0.9 * high], role="velocity", stroke="thin", label=label)
@@ -158,7 +170,7 @@ def _hits(analysis: AtSpeed, high: float) -> Iterator[Mark]:
         f"harmonic {hit.number} of the lift, {_size(hit.amplitude, analysis.rocks)}: up to {hit.force:.3g} {force} more"
         for hit in found.hits
     )
-    most = np.interp(places, found.sweep.speed / rpm, found.sweep.max_force)
+    most = np.interp(places, found.sweep.speed / size, found.sweep.max_force)
     yield Points("hits", places, most, role="velocity", size=6, names=told)
 
 
@@ -216,7 +228,8 @@ def gap_and_strikes(analysis: AtSpeed) -> Picture:
     ]
     title = f"Gap: up to {flight.max_gap / scale:.3g} {unit}"
     title += f", strikes up to {flight.impulse:.3g} N{' m' * analysis.rocks} s" if flight.impulse > 0 else ""
-    xlabel = f"cam angle from rest on  [deg]    (360 deg: {2e3 * np.pi / speed:.4g} ms)"
+    time = "" if _rated(analysis) else f"    (360 deg: {2e3 * np.pi / speed:.4g} ms)"
+    xlabel = f"cam angle from rest on  [deg]{time}"
     return Picture.of(Axes(title=title, xlabel=xlabel, ylabel=f"gap  [{unit}]", xlim=(0.0, float(x[-1]))), marks)
 
 

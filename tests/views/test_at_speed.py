@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import OscillatingFlatCam, OscillatingRollerCam, TranslatingRollerCam, deg, explore, mm, rpm
+from camkit import HighSpeedCam, OscillatingFlatCam, OscillatingRollerCam, TranslatingRollerCam, deg, explore, mm, rpm
 from camkit.cam import ArmLoad, BarrelCam, SlideLoad, TranslatingFlatCam, jump_speed, leaving_speed
 from camkit.dynamics import ElasticArm, ElasticFollower, ElasticTrain, HelicalSpring, simulate
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise
@@ -59,6 +59,7 @@ DESIGNS = {
         A,
     ),
     "arm": ElasticFollower(OscillatingRollerCam(groove=False, load=ARM), ElasticArm(400.0, 0.2)),
+    "rated": ElasticFollower(HighSpeedCam(), ElasticArm(5e4, 50.0)),
     "flat arm": ElasticFollower(OscillatingFlatCam(load=ARM), ElasticArm(400.0, 0.2)),
 }
 
@@ -103,6 +104,11 @@ def test_speeds_at_which_contact_is_lost_and_harmonics_hit():
         assert shown[f"hit {hit.number}"].x == pytest.approx([natural / hit.number] * 2)
     assert [hit.number for hit in analysis.over_speed.hits][:2] == [7, 11]
     assert not [hit for hit in analysis.over_speed.hits if hit.number % 2 == 0]  # two alike halves have no even ones
+
+
+def test_a_rated_speed_is_100_per_cent():
+    assert force_over_speed(of("rated")).axes.xlabel == "cam speed  [% of rated]"
+    assert force_over_speed(of("rated"))["now"].x == pytest.approx([100, 100])
 
 
 def test_spectrum_of_the_lift():
