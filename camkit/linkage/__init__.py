@@ -3,17 +3,25 @@
 from . import universal_joint
 from .load import RockerLoad
 from .measures import (
+    JOINTS,
     SWEEP,
     assembly_margin,
     clearance_from,
     departure,
     excess,
+    friction_work,
+    max_ball_angle,
+    max_crank_ball_angle,
     max_crank_pressure_angle,
     max_departure,
     max_pressure_angle,
     max_ratio,
+    max_rocker_ball_angle,
     max_rocker_pressure_angle,
+    max_stud_tilt,
     min_crank_transmission,
+    min_driving_torque,
+    min_efficiency,
     min_rocker_transmission,
     peak_coupler_force,
     peak_crank_bearing_force,
@@ -27,15 +35,18 @@ from .measures import (
 )
 from .rssr import RSSR
 from .rssr_analysis import RSSRAnalysis
+from .rubbing import LinkageFriction
 from .space import Box
 from .universal_joint import DoubleUniversalJoint, DoubleUniversalJointAnalysis, UniversalJoint, UniversalJointAnalysis
 
 __all__ = [
+    "JOINTS",
     "RSSR",
     "SWEEP",
     "Box",
     "DoubleUniversalJoint",
     "DoubleUniversalJointAnalysis",
+    "LinkageFriction",
     "RSSRAnalysis",
     "RockerLoad",
     "UniversalJoint",
@@ -44,12 +55,19 @@ __all__ = [
     "clearance_from",
     "departure",
     "excess",
+    "friction_work",
+    "max_ball_angle",
+    "max_crank_ball_angle",
     "max_crank_pressure_angle",
     "max_departure",
     "max_pressure_angle",
     "max_ratio",
+    "max_rocker_ball_angle",
     "max_rocker_pressure_angle",
+    "max_stud_tilt",
     "min_crank_transmission",
+    "min_driving_torque",
+    "min_efficiency",
     "min_rocker_transmission",
     "peak_coupler_force",
     "peak_crank_bearing_force",

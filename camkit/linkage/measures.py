@@ -8,10 +8,11 @@ from collections.abc import Callable
 import numpy as np
 
 from ..quantities import LeastMeasure, Measure, PeakMeasure
-from ..quantities.kinds import numbers, one_number, refuse_arguments
+from ..quantities.kinds import numbers, one_number, refuse_arguments, shown
 from ..quantities.types import Array, Value
 from ..study.residuals import SumOfResiduals
 from ..units import deg
+from .ball_joints import BallJoint, as_axis
 from .rssr_analysis import RSSRAnalysis
 from .space import Box
 
@@ -93,12 +94,64 @@ def clearance_from(box: Box) -> Measure:
     return Measure(f"clearance from {box.name}", "mm", clearance, made=made)
 
 
+def max_ball_angle(joint: str, axis: tuple[float, float, float] | None = None) -> Measure:
+    """The largest angle between the coupler and the axis of the socket of a ball joint, "crank" or "rocker".
+
+    Without an ``axis`` it is half the smallest cone's, whose axis lies best.  An axis is given as the link sees it:
+    along the link from its own axis to the joint, the way the joint moves, along the link's axis.
+    """
+    ball, given = _joint(joint), None if axis is None else _axis(axis)
+    name = f"maximum angle of the ball joint, {joint}" + (f", from {_shown(axis)}" if axis is not None else "")
+
+    def angle(analysis: RSSRAnalysis) -> Array:
+        return ball(analysis).angle if given is None else ball(analysis).angle_from(given)
+
+    made = ("ball joint", joint, *(map(float, axis) if axis is not None else ()))
+    return PeakMeasure(name, "deg", angle, angle=lambda a: a.crank_angle, made=made)
+
+
+def max_stud_tilt(joint: str, axis: tuple[float, float, float] = (0, 0, 1)) -> Measure:
+    """How far the coupler tilts from square to the stud of a rod end, which stands along an ``axis`` of the link.
+
+    Unless said otherwise the stud stands along the axis about which the link turns; see `max_ball_angle`.
+    """
+    ball, given = _joint(joint), _axis(axis)
+
+    def tilt(analysis: RSSRAnalysis) -> Array:
+        return abs(ball(analysis).angle_from(given) - np.pi / 2)
+
+    own, made = tuple(axis) == (0, 0, 1), ("rod end", joint, *map(float, axis))
+    name = f"maximum tilt of the rod end, {joint}" + ("" if own else f", stud along {_shown(axis)}")
+    return PeakMeasure(name, "deg", tilt, angle=lambda a: a.crank_angle, made=made)
+
+
+def _shown(axis: tuple[float, float, float]) -> str:
+    return f"({', '.join(f'{part:g}' for part in axis)})"
+
+
+def _joint(joint: str) -> Callable[[RSSRAnalysis], BallJoint]:
+    """What gives the ball joint of an analysis; ``ValueError`` for what is none."""
+    if joint not in ("crank", "rocker"):
+        raise ValueError(f"the joint is {shown(joint)}; it must be 'crank' or 'rocker'")
+    return lambda a: a.crank_ball if joint == "crank" else a.rocker_ball
+
+
+def _axis(axis: object) -> Array:
+    """The axis of a joint as a unit vector; ``ValueError`` for what is none."""
+    given = numbers(axis, "the axis of the joint")
+    if given.shape != (3,) or not np.isfinite(given).all() or not given.any():
+        raise ValueError(f"the axis of the joint is {shown(axis)}; it must be three finite numbers, not all of them 0")
+    return as_axis(*given.tolist())
+
+
 MAKERS: dict[str, Callable[..., Measure]] = {
     "departure": departure,
     "excess": excess,
     "largest departure": max_departure,
     "room in": lambda low, high, name: room_in(Box(low, high, name)),
     "clearance from": lambda low, high, name: clearance_from(Box(low, high, name)),
+    "ball joint": lambda joint, *axis: max_ball_angle(joint, axis or None),
+    "rod end": lambda joint, *axis: max_stud_tilt(joint, axis),
 }
 """How files have such measures made again."""
 
@@ -159,3 +212,28 @@ SWEEP = (
     peak_hinge_moment,
 )
 """What a table of one sweep shows."""
+
+max_crank_ball_angle, max_rocker_ball_angle = max_ball_angle("crank"), max_ball_angle("rocker")
+"""Half the cone that the coupler needs in each ball joint; those that can be bought have 15 to 30 deg."""
+min_efficiency = LeastMeasure("minimum efficiency", "%", lambda a: a.rubbing.efficiency, angle=lambda a: a.crank_angle)
+"""Power out over power in where it is least; below 0 the linkage is self-locking, `nan` where the load has no power."""
+min_driving_torque = LeastMeasure(
+    "minimum driving torque of the crank", "N m", lambda a: a.rubbing.driving_torque, angle=lambda a: a.crank_angle
+)
+"""The way the crank turns.  Above 0 all the way the load cannot move the linkage by itself; < 0: it is held back."""
+friction_work = Measure(
+    "work of friction",
+    "J",
+    lambda a: np.trapezoid(a.rubbing.loss, abs(a.crank_angle - a.crank_angle[..., :1]), axis=-1),
+)
+
+JOINTS = (
+    max_crank_ball_angle,
+    max_rocker_ball_angle,
+    max_stud_tilt("crank"),
+    max_stud_tilt("rocker"),
+    min_efficiency,
+    min_driving_torque,
+    friction_work,
+)
+"""What the joints bear and how far they turn."""

@@ -23,6 +23,7 @@ from ..quantities.types import Array, Value
 from . import limits
 from .load import RockerLoad
 from .rssr_analysis import RSSRAnalysis
+from .rubbing import LinkageFriction
 
 FEWEST = 61
 """Positions of a whole turn: with fewer, what is worst between them would be missed."""
@@ -192,7 +193,14 @@ class RSSR(Links):
         return vector(np.cos(angle), np.cos(L) * sin, -np.sin(L) * sin)
 
     def analyse(
-        self, crank_angle: Value = 361, branch: int = 1, load: RockerLoad | None = None, *, through: bool = False
+        self,
+        crank_angle: Value = 361,
+        branch: int = 1,
+        load: RockerLoad | None = None,
+        friction: LinkageFriction | None = None,
+        *,
+        through: bool = False,
+        turning: int | None = None,
     ) -> RSSRAnalysis:
         """Positions, motion and static forces at the given crank angles (rad).
 
@@ -202,10 +210,16 @@ class RSSR(Links):
 
         There are two ways to assemble a linkage: ``branch`` +1 or -1, the sign of the arc cosine.  ``through``: the
         crank passes all angles between the given ones too, so that the linkage has to be assembled there as well.
+        What rubs does so against the way the crank turns: from the first angle to the last, unless ``turning`` is +1 or
+        -1.
         """
         one_number(branch, "the branch", "be +1 or -1", lambda sign: sign in (1, -1))
+        if turning is not None:
+            one_number(turning, "the way the crank turns", "be +1 or -1", lambda sign: sign in (1, -1))
         if not (load is None or isinstance(load, RockerLoad)):
             raise ValueError(f"the load is {shown(load)}; it must be a RockerLoad")
+        if not (friction is None or isinstance(friction, LinkageFriction)):
+            raise ValueError(f"the friction is {shown(friction)}; it must be a LinkageFriction")
         if not isinstance(through, (bool, np.bool_)):
             raise ValueError(f"through is {shown(through)}; it must be True or False")
         if isinstance(crank_angle, (int, np.integer)) and crank_angle >= 2:
@@ -216,6 +230,7 @@ class RSSR(Links):
             angles = np.zeros(0)
         if refuse := unless(angles.size and (angles.ndim > 1 or np.isfinite(angles).all())):
             refuse("the crank angles must be one or more finite numbers")
-        analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through)
+        friction = friction or LinkageFriction()
+        analysis = RSSRAnalysis(self, angles, branch, load or RockerLoad(), through, friction, turning)
         analysis.refuse_impossible()
         return analysis

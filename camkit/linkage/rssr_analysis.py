@@ -5,7 +5,7 @@ Formulas after Liu Jianwei, Geng Kaizhen, Ship Sci. Technol. 41(6) 2019, 143-146
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
@@ -16,7 +16,9 @@ from ..quantities import text_if, unless
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import limits
+from .ball_joints import BallJoint, crank_ball, rocker_ball
 from .load import RockerLoad
+from .rubbing import LinkageFriction, Rubbing
 
 if TYPE_CHECKING:
     from .rssr import RSSR
@@ -51,6 +53,9 @@ class RSSRAnalysis:
     load: RockerLoad = field(default_factory=RockerLoad)
     through: bool = False
     """Whether the crank passes all angles between the given ones."""
+    friction: LinkageFriction = field(default_factory=LinkageFriction)
+    turning: Value | None = None
+    """Which way the crank turns, +1 or -1, for what rubs; ``None``: from the first angle to the last."""
 
     @cached_property
     def _closure(self) -> tuple[Array, Array, Array]:
@@ -118,7 +123,9 @@ class RSSRAnalysis:
 
     def at(self, crank_angle: float, branch: int | None = None) -> RSSRAnalysis:
         """The same linkage at one crank angle, or at the limit before it; on its own branch unless said otherwise."""
-        return self.linkage.analyse(np.clip(crank_angle, *self.turn_range), branch or self.branch, self.load)
+        angle = np.clip(crank_angle, *self.turn_range)
+        here = self.linkage.analyse(angle, branch or self.branch, self.load, self.friction)
+        return replace(here, turning=self.sense)
 
     def one_turn(self, branch: int | None = None, n: int = 361) -> RSSRAnalysis:
         """One turn of the crank about the middle of the sweep, position by position.
@@ -130,7 +137,10 @@ class RSSRAnalysis:
         after = np.mod(limit - start, 2 * np.pi)
         beside = np.where(np.isnan(limit), 0.0, np.stack([after - NEXT_TO, after + NEXT_TO]))
         angles = start + np.sort(np.append(2 * np.pi * np.linspace(0, 1, n), beside))
-        return RSSRAnalysis(self.linkage, angles[:, None], branch or self.branch, self.load)
+        branch = branch or self.branch
+        return RSSRAnalysis(
+            self.linkage, angles[:, None], branch, self.load, friction=self.friction, turning=self.sense
+        )
 
     def _joint_distances(self) -> tuple[Value, Value]:
         """The least and the largest distance from any place of the crank's ball joint to any of the rocker's."""
@@ -177,17 +187,18 @@ class RSSRAnalysis:
     @cached_property
     def crank_joint(self) -> np.ndarray:
         """``B``: the ball joint of crank and coupler, m."""
-        return self._everywhere(self.linkage.crank_root) + self._crank_arm
+        return self.everywhere(self.linkage.crank_root) + self.crank_arm
 
     @cached_property
     def rocker_joint(self) -> np.ndarray:
         """``C``: the ball joint of rocker and coupler, m."""
-        return self._everywhere(self.linkage.rocker_root) + self._rocker_arm
+        return self.everywhere(self.linkage.rocker_root) + self.rocker_arm
 
     @cached_property
     def _shape(self) -> tuple[int, ...]:
         """``(n,)`` or ``(p, n)``."""
-        numbers = (*self.linkage.sizes, *vars(self.load).values(), self.crank_angle)
+        given = (*vars(self.load).values(), *vars(self.friction).values())
+        numbers = (*self.linkage.sizes, *given, self.crank_angle)
         return np.broadcast_shapes(*map(np.shape, numbers))
 
     @property
@@ -195,23 +206,25 @@ class RSSRAnalysis:
         """The crank angle of every member of a population."""
         return np.broadcast_to(self.crank_angle, self._shape)
 
-    def _everywhere(self, vector: np.ndarray) -> np.ndarray:
+    def everywhere(self, vector: np.ndarray) -> np.ndarray:
         """A vector of the design, ``(3,)`` or ``(3, p, 1)``, at every crank angle."""
         own = vector if vector.ndim > 1 else vector.reshape(3, *(1 for _ in self._shape))
         return np.broadcast_to(own, (3, *self._shape))
 
     @property
-    def _crank_arm(self) -> np.ndarray:
+    def crank_arm(self) -> np.ndarray:
+        """From the crank's root to its ball joint, m."""
         return self.linkage.crank * self.linkage.crank_direction(self._turn)
 
     @property
-    def _rocker_arm(self) -> np.ndarray:
+    def rocker_arm(self) -> np.ndarray:
+        """From the rocker's root to its ball joint, m."""
         return self.linkage.rocker * self.linkage.rocker_direction(self.rocker_angle)
 
     @cached_property
     def chain(self) -> np.ndarray:
         """The ends of the links in order, ``(3, 4, ..., n)``: crank root, both ball joints, rocker root, m."""
-        first, last = self._everywhere(self.linkage.crank_root), self._everywhere(self.linkage.rocker_root)
+        first, last = self.everywhere(self.linkage.crank_root), self.everywhere(self.linkage.rocker_root)
         return np.stack([first, self.crank_joint, self.rocker_joint, last], axis=1)
 
     @cached_property
@@ -238,6 +251,16 @@ class RSSRAnalysis:
     def rocker_pressure_angle(self) -> np.ndarray:
         """``alpha_2``: between the coupler and the motion of the rocker's ball joint, 0 .. pi/2 rad."""
         return inclination(self.coupler_direction, self.rocker_motion)
+
+    @cached_property
+    def crank_ball(self) -> BallJoint:
+        """How far the coupler turns in the ball joint of the crank."""
+        return crank_ball(self)
+
+    @cached_property
+    def rocker_ball(self) -> BallJoint:
+        """How far the coupler turns in the ball joint of the rocker."""
+        return rocker_ball(self)
 
     @property
     def crank_transmission_angle(self) -> np.ndarray:
@@ -281,53 +304,94 @@ class RSSRAnalysis:
         """Torque about the rocker's axis that the coupler has to overcome, N m, positive against a growing angle."""
         return self.load.resisting_torque(self.rocker_angle)
 
+    @property
+    def sense(self) -> Array:
+        """Which way the crank turns, +1 or -1, ``(1,)`` or ``(p, 1)``."""
+        if self.turning is not None:
+            return np.atleast_1d(self.turning)
+        swept = self.crank_angle[..., -1:] - self.crank_angle[..., :1]
+        return np.where(swept < 0, -1.0, 1.0)
+
+    @cached_property
+    def rubbing(self) -> Rubbing:
+        """What rubs, how fast, and the forces with it."""
+        return Rubbing(self)
+
+    @property
+    def trouble(self) -> str:
+        """Where friction jams the linkage, in a sentence; empty if it does nowhere."""
+        jams = np.zeros(1, dtype=bool) if self.friction.none else self.rubbing.jams
+        first = np.take_along_axis(self._turn, np.argmax(jams, axis=-1)[..., None], -1)[..., 0] / deg
+        return text_if(jams.any(), f"friction jams the linkage, at a crank angle of {first:.4g} deg first")
+
+    @cached_property
+    def frictionless(self) -> RSSRAnalysis:
+        """The same without friction."""
+        return replace(self, friction=LinkageFriction())
+
     @cached_property
     def coupler_force(self) -> np.ndarray:
         """Force along the coupler, N, compression positive; infinite at a limit angle.  The links weigh nothing."""
-        return self._over_reach(self.resisting_torque)
+        return self._over_reach(self.resisting_torque) if self.friction.none else self.rubbing.coupler_force
+
+    @cached_property
+    def push(self) -> np.ndarray:
+        """Force of the coupler on the rocker, N: along the coupler, but for friction in its ball joints."""
+        return self.coupler_force * self.coupler_direction if self.friction.none else self.rubbing.push
 
     @cached_property
     def crank_torque(self) -> np.ndarray:
-        """Torque on the crank, N m, in the sense of a growing crank angle: ``S l_1 F.v_B``."""
+        """Torque on the crank, N m, in the sense of a growing crank angle: ``S l_1 F.v_B``, and what rubs."""
+        if not self.friction.none:
+            return self.rubbing.crank_torque
         return self.coupler_force * self.linkage.crank * dot(self.coupler_direction, self.crank_motion)
 
     @cached_property
     def crank_bearing_force(self) -> np.ndarray:
         """Force of the frame on the crank, N."""
-        return self.coupler_force * self.coupler_direction
+        return self.push
 
     @cached_property
     def crank_bearing_moment(self) -> np.ndarray:
         """Moment of the frame on the crank, across its axis, about its root, N m."""
-        moment = np.cross(self._crank_arm, self.crank_bearing_force, axis=0)
-        return moment - self._everywhere(self.linkage.crank_axis) * self.crank_torque
+        moment = np.cross(self.crank_arm, self.push, axis=0)
+        if not self.friction.none:
+            moment = moment - self.rubbing.crank_ball_moment
+        return self._across(moment, self.linkage.crank_axis)
+
+    def _across(self, moment: np.ndarray, axis: np.ndarray) -> np.ndarray:
+        """What of a moment lies across an axis."""
+        along = self.everywhere(axis)
+        return moment - along * dot(along, moment)
 
     @cached_property
     def weight(self) -> np.ndarray:
         """Weight of what turns with the rocker as a vector, N."""
         load, linkage = self.load, self.linkage
-        downhill = self._everywhere(linkage.rocker_direction(load.downhill))
-        up = self._everywhere(linkage.rocker_axis)
+        downhill = self.everywhere(linkage.rocker_direction(load.downhill))
+        up = self.everywhere(linkage.rocker_axis)
         return load.mass * load.gravity * (np.sin(load.lean) * downhill - np.cos(load.lean) * up)
 
     @cached_property
     def centre_of_gravity(self) -> np.ndarray:
         """Centre of gravity of what turns with the rocker, m."""
-        return self._everywhere(self.linkage.rocker_root) + self._load_arm
+        return self.everywhere(self.linkage.rocker_root) + self.load_arm
 
     @property
-    def _load_arm(self) -> np.ndarray:
-        along = self.load.rise * self._everywhere(self.linkage.rocker_axis)
+    def load_arm(self) -> np.ndarray:
+        """From the rocker's root to the centre of gravity, m."""
+        along = self.load.rise * self.everywhere(self.linkage.rocker_axis)
         return along + self.load.reach * self.linkage.rocker_direction(self.rocker_angle + self.load.mass_angle)
 
     @cached_property
     def rocker_bearing_force(self) -> np.ndarray:
         """Force of the frame on the rocker, N: against the coupler's force and the weight."""
-        return -self.coupler_force * self.coupler_direction - self.weight
+        return -self.push - self.weight
 
     @cached_property
     def rocker_bearing_moment(self) -> np.ndarray:
         """Moment of the frame on the rocker, across its axis, about its root, N m."""
-        push = self.coupler_force * self.coupler_direction
-        moment = np.cross(self._rocker_arm, push, axis=0) + np.cross(self._load_arm, self.weight, axis=0)
-        return self._everywhere(self.linkage.rocker_axis) * self.load.torque - moment
+        moment = np.cross(self.rocker_arm, self.push, axis=0) + np.cross(self.load_arm, self.weight, axis=0)
+        if not self.friction.none:
+            moment = moment + self.rubbing.rocker_ball_moment
+        return -self._across(moment, self.linkage.rocker_axis)

@@ -15,19 +15,23 @@ import numpy as np
 
 from ..linkage.load import RockerLoad
 from ..linkage.measures import (
+    JOINTS,
     MAKERS,
     SWEEP,
     assembly_margin,
     clearance_from,
     departure,
     excess,
+    max_crank_ball_angle,
     max_departure,
     max_pressure_angle,
+    max_rocker_ball_angle,
     room_in,
     swing,
 )
 from ..linkage.rssr import RSSR, Links
 from ..linkage.rssr_analysis import RSSRAnalysis
+from ..linkage.rubbing import LinkageFriction
 from ..linkage.space import Box
 from ..quantities import Measure, choice, counted, quantity, unless
 from ..quantities.kinds import refuse_arguments, shown
@@ -72,7 +76,7 @@ class CabinDoorLinkage(Links):
     Raises ``ValueError`` for a size that cannot be built; `analyse` does for a sweep that cannot be assembled.
     """
 
-    measures = (*SWEEP, excess(), max_departure(), max_pressure_angle, room_in(HOUSING))
+    measures = (*SWEEP, *JOINTS, excess(), max_departure(), max_pressure_angle, room_in(HOUSING))
     makers = MAKERS
 
     start_angle: float = quantity(
@@ -83,6 +87,7 @@ class CabinDoorLinkage(Links):
     )
     branch: int = choice("", Branch.plus, tuple(Branch), "which of the two ways it is assembled")
     load: RockerLoad = field(default_factory=RockerLoad)
+    friction: LinkageFriction = field(default_factory=LinkageFriction)
 
     def __post_init__(self) -> None:
         if not isinstance(self.branch, int) or self.branch not in tuple(Branch):
@@ -107,7 +112,7 @@ class CabinDoorLinkage(Links):
         """
         share = np.linspace(0, 1, counted(n, "crank angles"))
         sweep = self.start_angle + share * (self.end_angle - self.start_angle)
-        return self.linkage.analyse(sweep, self.branch, self.load, through=True)
+        return self.linkage.analyse(sweep, self.branch, self.load, self.friction, through=True)
 
 
 def rssr_study(
@@ -116,6 +121,7 @@ def rssr_study(
     *,
     space: Space | None = None,
     min_swing: float | None = None,
+    ball_angle: float | None = None,
     inside: Box | None = None,
     outside: Box | None = None,
     positions: int = PAPER_POSITIONS,
@@ -123,7 +129,8 @@ def rssr_study(
     """The paper's synthesis: pressure angles near 30 deg at both ball joints over the crank's sweep.
 
     ``objective`` is `departure` unless said otherwise (`excess`, `max_departure`, `max_pressure_angle`, ...).  The door
-    turns by ``min_swing`` or more; the centre lines of all links stay ``inside`` one box and ``outside`` another.
+    turns by ``min_swing`` or more; both ball joints need half a cone of at most ``ball_angle``; the centre lines of all
+    links stay ``inside`` one box and ``outside`` another.
     The discriminant must not fall below 0 between the positions either, so both branches are continuous.
     ``space`` maps free quantities to bounds in SI.
 
@@ -134,12 +141,14 @@ def rssr_study(
     """
     refuse_arguments(rssr_study, locals())
     swung = {} if min_swing is None else {swing: min_swing}
+    balls = {} if ball_angle is None else dict.fromkeys((max_crank_ball_angle, max_rocker_ball_angle), ball_angle)
     housed = {} if inside is None else {room_in(inside): 0.0}
     clear = {} if outside is None else {clearance_from(outside): 0.0}
     return Study(
         start=start or CabinDoorLinkage(),
         free=space or PAPER_SPACE,
         minimise=(objective or departure(),),
+        at_most=balls,
         at_least={assembly_margin: 0.0, **swung, **housed, **clear},
         angles=positions,
     )
