@@ -180,6 +180,7 @@ GOOD = {
     "at_most": lambda: {height: 0.06},
     "best": lambda: 0.5,
     "box": lambda: BOX,
+    "joint": lambda: "crank",
     "cam": camkit.ValveCam,
     "cam_angle": lambda: np.linspace(0, 2 * np.pi, 31),
     "columns": lambda: {"angle": [0.0, 1.0]},

@@ -131,7 +131,7 @@ def _shown(axis: tuple[float, float, float]) -> str:
 
 def _joint(joint: str) -> Callable[[RSSRAnalysis], BallJoint]:
     """What gives the ball joint of an analysis; ``ValueError`` for what is none."""
-    if joint not in ("crank", "rocker"):
+    if not (isinstance(joint, str) and joint in ("crank", "rocker")):
         raise ValueError(f"the joint is {shown(joint)}; it must be 'crank' or 'rocker'")
     return lambda a: a.crank_ball if joint == "crank" else a.rocker_ball
 
