@@ -1,6 +1,7 @@
 """Linkages in space: the RSSR linkage and universal joints, their loads and measures."""
 
 from . import universal_joint
+from .driveline import Driveline, DrivelineAnalysis
 from .load import RockerLoad
 from .measures import (
     JOINTS,
@@ -46,6 +47,8 @@ __all__ = [
     "Box",
     "DoubleUniversalJoint",
     "DoubleUniversalJointAnalysis",
+    "Driveline",
+    "DrivelineAnalysis",
     "LinkageFriction",
     "RSSRAnalysis",
     "RockerLoad",

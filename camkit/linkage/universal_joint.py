@@ -295,7 +295,8 @@ class DoubleUniversalJointAnalysis:
         return 4 * self.drive.speed**2 * self.first.second_order
 
 
-def _peak(name: str, unit: str, attribute: str) -> Measure:
+def peak(name: str, unit: str, attribute: str) -> Measure:
+    """The largest size of a curve."""
     return Measure(name, unit, lambda a: np.max(abs(getattr(a, attribute)), axis=-1))
 
 
@@ -303,10 +304,10 @@ slowest = Measure("minimum output speed", "rpm", lambda a: a.output_speed.min(-1
 fastest = Measure("maximum output speed", "rpm", lambda a: a.output_speed.max(-1))
 fluctuation = Measure("fluctuation of the speed", "%", lambda a: np.ptp(a.speed_ratio, axis=-1))
 angle_error = Measure("angle error, peak to peak", "deg", lambda a: np.ptp(a.lead, axis=-1))
-peak_acceleration = _peak("peak acceleration of the output", "rad/s^2", "output_acceleration")
-peak_torque = _peak("peak torque of the output", "N m", "output_torque")
-peak_input_couple = _peak("peak couple on the input's bearings", "N m", "input_couple")
-peak_output_couple = _peak("peak couple on the output's bearings", "N m", "output_couple")
+peak_acceleration = peak("peak acceleration of the output", "rad/s^2", "output_acceleration")
+peak_torque = peak("peak torque of the output", "N m", "output_torque")
+peak_input_couple = peak("peak couple on the input's bearings", "N m", "input_couple")
+peak_output_couple = peak("peak couple on the output's bearings", "N m", "output_couple")
 
 UNIVERSAL_JOINT_MEASURES = (
     slowest,
@@ -320,14 +321,14 @@ UNIVERSAL_JOINT_MEASURES = (
 )
 """Measures of one joint and of two."""
 
-peak_intermediate_acceleration = _peak(
+peak_intermediate_acceleration = peak(
     "peak acceleration of the intermediate shaft", "rad/s^2", "intermediate_acceleration"
 )
-peak_intermediate_torque = _peak("peak torque of the intermediate shaft", "N m", "intermediate_torque")
-peak_equivalent_torque = _peak("peak equivalent torque of the intermediate shaft", "N m", "equivalent_torque")
-equivalent_angle = _peak("equivalent angle", "deg", "equivalent_angle")
-torsional_excitation = _peak("torsional excitation", "rad/s^2", "torsional_excitation")
-inertial_excitation = _peak("inertial excitation", "rad/s^2", "inertial_excitation")
+peak_intermediate_torque = peak("peak torque of the intermediate shaft", "N m", "intermediate_torque")
+peak_equivalent_torque = peak("peak equivalent torque of the intermediate shaft", "N m", "equivalent_torque")
+equivalent_angle = peak("equivalent angle", "deg", "equivalent_angle")
+torsional_excitation = peak("torsional excitation", "rad/s^2", "torsional_excitation")
+inertial_excitation = peak("inertial excitation", "rad/s^2", "inertial_excitation")
 
 DOUBLE_UNIVERSAL_JOINT_MEASURES = (
     *UNIVERSAL_JOINT_MEASURES,

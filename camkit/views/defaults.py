@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import at_speed, cam, development, event, intervals, outlines, shafts, sizes, space
+from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
@@ -47,6 +47,7 @@ VIEW_OF: dict[str, View] = {
     "crank_torque": space.torques,
     "coupler_force": space.forces,
     "drive": shafts.drive,
+    "shafts": driveline.driveline,
     "output_speed": shafts.speeds,
     "lead": shafts.leads,
     "output_torque": shafts.torques,

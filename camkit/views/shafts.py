@@ -109,11 +109,11 @@ def drive(analysis: Drive, turn: float = 0.0, azimuth: float = -75 * deg, elevat
         ("driven", joints[1], third, pin["driven"], joints[1] + 1.9 * third),
     )
     for k, (name, joint, away, direction, end) in enumerate(forks):
-        _fork(table, name, k, joint, away, REACH * direction, end)
+        fork(table, name, k, joint, away, REACH * direction, end)
     return table.picture(Axes(title="Drive", equal=True, bare=True, xlim=(-3.5, 3.5), ylim=(-1.75, 1.75)))
 
 
-def _fork(table: Turntable, name: str, k: int, joint: Array, away: Array, pin: Array, end: Array) -> None:
+def fork(table: Turntable, name: str, k: int, joint: Array, away: Array, pin: Array, end: Array) -> None:
     """Half a shaft with its fork, and the pin that the fork carries: from ``-pin`` to ``pin`` at the joint."""
     root, back, key = joint + GAP * away, joint + 0.62 * GAP * away, f"{name} {k}"
     _bar(table, f"{key} shaft", [root, end], role=ROLE[name], stroke="shaft", label=f"{name} shaft")
