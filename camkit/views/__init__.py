@@ -23,7 +23,7 @@ from .picture import Area, Axes, Band, Circle, Contour, Line, Picture, Points, P
 from .progress import candidates, convergence, min_over_bound
 from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
-from .space import linkage_in_space, output_angle, pressure_angles, velocity_ratio
+from .space import ball_joints, linkage_in_space, output_angle, pressure_angles, velocity_ratio
 from .sweep import limit_sweep, sweep_view
 from .tables import TABLE_VIEWS
 from .tolerances import band, cloud, deviation, sobol_bars
@@ -52,6 +52,7 @@ __all__ = [
     "Text",
     "View",
     "acceleration_beside_cam",
+    "ball_joints",
     "band",
     "brushed_designs",
     "cam_and_follower",

@@ -40,6 +40,16 @@ class Box(Protocol):
     def clearance(self, start: Array, end: Array) -> Array: ...
 
 
+class Ball(Protocol):
+    """A ball joint: the axis of its socket as its link sees it, and the coupler's angle from there."""
+
+    @property
+    def axis(self) -> Array: ...
+    @property
+    def angle(self) -> Array: ...
+    def in_space(self, axis: Array) -> Array: ...
+
+
 class Linkage(Protocol):
     """A crank and a rocker about axes in space: where these are, and where the crank can go."""
 
@@ -96,6 +106,10 @@ class Linked(Protocol):
     @property
     def acceleration_ratio(self) -> Array: ...
     @property
+    def crank_ball(self) -> Ball: ...
+    @property
+    def rocker_ball(self) -> Ball: ...
+    @property
     def crank_torque(self) -> Array: ...
     @property
     def resisting_torque(self) -> Array: ...
@@ -114,11 +128,13 @@ def linkage_in_space(
     elevation: float = 25 * deg,
     inside: Box | None = None,
     outside: Box | None = None,
+    cones: bool = False,
 ) -> Picture:
     """The linkage at crank angle ``turn``, seen from ``azimuth`` and ``elevation`` (rad), the rocker's axis upright.
 
     Faint: the other way to assemble it.  Trouble: where the crank cannot go.  The edges of the boxes to stay
-    ``inside`` and ``outside`` of are in trouble when a link breaks them.
+    ``inside`` and ``outside`` of are in trouble when a link breaks them.  ``cones``: those that the coupler needs in
+    both ball joints over the sweep, instead of the pressure angles.
     """
     here = analysis.at(_middle(analysis.crank_angle) if turn is None else turn)
     boxes = [box for box in (inside, outside) if box]
@@ -131,7 +147,10 @@ def linkage_in_space(
         _box(scene, outside, kept=(outside.clearance(analysis.chain[:, :-1], analysis.chain[:, 1:]) >= 0).all())
     _leaf(scene, here)
     _links(scene, here)
-    _pressure_angles_at(scene, here)
+    if cones:
+        _cones(scene, analysis, here)
+    else:
+        _pressure_angles_at(scene, here)
     ends = (-scene.radius, scene.radius), (-1.2 * scene.radius, 0.96 * scene.radius)
     said = f"crank {here.crank_angle[0] / deg:.1f}°   rocker {here.rocker_angle[0] / deg:.1f}°"
     numbers = Text("numbers", ends[0][0], ends[1][1], said, anchor="left top", size=11)
@@ -246,6 +265,34 @@ def _pressure_angles_at(scene: Turntable, here: Linked) -> None:
         scene.path(f"{name} arc", arc, at=18.0, **style)
         place = start - 0.45 * size * (arc[:, 6] - start) / np.linalg.norm(arc[:, 6] - start, axis=0)
         scene.words(name, place, f"{name} {angle[0] / deg:.0f}°", size=11, bold=True)
+
+
+def _cones(scene: Turntable, analysis: Linked, here: Linked) -> None:
+    """At each ball joint the smallest cone that holds the coupler all over the sweep, and half its angle."""
+    for ball, now, joint, style, name in (
+        (analysis.crank_ball, here.crank_ball, here.crank_joint, CRANK, "B"),
+        (analysis.rocker_ball, here.rocker_ball, here.rocker_joint, ROCKER, "C"),
+    ):
+        tip, along, half = joint[:, 0] / mm, now.in_space(ball.axis)[:, 0], ball.angle.max()
+        beside = np.where(abs(along[0]) < 0.8, np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+        first = np.cross(along, beside)
+        first = first / np.sqrt(dot(first, first))
+        around = np.outer(first, np.cos(CIRCLE)) + np.outer(np.cross(along, first), np.sin(CIRCLE))
+        size = 0.3 * scene.radius
+        rim = (tip + size * np.cos(half) * along)[:, None] + size * np.sin(half) * around
+        scene.face(f"{name} cone", rim, at=17.0, opacity=0.25, **style)
+        sides = np.stack([np.stack([tip, rim[:, i], np.full(3, np.nan)], axis=1) for i in range(0, 180, 20)], axis=1)
+        scene.path(f"{name} sides", sides.reshape(3, -1), at=17.0, stroke="thin", **style)
+        scene.words(f"{name} half", tip + 1.15 * size * along, f"±{half / deg:.0f}°", size=11, bold=True)
+
+
+def ball_joints(analysis: Linked, turn: float | None = None) -> Picture:
+    """Angle between the coupler and the axis of each socket, the best for the sweep: its peak is half the cone."""
+    return Picture.of(
+        _swept("Ball joints", "angle from the socket's axis  [deg]"),
+        _curve("crank", analysis.crank_angle, analysis.crank_ball.angle / deg, turn, **CRANK),
+        _curve("rocker", analysis.crank_angle, analysis.rocker_ball.angle / deg, turn, **ROCKER),
+    )
 
 
 def _curve(key: str, x: Array, y: Array, turn: float | None, named: bool = True, **style: Unpack[Colour]) -> list[Mark]:

@@ -13,6 +13,7 @@ from camkit.linkage import RSSR, max_ball_angle, max_crank_ball_angle, max_rocke
 from camkit.linkage.ball_joints import smallest_cone
 from camkit.machines import CabinDoorLinkage, rssr_study
 from camkit.units import deg, mm
+from camkit.views import ball_joints, linkage_in_space
 
 SKEW = RSSR(60 * mm, 140 * mm, 110 * mm, 40 * mm, -30 * mm, 90 * mm, 55 * deg)
 DOOR = CabinDoorLinkage()
@@ -89,6 +90,20 @@ def test_a_study_limits_it_and_a_file_knows_it():
     assert [m.name for m in read.at_most] == [m.name for m in given.at_most]
     x = study.x0[None]
     np.testing.assert_allclose(read.evaluate(x).g, given.evaluate(x).g)
+
+
+def test_the_cones_are_drawn_where_the_coupler_stays():
+    """At every angle of the sweep the coupler lies within both cones that are drawn, seen along their axes."""
+    a = DOOR.analyse(31)
+    for turn in a.crank_angle[::10]:
+        here = a.at(turn)
+        for ball, now in ((a.crank_ball, here.crank_ball), (a.rocker_ball, here.rocker_ball)):
+            axis = now.in_space(ball.axis)[:, 0]
+            assert np.linalg.norm(axis) == pytest.approx(1)
+            assert np.arccos(axis @ now.along[:, 0]) <= ball.angle.max() + 1e-9
+    marks = {mark.key for mark in linkage_in_space(a, turn=a.crank_angle[3], cones=True).marks}
+    assert {"B cone", "C cone", "B half", "C sides"} <= marks
+    assert {mark.key for mark in ball_joints(a).marks} >= {"crank", "rocker"}
 
 
 def test_refusals():

@@ -17,7 +17,7 @@ LINKAGES = (
     RSSR(60 * mm, 140 * mm, 110 * mm, 40 * mm, -30 * mm, 90 * mm, 55 * deg),
     RSSR(50 * mm, 130 * mm, 90 * mm, 0.0, 0.0, 120 * mm, 0.0),
 )
-FAR = 9.9
+FAR = 9.0
 SWEEP = np.linspace(15, 105, 7) * deg
 FRICTION = LinkageFriction(0.2, 8 * mm, 60 * mm, 0.15, 12 * mm, 0.1, 10 * mm, 90 * mm)
 HEAVY = RockerLoad(30, 400 * mm, 300 * mm, 20 * deg, 10 * deg, 75 * deg, torque=12)

@@ -20,7 +20,7 @@ from camkit import (
 )
 from camkit.cam import BarrelCam, OscillatingBarrelCam
 from camkit.cam.pair import ConjugatePair
-from camkit.linkage import DoubleUniversalJoint
+from camkit.linkage import DoubleUniversalJoint, Driveline
 from camkit.machines import CabinDoorLinkage, CamLever
 from camkit.quantities import with_quantities
 from camkit.study import AnalysisCurve
@@ -40,6 +40,7 @@ DESIGNS = (
     ValveCam(),
     CabinDoorLinkage(),
     DoubleUniversalJoint(),
+    Driveline(),
 )
 every_design = pytest.mark.parametrize("design", DESIGNS, ids=lambda design: type(design).__name__)
 
