@@ -106,6 +106,8 @@ class Linked(Protocol):
     @property
     def acceleration_ratio(self) -> Array: ...
     @property
+    def frictionless(self) -> Linked: ...
+    @property
     def crank_ball(self) -> Ball: ...
     @property
     def rocker_ball(self) -> Ball: ...
@@ -373,9 +375,11 @@ def acceleration_ratio(analysis: Linked, turn: float | None = None) -> Picture:
 
 
 def torques(analysis: Linked, turn: float | None = None) -> Picture:
-    """Torque that turns the crank, and torque with which the rocker resists."""
+    """Torque that turns the crank, with friction and without, and torque with which the rocker resists."""
+    plain = analysis.frictionless.crank_torque
     return Picture.of(
         _swept("Torque", "M  [N m]"),
+        Line("frictionless", analysis.crank_angle / deg, plain, role="guide"),
         _curve("on the crank", analysis.crank_angle, analysis.crank_torque, turn, **CRANK),
         _curve("resisting", analysis.crank_angle, analysis.resisting_torque, turn, **ROCKER),
     )
