@@ -25,7 +25,7 @@ from .steady import LEAST, Response
 DRAWINGS = ("bodies", "shapes", "development")
 OF_THE_CAM = ("contact_force", "pressure_angle", "curvature", "efficiency")
 """Curves of a cam that are not shown where nobody chooses: its force is, beside that of a rigid train."""
-AT_SPEED = ("response", "load_acceleration", "over_speed", "harmonics", "flight")
+AT_SPEED = ("response", "over_speed", "flight", "load_acceleration", "harmonics")
 TURNS = 2
 """Of a flight from rest, of which the last one is animated."""
 SPEEDS = 200

@@ -24,7 +24,8 @@ SLOWEST, FASTEST = 1 / 256, 32.0
 STEP = 0.01
 """From speed to speed, as a share of it, at most; half the damping ratio where that is less, but not below `FINEST`."""
 FINEST = 1e-3
-HALVINGS = 50
+MOST_SECANTS, EXACT, TINY = 50, 1e-13, 1e-300
+"""The speed of contact loss is right to such a share of the step in which it is found."""
 CLOSE = 5760
 """Samples of a turn at which the speed of contact loss is found in the end, at least."""
 
@@ -163,14 +164,23 @@ class _Scan:
         return low, high
 
     def between(self, low: Array, high: Array) -> Array:
-        """The speed between two at which the least force is 0, by halves."""
+        """The speed between two at which the least force is 0, by secants (Dowell and Jarratt's Illinois method)."""
         found = np.isfinite(high)
         if not found.any():
             return high
         samples = max(CLOSE, enough(self.frequency[..., 0], np.min(low, where=found, initial=np.inf)))
         low, high = np.where(found, low, 1.0), np.where(found, high, 1.0)
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            lost = self.least(middle, samples) < 0
-            low, high = np.where(lost, low, middle), np.where(lost, middle, high)
-        return np.where(found, high, np.inf)
+        held, lacks = np.maximum(self.least(low, samples), TINY), np.minimum(self.least(high, samples), -TINY)
+        size, before, at = held - lacks, np.zeros(found.shape), high
+        for _ in range(MOST_SECANTS):
+            at = high - lacks * (high - low) / (lacks - held)
+            least = self.least(at, samples)
+            lost = least < 0
+            held, lacks = (
+                np.where(lost, np.where(before < 0, held / 2, held), least),
+                np.where(lost, least, np.where(before > 0, lacks / 2, lacks)),
+            )
+            low, high, before = np.where(lost, low, at), np.where(lost, at, high), np.where(lost, -1.0, 1.0)
+            if np.all((abs(least) <= EXACT * size) | (high - low <= EXACT * high) | ~found):
+                break
+        return np.where(found, at, np.inf)

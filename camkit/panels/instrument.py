@@ -146,7 +146,7 @@ class Instrument(Made, Files, Displayed, anywidget.AnyWidget):
         """A design that can be computed and shown, with all that follows from it; else the last one stays whole."""
         design = proposal["value"]
         self._refuse_other(design)
-        analysis = design.analyse()
+        analysis = self.living.analysis_of(design) if self.structure else design.analyse()
         now = [measure.one(analysis) for measure in self.measures]
         if not self.makes.find(design):
             self.makes.add(self._recorded(design, analysis))

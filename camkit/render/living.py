@@ -109,18 +109,22 @@ class Living:
     first: Mapping[str, float]
     free: Sequence[str] | None = None
     _last: list[tuple[Analysable, object]] = field(default_factory=list, init=False, repr=False, compare=False)
-    """The last design that was shown, and its analysis: while a mechanism turns, nothing else is computed."""
+    """The last design that was asked for, and its analysis."""
 
     def show(self, design: Analysable, **position: float) -> dict[str, Json]:
         """Pictures, positions and measures of a design that stands at a position, and the arrays that they name."""
         outputs = Outputs()
+        return _plainly(self._shown(self.analysis_of(design), position, outputs), outputs)
+
+    def analysis_of(self, design: Analysable) -> object:
+        """The analysis of a design, made once as long as no other is asked for."""
         if not self._last or self._last[0][0] != design:
             self._last[:] = [(design, design.analyse())]
-        return _plainly(self._shown(self._last[0][1], position, outputs), outputs)
+        return self._last[0][1]
 
     def show_still(self, design: Analysable) -> dict[str, Json]:
         """The pictures that do not compute, by their number, and the arrays that they name."""
-        outputs, analysis = Outputs(), design.analyse()
+        outputs, analysis = Outputs(), self.analysis_of(design)
         pictures: Any = self.structure["pictures"]
         still = {k: picture["still"] for k, picture in enumerate(pictures) if picture["still"]}
         shown = {str(k): self._picture(self.views[k], analysis, self.first, outputs, why) for k, why in still.items()}

@@ -17,7 +17,7 @@ from ..units import deg, mm, rpm, um
 from .cam import ANGLE, bodies, position
 from .picture import Area, Axes, Band, LabelStyle, Line, Mark, Picture, Points, Text, gaps, in_lines
 
-FORMAL = "formal: the follower leaves the cam; see gap"
+FORMAL = "formal: it leaves the cam, see gap"
 OTHER = "the other flank of the groove leads"
 MOST_DRAWN = 1440
 """Samples of a turn that are drawn, about."""
@@ -103,7 +103,7 @@ def force_beside_rigid(analysis: AtSpeed) -> Picture:
         Points("least", x[[low]], elastic[[low]], role="trouble" if lost.any() else "position", fill="paper",
                label=f"least {response.least_force:.4g} N"),
     ]  # fmt: skip
-    title = f"Force: dynamic factor {response.dynamic_factor:.4g}"
+    title = f"Force{', formal' if said == FORMAL else ''}: dynamic factor {response.dynamic_factor:.4g}"
     return Picture.of(Axes(title=title, xlabel=ANGLE, ylabel="contact force  [N]"), marks)
 
 

@@ -25,10 +25,10 @@ from redrawing import redrawn_in_place
 VIEWS = (
     cam_and_train,
     force_beside_rigid,
-    acceleration_beside_cam,
     force_over_speed,
-    spectrum_of_lift,
     gap_and_strikes,
+    acceleration_beside_cam,
+    spectrum_of_lift,
 )
 A = ElasticTrain(8e5, 100.0, 20.0)
 MOTION = MotionProgram(
@@ -85,7 +85,7 @@ def test_force_beside_rigid():
     assert not shown["formal"].label
     assert np.max(shown["elastic"].y) / np.max(shown["rigid"].y) == pytest.approx(response.dynamic_factor, rel=1e-4)
     lost = force_beside_rigid(of("leaves"))
-    assert lost["formal"].label == "formal: the follower leaves the cam; see gap"
+    assert lost["formal"].label == "formal: it leaves the cam, see gap"
     assert np.nanmax(lost["formal"].y) < 0
     assert force_beside_rigid(of("groove"))["formal"].label == "the other flank of the groove leads"
 
