@@ -96,7 +96,8 @@ def _leaves_of(design: object) -> dict[str, Leaf]:
 def label(path: str, declared: Quantity | Choice) -> str:
     """What stands at a path is called where it is shown: by its path, or by the name of its declaration.
 
-    A load, a motion and a law add nothing to a name; which of several it is they do.
+    A load, a motion and a law add nothing to a name, nor does what it begins with: "cam speed" of a cam; which of
+    several it is they do.
 
     >>> from camkit import TranslatingRollerCam
     >>> quantities = quantities_of(TranslatingRollerCam())
@@ -105,7 +106,8 @@ def label(path: str, declared: Quantity | Choice) -> str:
     """
     name = declared.name if isinstance(declared, Quantity) else ""
     owners = [word for word in words(path.rpartition(".")[0]).split() if word not in ("load", "motion", "law")]
-    return " ".join((*owners, name)) if name else words(path)
+    said = owners[:-1] if owners and name.startswith(f"{owners[-1]} ") else owners
+    return " ".join((*said, name)) if name else words(path)
 
 
 def declared_in(design: object) -> dict[str, Quantity | Choice]:
