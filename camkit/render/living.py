@@ -44,7 +44,7 @@ from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View
 from .contours import outlined
 from .page_parts import PAGE, STYLE, in_html, look, script
-from .positions import VIEWPOINT, given_to, made_by, positions_of, turn_range
+from .positions import VIEWPOINT, given_to, made_by, name_of, positions_of, turn_range
 from .reasons import reason_of
 
 SIZE = np.array([400.0, 300.0])
@@ -164,8 +164,8 @@ class Living:
         self, view: View, analysis: object, position: Mapping[str, float], outputs: Outputs, why: str = ""
     ) -> Json:
         asked = {"limits": {measure: limits[-1][0] for measure, limits in self.limits.items()}, **position}
-        with applied(f"the view {_name(view).replace('_', ' ')}", analysis):
-            return outputs.picture(made_by(view, analysis, given_to(view, asked)), _name(view), why)
+        with applied(f"the view {name_of(view).replace('_', ' ')}", analysis):
+            return outputs.picture(made_by(view, analysis, given_to(view, asked)), name_of(view), why)
 
     @cached_property
     def _recorded(self) -> tuple[dict[str, Json], Program | None, str]:
@@ -323,10 +323,6 @@ def _position_rows(analysis: object, first: Mapping[str, float]) -> Iterator[Jso
         else:
             label, low, high = name, VIEWPOINT[name].low * deg, VIEWPOINT[name].high * deg
         yield {"name": name, "label": words(label), "low": low, "high": high, "value": value}
-
-
-def _name(view: View) -> str:
-    return str(getattr(view, "__name__", "") or getattr(getattr(view, "func", None), "__name__", "view"))
 
 
 def _measure(measure: Measure, value: object, limit: tuple[float, int] | None, outputs: Outputs) -> dict[str, Json]:

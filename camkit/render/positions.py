@@ -58,3 +58,8 @@ def made_by(view: View, analysis: object, given: Mapping[str, Any]) -> Picture:
 def view_name(view: View) -> str:
     """How a view is called in a sentence."""
     return getattr(view, "__name__", "that is given").replace("_", " ")
+
+
+def name_of(view: View) -> str:
+    """How a view is called in Python."""
+    return str(getattr(view, "__name__", "") or getattr(getattr(view, "func", None), "__name__", "view"))
