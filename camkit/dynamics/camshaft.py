@@ -17,9 +17,10 @@ from typing import Any
 
 import numpy as np
 
+from ..motion.closing import TURN
 from ..quantities import Design, quantity
 from ..quantities.design import refuse_population
-from ..quantities.kinds import columns, refuse_arguments
+from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..units import in_unit
 from .driven import Analysed, bottom, top
@@ -80,9 +81,8 @@ class Camshaft(Design):
         `Train.follow` does.
         """
         refuse_arguments(Camshaft.windup, locals())
-        refuse_population(analysis, "the analysis")
-        if columns(train) or columns(self):
-            raise ValueError("the train or the camshaft is a population; windup is that of one")
+        for thing, what in ((analysis, "the analysis"), (train, "the train"), (self, "the camshaft")):
+            refuse_population(thing, what)
         if np.any(train.cam_side_mass):
             raise ValueError("the train has a mass at the cam; behind an elastic camshaft it must be 0")
         first = train.follow(analysis, speed, samples)
@@ -115,10 +115,5 @@ class Camshaft(Design):
 
 def _turned(first: Response, analysis: Analysed, theta: Array) -> Response:
     """The response to a cam that leads its drive by ``theta``."""
-    given = first.driven
-    at = analysis.at(np.mod(given.cam_angle + theta, 2 * np.pi))
-    s, v, w, _ = at.motion
-    travel = s - given.level
-    load = at.static_resistance - given.preload - given.rate * travel
-    turned = replace(given, travel=travel, velocity=v, acceleration=w, load=load, lever=at.lever)
-    return response_of(first.train, turned, first.speed)
+    at = first.driven.at(analysis, np.mod(first.cam_angle + theta, TURN))
+    return response_of(first.train, replace(at, cam_angle=first.cam_angle), first.speed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, Self
 
 import numpy as np
@@ -14,6 +14,9 @@ from ..quantities import unless
 from ..quantities.applied import applied
 from ..quantities.types import Array, Value
 from ..units import in_unit
+
+MARGIN = 5
+"""So many cam angles show a step at either end of a dwell."""
 
 
 class Analysed(Protocol):
@@ -78,6 +81,31 @@ class Driven:
     """Of the cam, rad/s."""
     dwells: tuple[tuple[Array, Array], ...]
     """From which cam angle to which the follower rests."""
+    margins: tuple[tuple[Array, Array, Array], ...] = ()
+    """Cam angles in the first and the last step of each dwell, with ``s`` and ``q`` there: a short dwell is no more."""
+
+    def at(self, analysis: Analysed, cam_angle: Array) -> Driven:
+        """The same at other cam angles of the ``analysis``, ``(k,)`` or ``(p, k)``."""
+        at = analysis.at(cam_angle)
+        s, v, w, _ = at.motion
+        travel, static = s - self.level, at.static_resistance + 0.0 * s
+        load = static - self.preload - self.rate * travel
+        changed = {"travel": travel, "velocity": v, "acceleration": w, "load": load, "lever": at.lever}
+        return replace(self, cam_angle=cam_angle, **changed)
+
+    def with_margins(self, analysis: Analysed) -> Driven:
+        """With what is seen closely where dwells begin and end."""
+        if not self.dwells:
+            return self
+        close = np.linspace(0, 1, MARGIN) * TURN / len(self.cam_angle)
+        ends = [
+            side
+            for start, end in self.dwells
+            for side in (np.minimum(start + close, end), np.maximum(end - close, start))
+        ]
+        at = self.at(analysis, np.concatenate(np.broadcast_arrays(*ends), axis=-1))
+        parts = (np.split(values, len(self.dwells), axis=-1) for values in (at.cam_angle, at.travel, at.load))
+        return replace(self, margins=tuple(zip(*parts, strict=True)))
 
 
 def driven(analysis: Analysed, samples: int) -> Driven:
@@ -98,7 +126,8 @@ def driven(analysis: Analysed, samples: int) -> Driven:
         still = (i for i, segment in enumerate(motion.segments) if segment.still)
         dwells = tuple((column(motion.starts[i]), column(motion.starts[i + 1])) for i in still)
         mass, rubs, speed = (column(x) for x in (at.inertia, getattr(at, "damping", 0.0), at.speed))
-        return Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, rubs, speed, dwells)
+        found = Driven(angle, travel, v, w, load, at.lever, level, preload, mass, rate, rubs, speed, dwells)
+        return found.with_margins(analysis)
 
 
 def column(value: Value) -> Array:

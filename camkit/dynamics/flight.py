@@ -15,11 +15,12 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..motion.closing import TURN
 from ..quantities import counted
 from ..quantities.design import refuse_population
-from ..quantities.kinds import columns, refuse_arguments
+from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array
 from .driven import Analysed, Driven, driven
 from .steady import a_speed, grounded, last_mass, response_of, series_matrix
@@ -72,8 +73,13 @@ class Flight:
         return max((event.impulse for event in self.events), default=0.0)
 
 
-def simulate(analysis: Any, train: Train, speed: float | None = None, turns: int = 1) -> Flight:
-    """A train from rest at cam angle 0, where the cam is at ``speed`` (rad/s; that of the load), over some turns.
+def simulate(
+    analysis: Any, train: Train, speed: float | None = None, turns: int = 1, state: ArrayLike | None = None
+) -> Flight:
+    """A train from cam angle 0, where the cam is at ``speed`` (rad/s; that of the load), over some turns.
+
+    It begins on the cam, at rest or in another ``state``: the places of its masses from the cam to the load (m, or rad)
+    and then their velocities by time.
 
     >>> from camkit import TranslatingFlatCam, rpm
     >>> from camkit.dynamics import ElasticTrain
@@ -81,19 +87,30 @@ def simulate(analysis: Any, train: Train, speed: float | None = None, turns: int
     >>> [(event.kind, round(float(np.degrees(event.cam_angle)), 1)) for event in flight.events]
     [('off', 70.1), ('on', 139.9), ('off', 158.4), ('on', 189.9), ('off', 205.4), ('on', 276.7), ('off', 293.9)]
 
-    Raises ``ValueError`` for a population, a return spring with surge, turns that are no whole number of at least 1,
-    and as `Train.follow` does.
+    Raises ``ValueError`` for a population, a return spring with surge, turns that are no whole number of at least 1, a
+    state of another size, and as `Train.follow` does.
     """
     refuse_arguments(simulate, locals())
     refuse_population(analysis, "the analysis")
+    refuse_population(train, "the train")
     counted(turns, "turns", 1, MOST_TURNS)
     if np.any(getattr(analysis, "form_closed", False)):
         raise ValueError("a groove holds the follower from both sides; there is no flight to follow")
-    if columns(train):
-        raise ValueError("the train is a population; a flight is that of one train")
     if train.spring.name != "without mass":
         raise ValueError("the return spring of the train surges; in flight it must be one without mass")
-    return _Run(analysis, train, speed if speed is None else float(a_speed(speed))).over(turns)
+    run = _Run(analysis, train, speed if speed is None else float(a_speed(speed)))
+    return run.over(turns, _begun(state, run.n))
+
+
+def _begun(state: ArrayLike | None, masses: int) -> Array:
+    """The places and velocities of so many masses in the beginning; ``ValueError`` for what are none."""
+    begun = np.zeros(2 * masses) if state is None else numbers(state, "the state of the train")
+    if begun.shape != (2 * masses,) or not np.isfinite(begun).all():
+        raise ValueError(
+            f"the state of the train is {shown(state)}; it must be {2 * masses} finite numbers: the places of its "
+            "masses, and their velocities"
+        )
+    return begun
 
 
 class _Step(NamedTuple):
@@ -140,7 +157,7 @@ class _Run:
         self.start, self.near_mass = float(self.given.preload[0]), float(np.ravel(train.cam_side_mass)[0])
         self.k, self.c = (float(x) for x in train.springs[0])
         self.masses = np.array([float(np.ravel(m)[0]) for m in (*train.inner_masses, last_mass(train, self.given))])
-        self.n, self.level = len(self.masses), float(self.given.level[0])
+        self.n = len(self.masses)
         fastest = max(float(response.natural_frequencies[-1]), self._near_frequency)
         self.steps = int(max(STEPS, TURN * fastest / self.speed / PER_RADIAN))
         if self.steps > MOST_STEPS:
@@ -186,12 +203,8 @@ class _Run:
 
     def drive(self, angle: Array) -> Array:
         """``u`` at some cam angles, ``(k, 5)``."""
-        at, first = self.analysis.at(angle), self.given
-        s, v, w, _ = at.motion
-        static = at.static_resistance + 0.0 * angle
-        travel = s - self.level
-        load = static - self.start - float(first.rate[0]) * travel
-        return np.stack([travel, v, load, w, np.ones(len(angle))], axis=-1)
+        at = self.given.at(self.analysis, angle)
+        return np.stack([at.travel, at.velocity, at.load, at.acceleration, np.ones(len(angle))], axis=-1)
 
     def press(self, y: Array, u: Array) -> float:
         """``N`` in contact."""
@@ -216,9 +229,9 @@ class _Run:
         step = _Step.of(phase.A, by)
         return step.E @ y + step.adds(u @ phase.B.T)[0], u[-1]
 
-    def over(self, turns: int) -> Flight:
-        """The run from rest over some turns."""
-        path, pieces = _Path(self), self.pieces()
+    def over(self, turns: int, state: Array) -> Flight:
+        """The run from a state over some turns."""
+        path, pieces = _Path(self, state), self.pieces()
         for turn in range(turns):
             begin = turn * TURN
             for step, u in pieces:
@@ -230,8 +243,8 @@ class _Run:
 class _Path:
     """Where a run stands, and where it was."""
 
-    def __init__(self, run: _Run) -> None:
-        self.run, self.y, self.flies = run, np.zeros(2 * run.n), False
+    def __init__(self, run: _Run, state: Array) -> None:
+        self.run, self.y, self.flies = run, state, False
         self.left, self.stretch = 0.0, 0.0
         self.events: list[Event] = []
         self.seen: list[tuple[float, float, float, float]] = []
@@ -322,7 +335,7 @@ class _Path:
             impulse = run.near_mass * (run.speed * u[1] - self.y[-1])
         self.flies, self.y = False, self.y[: 2 * run.n]
         self.events.append(Event("on", angle, float(abs(impulse))))
-        if run.press(self.y, u) < 0:
+        if run.near_mass and run.press(self.y, u) < 0:  # without a mass N is at least 0 then
             self._leave(angle, u)
 
     def _note(self, angle: float, kept: float) -> None:

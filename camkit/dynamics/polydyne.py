@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Any, Self
 
@@ -28,7 +28,7 @@ from ..motion.resolution import Resolution
 from ..motion.transitions import SMOOTH
 from ..quantities import quantity, unless
 from ..quantities.applied import applied
-from ..quantities.kinds import a_number, refuse_arguments
+from ..quantities.kinds import a_number, finite, refuse_arguments
 from ..quantities.types import Array, Value
 from .steady import a_speed
 from .trains import Train
@@ -73,6 +73,13 @@ class PolydyneProgram(MotionProgram):
             refuse("a polydyne cam needs a motion over a full turn of 360 deg")
         if refuse := unless(self.comes_back):
             refuse("a polydyne cam needs a motion that comes back to where it began")
+
+    @cached_property
+    def possible(self) -> bool:
+        """As of every program; the train and its speed must be possible, too."""
+        given = self.mass, self.stiffness, self.damping, self.rate, self.ground_damping, self.design_speed
+        begun = super().possible & self.periodic & self.comes_back
+        return reduce(np.logical_and, [finite(x) for x in given], begun)
 
     @property
     def lag(self) -> Value:

@@ -238,7 +238,7 @@ class Response:
 
     @property
     def rigid_contact_force(self) -> Array:
-        """The same of a rigid train without damping."""
+        """The same of a rigid train, the damping of the load with it."""
         return self.rigid_resistance / self.driven.lever
 
     @cached_property
@@ -302,23 +302,46 @@ class Response:
     @property
     def rest(self) -> Array:
         """Where the last mass would stand if the cam stood still, ``(k_f s - q) / (k_f + k_s)``, m or rad."""
-        k, given = self.train.static_stiffness, self.driven
-        return (k * given.travel - given.load) / (k + given.rate)
+        return self._rest(self.driven.travel, self.driven.load)
+
+    def _rest(self, travel: Array, load: Array) -> Array:
+        k = self.train.static_stiffness
+        return (k * travel - load) / (k + self.driven.rate)
 
     @property
     def dwell_vibration(self) -> Array:
         """The largest ``|x - rest|`` in each dwell, m or rad, the dwells last; empty where there is none."""
-        away = abs(self.position - self.rest)
-        found = [_within(self.cam_angle, away, *dwell) for dwell in self.driven.dwells]
+        away, given = abs(self.position - self.rest), self.driven
+        found = [
+            np.maximum(_within(self.cam_angle, away, *dwell), self._near(*margin))
+            for dwell, margin in zip(given.dwells, given.margins, strict=True)
+        ]
         return np.stack(found, axis=-1) if found else np.zeros((*away.shape[:-1], 0))
+
+    def _near(self, cam_angle: Array, travel: Array, load: Array) -> Array:
+        """The largest where a dwell begins and ends."""
+        away: Array = abs(_between(self.position, cam_angle) - self._rest(travel, load)).max(-1)
+        return away
+
+
+def _between(values: Array, cam_angle: Array) -> Array:
+    """Values at even cam angles of a turn at others (rad), by the cubic through the four around."""
+    n = values.shape[-1]
+    share = np.mod(cam_angle, TURN) * n / TURN
+    low = np.where(np.isfinite(share), np.floor(share), 0).astype(int)
+    x = share - low
+    far, left, right, away = (_placed(values, (low + k) % n) for k in (-1, 0, 1, 2))
+    middle = (1 + x) * (2 - x) * ((1 - x) * left + x * right) / 2
+    return middle - x * (1 - x) * ((2 - x) * far + (1 + x) * away) / 6
 
 
 def _placed(values: Array, at: Array) -> Array:
     """Of values ``(n,)`` or ``(p, n)`` those at places ``(k,)`` or ``(p, k)``."""
     if values.ndim == 1 or at.ndim == 1:
         return values[..., at]
-    rows = np.broadcast_to(values, (max(len(values), len(at)), values.shape[-1]))
-    return np.take_along_axis(rows, np.broadcast_to(at, (len(rows), at.shape[-1])), axis=-1)
+    rows = np.broadcast_shapes(values.shape[:-1], at.shape[:-1])
+    every, places = np.broadcast_to(values, (*rows, values.shape[-1])), np.broadcast_to(at, (*rows, at.shape[-1]))
+    return np.take_along_axis(every, places, axis=-1)
 
 
 def _within(angle: Array, values: Array, start: Array, end: Array) -> Array:

@@ -74,8 +74,23 @@ class Train(Design, ABC):
         return respond(self, analysis, speed, samples)
 
 
+class _OneMass(Train):
+    """What trains of one mass share."""
+
+    stiffness: Value
+    damping: Value
+
+    @property
+    def springs(self) -> Sequence[tuple[Value, Value]]:
+        return ((self.stiffness, self.damping),)
+
+    @property
+    def inner_masses(self) -> Sequence[Value]:
+        return ()
+
+
 @dataclass(frozen=True)
-class ElasticTrain(Train):
+class ElasticTrain(_OneMass):
     """One mass behind a spring: a pushrod, a stem, a rocker before a sliding load.
 
     Its mass is that of the cam's load, less what follows the cam rigidly.
@@ -95,17 +110,9 @@ class ElasticTrain(Train):
 
     name: ClassVar[str] = "one mass"
 
-    @property
-    def springs(self) -> Sequence[tuple[Value, Value]]:
-        return ((self.stiffness, self.damping),)
-
-    @property
-    def inner_masses(self) -> Sequence[Value]:
-        return ()
-
 
 @dataclass(frozen=True)
-class ElasticArm(Train):
+class ElasticArm(_OneMass):
     """One moment of inertia behind a spring, for a rocking arm: what an `ElasticTrain` is on a slide."""
 
     stiffness: float = quantity("k_f", 1500, 10, 50000, "N m/rad", "between cam and load", name="train stiffness")
@@ -120,14 +127,6 @@ class ElasticArm(Train):
     spring: MasslessSpring | HelicalSpring = spring_choice()
 
     name: ClassVar[str] = "one inertia, on an arm"
-
-    @property
-    def springs(self) -> Sequence[tuple[Value, Value]]:
-        return ((self.stiffness, self.damping),)
-
-    @property
-    def inner_masses(self) -> Sequence[Value]:
-        return ()
 
 
 STIFFNESS = Quantity("k", 800, 10, 20000, "N/mm", "of a spring of the train")

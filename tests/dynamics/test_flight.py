@@ -60,6 +60,18 @@ def test_without_loss_of_contact_it_settles_into_steady_motion():
     assert_allclose(flight.resistance[last][:-1], expected[:-1], rtol=0, atol=1e-2)
 
 
+def test_it_goes_on_from_any_state():
+    """From where a turn has ended: the second turn of two."""
+    analysis = flat("modified_sine", 400 * rpm).analyse()
+    two = simulate(analysis, A, turns=2)
+    n = len(two.cam_angle) // 2
+    x, h = two.position, 2 * np.pi / n / (400 * rpm)
+    speed = (8 * (x[n + 1] - x[n - 1]) - x[n + 2] + x[n - 2]) / (12 * h)
+    again = simulate(analysis, A, state=(x[n], speed))
+    assert_allclose(again.position, x[n:], rtol=0, atol=1e-10)
+    assert simulate(analysis, A, state=(1e-3, 0.0)).events[0].kind == "off"  # pushed away from the cam
+
+
 def test_in_flight_nothing_presses_and_the_gap_is_open():
     flight = simulate(flat(speed=900 * rpm).analyse(), A)
     flies = flight.gap > 0
@@ -83,5 +95,8 @@ def test_refusals():
         simulate(flat().analyse(), A, turns=0)
     with pytest.raises(ValueError, match="is a population"):
         simulate(flat(mass=np.array([[1.0], [2.0]])).analyse(), A)
+    for state in ((0.0,), (0.0, np.nan), "rest"):
+        with pytest.raises(ValueError, match="the state of the train"):
+            simulate(flat().analyse(), A, state=state)
     with pytest.raises(ValueError, match="the train is a population"):
         simulate(flat().analyse(), ElasticTrain(np.array([[1e5], [2e5]])))

@@ -99,6 +99,15 @@ def test_a_population_is_each_of_its_members():
             assert_allclose(found[i], expected, rtol=0, atol=rounding * abs(expected).max())
 
 
+def test_what_cannot_be_in_a_population_is_nan():
+    """A speed or a train that no single cam may have, and rows beside it that can be."""
+    speeds = np.array([[600.0], [-1.0], [700.0]]) * rpm
+    by_speed, by_train = polydyne(WANTED, TRAIN, LOAD, speeds), ElasticTrain(np.array([[8e5], [-1.0], [9e5]]), 0.0)
+    for many in (by_speed, polydyne(WANTED, by_train, LOAD, SPEED)):
+        assert_allclose(many.possible[:, 0], [True, False, True])
+        assert_allclose(np.isnan(many([1.0, 3.0]).s[:, 0]), [False, True, False])
+
+
 def test_refusals():
     short = MotionProgram((Rise(120 * deg, 20 * mm, Poly56789()),))
     table = ((0.0, 0.0), (1.0, 5.0))

@@ -214,6 +214,16 @@ def test_a_column_of_speeds_gives_a_row_for_each():
     assert_allclose(both.contact_force[1], one.contact_force, rtol=1e-12)
 
 
+@pytest.mark.parametrize("degrees", [60.0, 0.7, 0.2, 0.01])
+def test_vibration_in_a_dwell_between_two_samples(degrees):
+    """A step of 0.5 deg shows what one of 0.008 does, where the dwell begins and ends anywhere, or holds no sample."""
+    motion = program(SimpleHarmonic(), angles=(120.3, degrees, 120, 119.7 - degrees))
+    cam = flat().replace(motion=motion)
+    few, many = (A.follow(cam.analyse(), samples=n).dwell_vibration for n in (720, 46080))
+    assert_allclose(few, many, rtol=1e-5)
+    assert (few > 5e-5).all()
+
+
 # ---------------------------------------------------------------- refusals
 
 
