@@ -78,8 +78,8 @@ class PolydyneProgram(MotionProgram):
     def possible(self) -> bool:
         """As of every program; the train and its speed must be possible, too."""
         given = self.mass, self.stiffness, self.damping, self.rate, self.ground_damping, self.design_speed
-        begun = super().possible & self.periodic & self.comes_back
-        return reduce(np.logical_and, [finite(x) for x in given], begun)
+        each = [self.periodic, self.comes_back, *(finite(x) for x in given)]
+        return reduce(np.logical_and, each, super().possible)
 
     @property
     def lag(self) -> Value:
