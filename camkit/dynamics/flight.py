@@ -156,7 +156,7 @@ class _Run:
         self.speed = float(response.speed[0])
         self.start, self.near_mass = float(self.given.preload[0]), float(np.ravel(train.cam_side_mass)[0])
         self.k, self.c = (float(x) for x in train.springs[0])
-        self.masses = np.array([float(np.ravel(m)[0]) for m in (*train.inner_masses, last_mass(train, self.given))])
+        self.masses = np.array([float(np.ravel(m)[0]) for m in (*train.masses, last_mass(train, self.given))])
         self.n = len(self.masses)
         fastest = max(float(response.natural_frequencies[-1]), self._near_frequency)
         self.steps = int(max(STEPS, TURN * fastest / self.speed / PER_RADIAN))

@@ -26,7 +26,7 @@ from ..motion import Kinematics, MotionProgram, Transition
 from ..motion.closing import TURN
 from ..motion.resolution import Resolution
 from ..motion.transitions import SMOOTH
-from ..quantities import quantity, unless
+from ..quantities import certain, quantity, unless
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, finite, refuse_arguments
 from ..quantities.types import Array, Value
@@ -73,13 +73,14 @@ class PolydyneProgram(MotionProgram):
             refuse("a polydyne cam needs a motion over a full turn of 360 deg")
         if refuse := unless(self.comes_back):
             refuse("a polydyne cam needs a motion that comes back to where it began")
+        self._refuse_members()
 
-    @cached_property
-    def possible(self) -> bool:
-        """As of every program; the train and its speed must be possible, too."""
+    def _refuse_members(self) -> None:
+        """Members of a population whose train, speed or motion cannot be begin nowhere: their rows are ``nan``."""
         given = self.mass, self.stiffness, self.damping, self.rate, self.ground_damping, self.design_speed
-        each = [self.periodic, self.comes_back, *(finite(x) for x in given)]
-        return reduce(np.logical_and, each, super().possible)
+        ok = reduce(np.logical_and, [finite(x) for x in given], self.periodic & self.comes_back)
+        if not certain(ok):
+            object.__setattr__(self, "start", np.where(ok, self.start, np.nan))
 
     @property
     def lag(self) -> Value:

@@ -98,7 +98,7 @@ def _refuse_mass(train: Train, given: Driven) -> None:
 
 def last_mass(train: Train, given: Driven) -> Array:
     """``m``: what the train's parts leave of the load's mass, ``(1,)`` or ``(p, 1)``."""
-    return given.mass - train.cam_side_mass - sum(train.inner_masses)
+    return given.mass - train.cam_side_mass - sum(train.masses)
 
 
 def grounded(train: Train, given: Driven) -> Array:
@@ -363,7 +363,7 @@ def natural_modes(train: Train, mass: Array, rate: Array, ground: Value) -> tupl
 
     A return spring counts with its rate alone.  ``(k,)``, or ``(p, k)``; ``nan`` where the load has no mass left.
     """
-    masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.inner_masses, mass)), rate[..., 0])[:-1]
+    masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.masses, mass)), rate[..., 0])[:-1]
     M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
     stiff, rub = (series_matrix([part[i] for part in train.springs], end)
                   for i, end in ((0, rate), (1, ground)))  # fmt: skip

@@ -10,7 +10,6 @@ Source: Norton, Cam Design and Manufacturing Handbook (dynamics of cam systems);
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -35,22 +34,22 @@ def spring_choice() -> Any:
     return choice("S", SPRINGS[0], SPRINGS, "return spring; its rate is the load's")
 
 
-class Train(Design, ABC):
-    """What every elastic train shares: how it follows a cam."""
+class Train(Design):
+    """What every elastic train shares: how it follows a cam; one mass behind one spring, unless there are more."""
 
+    stiffness: Value | tuple[Value, ...]
+    damping: Value | tuple[Value, ...]
+    masses: tuple[Value, ...] = ()
+    """Between the springs, kg or kg m^2; what is left of the load's mass is behind the last spring."""
     ground_damping: Value
     cam_side_mass: Value
     spring: MasslessSpring | HelicalSpring
 
     @property
-    @abstractmethod
     def springs(self) -> Sequence[tuple[Value, Value]]:
         """Stiffness and damping of each spring, that at the cam first: N/m, N s/m (of an arm N m/rad, N m s/rad)."""
-
-    @property
-    @abstractmethod
-    def inner_masses(self) -> Sequence[Value]:
-        """The masses between the springs, kg or kg m^2; what is left of the load's mass is behind the last spring."""
+        each = (given if isinstance(given, tuple) else (given,) for given in (self.stiffness, self.damping))
+        return tuple(zip(*each, strict=True))
 
     @property
     def static_stiffness(self) -> Value:
@@ -74,23 +73,8 @@ class Train(Design, ABC):
         return respond(self, analysis, speed, samples)
 
 
-class _OneMass(Train):
-    """What trains of one mass share."""
-
-    stiffness: Value
-    damping: Value
-
-    @property
-    def springs(self) -> Sequence[tuple[Value, Value]]:
-        return ((self.stiffness, self.damping),)
-
-    @property
-    def inner_masses(self) -> Sequence[Value]:
-        return ()
-
-
 @dataclass(frozen=True)
-class ElasticTrain(_OneMass):
+class ElasticTrain(Train):
     """One mass behind a spring: a pushrod, a stem, a rocker before a sliding load.
 
     Its mass is that of the cam's load, less what follows the cam rigidly.
@@ -112,7 +96,7 @@ class ElasticTrain(_OneMass):
 
 
 @dataclass(frozen=True)
-class ElasticArm(_OneMass):
+class ElasticArm(Train):
     """One moment of inertia behind a spring, for a rocking arm: what an `ElasticTrain` is on a slide."""
 
     stiffness: float = quantity("k_f", 1500, 10, 50000, "N m/rad", "between cam and load", name="train stiffness")
@@ -174,14 +158,6 @@ class TrainChain(Train):
         super().__post_init__()
         refuse_lengths(self)
 
-    @property
-    def springs(self) -> Sequence[tuple[Value, Value]]:
-        return tuple(zip(self.stiffness, self.damping, strict=True))
-
-    @property
-    def inner_masses(self) -> Sequence[Value]:
-        return self.masses
-
 
 def _row(given: object, name: str, declared: Quantity) -> tuple[Value, ...]:
     """The numbers of a row as its declaration allows them."""
@@ -210,7 +186,7 @@ def passed(train: Train, mass: Array, rate: Array, ground: Value, frequency: Arr
     even = np.arange(frequency.shape[-1]) < frequency.shape[-1] - 1
     rubs, throws = 1j * (frequency * even), frequency**2  # the last harmonic of an even number has no derivative
     springs = [k + c * rubs for k, c in train.springs]
-    masses = [*train.inner_masses, mass]
+    masses = [*train.masses, mass]
     behind = rate * train.spring.share(frequency / (2 * np.pi)) + ground * rubs
     each = []
     with np.errstate(divide="ignore", invalid="ignore"):
