@@ -10,6 +10,7 @@ from ..motion import MotionProgram
 from ..motion.closing import TURN
 from ..motion.program import SAME_ANGLE
 from ..quantities import Measure
+from ..quantities.design import refuse_population
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array, Value
 from .measures import over_cam
@@ -45,7 +46,10 @@ def compared(points: Array, analysis: Any) -> Compared:
     """Points of an outline ``(2, n)``, m, against the profile of a cam's analysis, each with the place next to it.
 
     To second order the profile is its circle of curvature: between its points the deviation is that from the circle.
+
+    Raises ``ValueError`` for a population.
     """
+    refuse_population(analysis, "the analysis")
     points = _counter_clockwise(np.asarray(points, dtype=float))
     profile, normals = analysis.profile, analysis.on_cam(analysis.normal)
     bend = np.minimum(np.maximum(analysis.profile_curvature, -SHARPEST), SHARPEST)

@@ -86,6 +86,18 @@ class Shown:
         return (*drawn, *AT_SPEED, *rest)
 
     @property
+    def trouble(self) -> str:
+        """What is lost of the profile, and that the follower leaves the cam, in a sentence; empty if neither is."""
+        lost, least = self._of_cam("trouble"), self.response.least_force
+        if np.ndim(least) or not least < 0 or np.any(self.form_closed):
+            return lost
+        formal = (
+            f"the least contact force would be {least:.4g} N: steady motion is formal, the follower leaves the cam; "
+            "its flight shows what it does (simulate)"
+        )
+        return f"{lost}; {formal}" if lost else formal
+
+    @property
     def rocks(self) -> bool:
         """Whether the follower is on an arm: its travel is then an angle."""
         return not self.acceleration_unit.startswith("mm")

@@ -22,7 +22,9 @@ BLOCK = 1 << 14
 SLOWEST, FASTEST = 1 / 256, 32.0
 """Between these shares of its natural frequency a train is looked at for the loss of contact."""
 STEP = 0.01
-"""From speed to speed, as a share of it, at most; half the damping ratio where that is less, but not below `FINEST`."""
+"""From speed to speed, as a share of it, at most; half the damping ratio where that is less, but not below `FINEST`.
+
+A resonance that is narrower than this is looked at where it is."""
 FINEST = 1e-3
 MOST_SECANTS, EXACT, TINY = 50, 1e-13, 1e-300
 """The speed of contact loss is right to such a share of the step in which it is found."""
@@ -99,7 +101,7 @@ def contact_loss_speed(analysis: Any, train: Train) -> Value:
     rest = bottom(_at_rest(train, first.driven))
     shape = (*rest.shape, 1)
     frequency, ratio = (
-        np.broadcast_to(np.expand_dims(x, -1), shape) for x in (first.natural_frequency, first.damping_ratio)
+        np.broadcast_to(np.expand_dims(x, -1), shape) for x in (first.natural_frequency, first.damping_ratios.min(-1))
     )
     if not np.nanmin(ratio, initial=np.inf) > 0:
         raise ValueError("the train has no damping: every resonance loses contact; it must have some")
@@ -122,8 +124,7 @@ class _Scan:
 
     def __init__(self, analysis: Analysed, train: Train, frequency: Array, ratio: Array) -> None:
         self.analysis, self.train, self.frequency = analysis, train, frequency
-        step = float(np.clip(np.nanmin(ratio) / 2, FINEST, STEP))
-        self.factors = np.exp(np.arange(1, int(np.ceil(np.log(2) / step)) + 1) * step)
+        self.step = min(float(np.nanmin(ratio)) / 2, STEP)
         self.given: dict[int, Driven] = {}
 
     def driven(self, samples: int) -> Driven:
@@ -138,17 +139,26 @@ class _Scan:
     def bracket(self) -> tuple[Array, Array]:
         """Two speeds between which the least force falls below 0; both ``inf`` where it never does."""
         low, high = (np.full(self.frequency.shape, np.inf) for _ in range(2))
-        begin = self.frequency * SLOWEST
-        while np.isinf(high).any() and (begin < FASTEST * self.frequency).any():
+        share = SLOWEST
+        while np.isinf(high).any() and share < FASTEST:
+            begin = self.frequency * share
             samples = enough(self.frequency[..., 0], np.nanmin(begin, initial=np.inf))
-            low, high = self._octave(begin, samples, low, high)
-            begin = begin * self.factors[-1]
+            low, high = self._octave(begin, self._steps(share), samples, low, high)
+            share *= 2
         return low, high
 
-    def _octave(self, begin: Array, samples: int, low: Array, high: Array) -> tuple[Array, Array]:
+    def _steps(self, share: float) -> Array:
+        """The speeds of an octave, over its first one, which is a ``share`` of the natural frequency."""
+        step = max(self.step, FINEST)
+        even = np.exp(np.linspace(0, np.log(2), 1 + int(np.ceil(np.log(2) / step))))
+        if self.step >= FINEST:
+            return even
+        hits = 1 / (share * np.arange(1, 1 + int(1 / share)))
+        return np.union1d(even, hits[hits < 2])
+
+    def _octave(self, begin: Array, steps: Array, samples: int, low: Array, high: Array) -> tuple[Array, Array]:
         """The same, of an octave of speeds."""
         if self.frequency.ndim == 1:
-            steps = np.concatenate([[1.0], self.factors])
             blocks = np.array_split(steps, max(1, samples * len(steps) // BLOCK))
             least = np.concatenate([self.least(begin * block[:, None], samples) for block in blocks])[:, 0]
             lost = np.flatnonzero(least < 0)
@@ -156,7 +166,7 @@ class _Scan:
                 return begin * steps[max(lost[0] - 1, 0)], begin * steps[lost[0]]
             return low, high
         before = begin
-        for factor in self.factors:
+        for factor in steps[1:]:
             now = begin * factor
             lost = np.isinf(high) & (self.least(now, samples) < 0)
             low, high = np.where(lost, before, low), np.where(lost, now, high)

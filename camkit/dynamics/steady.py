@@ -267,7 +267,12 @@ class Response:
     @property
     def damping_ratio(self) -> Value:
         """``zeta`` of the lowest mode; of one mass ``(c_f + c_s) / (2 sqrt(m (k_f + k_s)))``."""
-        return self._modes[1][..., 0]
+        return self.damping_ratios[..., 0]
+
+    @property
+    def damping_ratios(self) -> Array:
+        """Of all modes, the lowest first: ``(k,)`` or ``(p, k)``."""
+        return self._modes[1]
 
     @property
     def max_force(self) -> Value:
@@ -293,6 +298,17 @@ class Response:
     def dynamic_factor(self) -> Value:
         """``K_d``: the largest contact force over that of a rigid train, wherever in the turn either stands."""
         return self.max_force / top(self.rigid_contact_force)
+
+    @property
+    def stiffness_spread(self) -> tuple[Value, Value]:
+        """The least and the largest ``lever^2`` over its mean: how a stiffness along the contact normal would change.
+
+        What a cam or a roller gives acts along the normal, so that the arm feels it times ``lever^2``.  The train's
+        stiffness is constant: give it the mean over the turn, and see here how far that is off.
+        """
+        square = np.square(self.driven.lever + 0.0 * self.cam_angle)
+        mean = square.mean(-1)
+        return bottom(square) / mean, top(square) / mean
 
     @property
     def max_acceleration(self) -> Value:

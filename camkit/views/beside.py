@@ -10,6 +10,7 @@ import numpy as np
 
 from ..geometry import Body, Disc, Outline
 from ..quantities import PeakMeasure
+from ..quantities.design import refuse_population
 from ..quantities.kinds import refuse_empty, refuse_kinds
 from ..quantities.types import Array
 from ..units import deg, factor, mm
@@ -31,6 +32,8 @@ class Beside:
     def __post_init__(self) -> None:
         refuse_kinds(self)
         refuse_empty(self.analyses, "analyses")
+        for name, analysis in self.analyses.items():
+            refuse_population(analysis, f"the analysis of {name}")
 
 
 def cams_beside(shown: Beside, turn: float = 0.0) -> Picture:

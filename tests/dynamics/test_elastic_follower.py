@@ -68,6 +68,13 @@ def test_measures_of_the_cam_are_those_of_the_train():
     assert leaving_speed(analysis) / rpm == pytest.approx(VALUES["jump cycloidal"]["rigid_rpm"], rel=1e-7)
 
 
+def test_a_motion_that_would_pull_is_called_formal():
+    fast, slow = (ElasticFollower(flat(speed=n * rpm), A).analyse(91) for n in (800, 600))
+    assert fast.trouble.startswith("the least contact force would be -")
+    assert "the follower leaves the cam" in fast.trouble
+    assert slow.trouble == ""
+
+
 def test_geometry_is_that_of_the_cam():
     elastic, rigid = ElasticFollower(ROLLER, A).analyse(181), ROLLER.analyse(181)
     assert_allclose(elastic.profile, rigid.profile, rtol=1e-14)

@@ -55,6 +55,16 @@ def test_it_is_the_lowest_speed_with_a_force_of_0():
     assert abs(train.follow(analysis, speed).least_force) < 1e-3
 
 
+@pytest.mark.parametrize("ratio", [1e-3, 1e-4])
+def test_a_narrow_resonance_is_not_passed_over(ratio):
+    """Next to no damping: the lowest resonance at which the least force is below 0, which harmonics show one by one."""
+    analysis, train = flat("modified_sine").analyse(), ElasticTrain(8e5, 2 * ratio * np.sqrt(2 * 8.05e5))
+    resonances = np.sqrt(8.05e5 / 2) / np.arange(60, 10, -1)
+    least = speed_sweep(analysis, train, resonances, 5760).least_force
+    first = resonances[np.flatnonzero(least < 0)[0]]
+    assert contact_loss_speed(analysis, train) == pytest.approx(first, rel=5 * ratio)
+
+
 def test_a_population_loses_contact_as_each_of_its_members_does():
     mass, preload = np.array([[2.0], [1.5], [1.0]]), np.array([[300.0], [250.0], [-5.0]])
     many = contact_loss_speed(flat(mass=mass, preload=0.0, force=preload).analyse(), A)

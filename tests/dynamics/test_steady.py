@@ -70,6 +70,7 @@ def test_an_arm():
     response = ElasticArm(1500.0, 0.3, 0.02).follow(cam.analyse())
     agrees(response, expected)
     assert differs(response, response.resistance, expected["moment_at"]) < SAME * 15
+    assert_allclose(response.stiffness_spread, expected["stiffness_spread"], rtol=1e-5)
     assert response.dynamic_factor == pytest.approx(expected["dynamic_factor"], rel=SAME)
 
 

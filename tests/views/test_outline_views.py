@@ -10,7 +10,7 @@ from camkit.cam.compared import compared
 from camkit.program import record
 from camkit.quantities import quantities_of, value_of
 from camkit.units import deg, mm, um
-from camkit.views import default_views, deviation_over, laid_over, outline_deviation, outline_laid_over
+from camkit.views import Beside, default_views, deviation_over, laid_over, outline_deviation, outline_laid_over
 
 FOLLOWERS = (
     TranslatingRollerCam(groove=False, offset=4 * mm),
@@ -125,3 +125,11 @@ def test_points_beside_a_corner_are_compared_with_its_flanks():
     points = np.array([[0.02, 0.0199, -0.02, 0.02], [0.0199, 0.02, 0.0199, -0.0199]])
     assert_allclose(compared(points, analysis).deviation, 0, atol=0.5 * um)
     assert_allclose(compared(points * 1.0005, analysis).deviation, 0.0005 * 0.02, atol=0.5 * um)
+
+
+def test_what_is_compared_is_one_design():
+    several = TranslatingRollerCam(roller_radius=np.array([[8.0], [9.0]]) * mm).analyse(31)
+    with pytest.raises(ValueError, match="the analysis is a population, a TranslatingRollerCam with columns"):
+        ECCENTRIC.compared(several)
+    with pytest.raises(ValueError, match="the analysis of two is a population"):
+        Beside({"one": TranslatingRollerCam().analyse(31), "two": several})
