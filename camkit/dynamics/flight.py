@@ -23,8 +23,8 @@ from ..quantities.design import refuse_population
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array
 from .driven import Analysed, Driven, driven
-from .steady import a_speed, grounded, last_mass, response_of, series_matrix
-from .trains import Train
+from .steady import a_speed, grounded, last_mass, response_of
+from .trains import Train, series_matrix
 
 STEPS = 2880
 """Of a turn, at least."""

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..quantities import unless
 from ..quantities.kinds import numbers, refuse_arguments, shown
 from ..quantities.types import Array, Value
 from .driven import Analysed, Driven, bottom, driven
@@ -103,14 +104,15 @@ def contact_loss_speed(analysis: Any, train: Train) -> Value:
     frequency, ratio = (
         np.broadcast_to(np.expand_dims(x, -1), shape) for x in (first.natural_frequency, first.damping_ratios.min(-1))
     )
-    if not np.nanmin(ratio, initial=np.inf) > 0:
-        raise ValueError("the train has no damping: every resonance loses contact; it must have some")
-    scan = _Scan(analysis, train, frequency, ratio)
+    damped = np.logical_not(ratio <= 0)
+    if refuse := unless(damped.all() if damped.size == 1 else damped):
+        refuse("the train has no damping: every resonance loses contact; it must have some")
+    scan = _Scan(analysis, train, *(np.where(damped, x, np.nan) for x in (frequency, ratio)))
     low, high = scan.bracket()
     speed = scan.between(low, high)
     closed = getattr(analysis, "form_closed", False)
     lost = np.where(closed, np.inf, np.where(rest <= 0, 0.0, speed[..., 0]))
-    return np.where(np.isnan(rest), np.nan, lost)[()]
+    return np.where(np.isnan(rest) | ~damped[..., 0], np.nan, lost)[()]
 
 
 def _at_rest(train: Train, given: Driven) -> Array:
@@ -124,7 +126,7 @@ class _Scan:
 
     def __init__(self, analysis: Analysed, train: Train, frequency: Array, ratio: Array) -> None:
         self.analysis, self.train, self.frequency = analysis, train, frequency
-        self.step = min(float(np.nanmin(ratio)) / 2, STEP)
+        self.step = min(float(np.nanmin(ratio, initial=np.inf)) / 2, STEP)
         self.given: dict[int, Driven] = {}
 
     def driven(self, samples: int) -> Driven:
@@ -138,7 +140,7 @@ class _Scan:
 
     def bracket(self) -> tuple[Array, Array]:
         """Two speeds between which the least force falls below 0; both ``inf`` where it never does."""
-        low, high = (np.full(self.frequency.shape, np.inf) for _ in range(2))
+        low = high = np.where(np.isnan(self.frequency), np.nan, np.inf)
         share = SLOWEST
         while np.isinf(high).any() and share < FASTEST:
             begin = self.frequency * share

@@ -22,11 +22,11 @@ import numpy as np
 from ..extrema import raised
 from ..motion.closing import TURN
 from ..quantities import certain, counted, unless
-from ..quantities.kinds import a_number
+from ..quantities.kinds import a_number, refuse_unequal
 from ..quantities.types import Array, Value
 from ..units import in_unit
 from .driven import Analysed, Driven, bottom, driven, top
-from .trains import Passed, Train, passed
+from .trains import Passed, Train, natural_modes, passed
 
 LEAST, ALONE, MOST = 720, 11520, 46080
 """Samples of a turn without asking: of several designs or speeds at least, of one at one speed at least, at most."""
@@ -43,6 +43,7 @@ def respond(
 ) -> Response:
     """See `Train.follow`; ``least`` are samples that there are at least, of several designs and of one."""
     turns = None if speed is None else a_speed(speed)
+    refuse_unequal({"cam": getattr(analysis, "cam", None), "train": train, "speed": turns}, "elastic follower")
     if samples is not None:
         count = counted(samples, "samples of a turn", 8, MOST)
         return response_of(train, driven(analysis, count + count % 2), turns)
@@ -372,34 +373,3 @@ def _within(angle: Array, values: Array, start: Array, end: Array) -> Array:
     held = np.where(mine, values[..., here], 0.0)
     deep = mine & np.roll(mine, 1, axis=-1) & np.roll(mine, -1, axis=-1)
     return np.max(np.where(deep, raised(held, True), held), axis=-1)
-
-
-def natural_modes(train: Train, mass: Array, rate: Array, ground: Value) -> tuple[Array, Array]:
-    """Natural frequencies (rad/s) of a train with its end on the cam, the lowest first, and their damping ratios.
-
-    A return spring counts with its rate alone.  ``(k,)``, or ``(p, k)``; ``nan`` where the load has no mass left.
-    """
-    masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.masses, mass)), rate[..., 0])[:-1]
-    M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
-    stiff, rub = (series_matrix([part[i] for part in train.springs], end)
-                  for i, end in ((0, rate), (1, ground)))  # fmt: skip
-    scale = 1 / np.sqrt(M[..., :, None] * M[..., None, :])
-    given = np.broadcast_to(stiff * scale, np.broadcast_shapes(np.shape(stiff), scale.shape))
-    possible = np.isfinite(given).all((-2, -1), keepdims=True)
-    square, shape = np.linalg.eigh(np.where(possible, given, np.eye(given.shape[-1])))
-    square, shape = np.where(possible[..., 0], square, np.nan), np.where(possible, shape, np.nan)
-    frequency = np.sqrt(square)
-    damping = ((rub * scale) @ shape * shape).sum(-2)
-    return frequency, damping / (2 * frequency)
-
-
-def series_matrix(parts: list[Value], end: Value) -> Array:
-    """Of springs (or dampers) in a row from the cam to the last mass, and one from there to the frame."""
-    each = np.broadcast_arrays(*(np.atleast_1d(x)[..., 0] for x in (*parts, end)))
-    n = len(parts)
-    rows = [[0.0 * each[0]] * n for _ in range(n)]
-    for i in range(n):
-        rows[i][i] = each[i] + each[i + 1]
-        if i:
-            rows[i][i - 1] = rows[i - 1][i] = -each[i]
-    return np.stack([np.stack(r, axis=-1) for r in rows], axis=-2)

@@ -201,3 +201,34 @@ def passed(train: Train, mass: Array, rate: Array, ground: Value, frequency: Arr
         for share, loaded in each[::-1]:
             end = share * end - loaded
     return Passed(behind * lift + load, end, whole)
+
+
+def natural_modes(train: Train, mass: Array, rate: Array, ground: Value) -> tuple[Array, Array]:
+    """Natural frequencies (rad/s) of a train with its end on the cam, the lowest first, and their damping ratios.
+
+    A return spring counts with its rate alone.  ``(k,)``, or ``(p, k)``; ``nan`` where the load has no mass left.
+    """
+    masses = np.broadcast_arrays(*(np.atleast_1d(m)[..., 0] for m in (*train.masses, mass)), rate[..., 0])[:-1]
+    M = np.stack([np.where(m > 0, m, np.nan) for m in masses], axis=-1)
+    stiff, rub = (series_matrix([part[i] for part in train.springs], end)
+                  for i, end in ((0, rate), (1, ground)))  # fmt: skip
+    scale = 1 / np.sqrt(M[..., :, None] * M[..., None, :])
+    given = np.broadcast_to(stiff * scale, np.broadcast_shapes(np.shape(stiff), scale.shape))
+    possible = np.isfinite(given).all((-2, -1), keepdims=True)
+    square, shape = np.linalg.eigh(np.where(possible, given, np.eye(given.shape[-1])))
+    square, shape = np.where(possible[..., 0], square, np.nan), np.where(possible, shape, np.nan)
+    frequency = np.sqrt(square)
+    damping = ((rub * scale) @ shape * shape).sum(-2)
+    return frequency, damping / (2 * frequency)
+
+
+def series_matrix(parts: list[Value], end: Value) -> Array:
+    """Of springs (or dampers) in a row from the cam to the last mass, and one from there to the frame."""
+    each = np.broadcast_arrays(*(np.atleast_1d(x)[..., 0] for x in (*parts, end)))
+    n = len(parts)
+    rows = [[0.0 * each[0]] * n for _ in range(n)]
+    for i in range(n):
+        rows[i][i] = each[i] + each[i + 1]
+        if i:
+            rows[i][i - 1] = rows[i - 1][i] = -each[i]
+    return np.stack([np.stack(r, axis=-1) for r in rows], axis=-2)

@@ -240,6 +240,10 @@ def test_refusals_in_a_sentence():
         (lambda: A.follow(flat().analyse(), 0.0), "the speed of the cam is 0; it must be a finite number above 0"),
         (lambda: A.follow(flat(speed=0.0).analyse()), "the cam is at rest"),
         (lambda: A.follow(flat().replace(motion=short).analyse()), "spans 120 deg; .* a full turn of 360 deg"),
+        (
+            lambda: A.follow(flat(mass=np.array([[1.0], [2.0]])).analyse(), np.array([[9.0], [8.0], [7.0]])),
+            "columns of 2 in its cam and 3 in its speed; they must be equally long",
+        ),
         (lambda: A.follow(3.0), "an elastic train does not apply to 3"),
         (lambda: A.follow(flat().analyse(), 0.1), "times the speed of the cam; it can be at most"),
         (lambda: TrainChain((8e5,), (1.0, 2.0), ()), "1 springs, 2 dampers and 0 masses"),
