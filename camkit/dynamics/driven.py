@@ -144,10 +144,10 @@ def _possible(analysis: Analysed) -> Array:
     up, down = (analysis.corner(way) for way in (1, -1))
     jump, place = np.maximum(up.value, down.value), np.where(up.value > down.value, up.cam_angle, down.cam_angle)
     if refuse := unless(np.logical_not(jump > 0)):
-        what = "position" if np.isinf(jump) else "velocity"
+        what, at = "position" if np.isinf(jump) else "velocity", round(in_unit(float(place), "deg"), 4)
         refuse(
-            f"the {what} of the follower jumps at {in_unit(float(place), 'deg'):.6g} deg of the cam; an elastic train "
-            "needs a motion whose position and velocity are continuous"
+            f"the {what} of the follower jumps at {at:.6g} deg of the cam; an elastic train needs a motion whose "
+            "position and velocity are continuous"
         )
     return periodic & np.expand_dims(np.logical_not(jump > 0), -1) & analysis.buildable
 

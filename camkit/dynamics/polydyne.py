@@ -14,7 +14,7 @@ Source: Dudley, New methods in valve cam design; Stoddart, Polydyne cam design; 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Any, Self
@@ -22,11 +22,13 @@ from typing import Any, Self
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from ..motion import Kinematics, MotionProgram, Transition
+from ..motion import FormError, Kinematics, MotionProgram, Transition
 from ..motion.closing import TURN
+from ..motion.form import Formed
+from ..motion.program import SAME_JOINT
 from ..motion.resolution import Resolution
 from ..motion.transitions import SMOOTH
-from ..quantities import certain, quantity, unless
+from ..quantities import certain, known, quantity, unless
 from ..quantities.applied import applied
 from ..quantities.kinds import a_number, finite, refuse_arguments
 from ..quantities.types import Array, Value
@@ -35,8 +37,8 @@ from .trains import Train
 
 DEGREE = 32
 """Of the series of a piece."""
-SMALL = 1e-9
-"""A load, over the preload, that is rounding."""
+NEGLIGIBLE = 1e-15
+"""Of a train's mass."""
 
 
 @dataclass(frozen=True)
@@ -94,19 +96,37 @@ class PolydyneProgram(MotionProgram):
         for i, segment in enumerate(self.segments):
             start, end = self.starts[i], self.starts[i + 1]
             for low, high in pairwise((0.0, *segment.kinks, 1.0)):
-                wanted = self._wanted(i, low, high)
                 begin, width = start + low * (end - start), (high - low) * (end - start)
-                pieces.append(_Piece(begin, width, _settled(wanted, self.lag / width), np.zeros(1), self.lag))
-        return _joined(pieces)
+                series = self._wanted(i, low, high)
+                if not certain(self.damping == 0):
+                    series = _settled(series, self.lag / width)
+                pieces.append(_Piece(begin, width, series, np.zeros(1), self.lag))
+        return pieces if certain(self.damping == 0) else _joined(pieces)
 
-    def _wanted(self, i: int, low: Value, high: Value) -> Array:
-        """The series of the right side over ``k_f``, ``(DEGREE + 1, ...)``, between two shares of a segment."""
+    def _wanted(self, i: int, low: Value, high: Value) -> Series:
+        """The series of the right side over ``k_f``, between two shares of a segment."""
         u = low + (high - low) * (1 + NODES) / 2
         s, v, a, _ = self._moved(i, u)
         k, w = self.stiffness, self.design_speed
         c = self.ground_damping + self.damping
-        asked = s * (1 + self.rate / k) + v * c * w / k + a * self.mass * w**2 / k
-        return np.moveaxis((asked + 0.0 * u) @ TO_SERIES, -1, 0)
+        asked = s * (1 + self.rate / k) + v * c * w / k + a * self.mass * w**2 / k + 0.0 * u
+        factors = asked @ TO_SERIES if known(asked) else (asked[..., None] * TO_SERIES).sum(-2)
+        return [factors[..., n : n + 1] for n in range(DEGREE + 1)]
+
+    @property
+    def wanted(self) -> MotionProgram:
+        """The motion of the train's end: what the cam would do with a rigid train."""
+        return MotionProgram(self.segments, self.start, advance=self.advance)
+
+    @property
+    def plain(self) -> Self:
+        """What the cam would do for a train without mass and damping: ``s = y (1 + k_s / k_f)``."""
+        return self.replace(mass=NEGLIGIBLE * self.mass, damping=0.0, ground_damping=0.0)
+
+    def with_form(self, form: FormError) -> FormedPolydyneProgram:
+        """What a profile with an error of form does."""
+        given = {f.name: getattr(self, f.name) for f in fields(PolydyneProgram)}
+        return FormedPolydyneProgram(**given, form=form)
 
     def over(self, shown: Resolution) -> Kinematics:
         """``s, v, a, j`` at the cam angles of a resolution."""
@@ -117,7 +137,7 @@ class PolydyneProgram(MotionProgram):
         motion = first.at(x)
         for piece in others:
             pairs = zip(piece.at(x), motion, strict=True)
-            motion = Kinematics(*(np.where(x >= piece.begin, *pair) for pair in pairs))
+            motion = Kinematics(*(np.where(x >= piece.begin - SAME_JOINT, *pair) for pair in pairs))
         return self._if_possible(*motion)
 
     def changed(self, changes: Mapping[str, object]) -> Self:
@@ -137,6 +157,13 @@ class PolydyneProgram(MotionProgram):
         scales = [max(float(abs(motion[k]).max()) for motion in shown) for k in range(4)]
         angles = [*(float(np.ravel(piece.begin)[0]) for piece in pieces[1:]), TURN]
         return [_transition(angle, *pair, scales) for angle, pair in zip(angles, sides, strict=True)]
+
+
+@dataclass(frozen=True)
+class FormedPolydyneProgram(Formed, PolydyneProgram):
+    """A polydyne motion as a profile with an error of ``form`` gives it."""
+
+    form: FormError = field(default_factory=FormError)
 
 
 def _transition(angle: float, before: Kinematics, after: Kinematics, scales: list[float]) -> Transition:
@@ -161,6 +188,8 @@ def _along(piece: _Piece) -> Array:
 NODES = chebyshev.chebpts1(DEGREE + 1)
 TO_SERIES = np.linalg.inv(chebyshev.chebvander(NODES, DEGREE)).T
 """From values at the nodes to the factors of Chebyshev's polynomials."""
+Series = list[Array]
+"""The factors of Chebyshev's polynomials, each a number ``(1,)`` or a column ``(p, 1)``."""
 
 
 @dataclass(frozen=True)
@@ -169,40 +198,52 @@ class _Piece:
 
     begin: Value
     width: Value
-    series: Array
+    series: Series
     fading: Array
     lag: Value
 
     def at(self, x: Array) -> Kinematics:
-        u = np.clip(2 * (x - self.begin) / self.width - 1, -1, 1)
+        u = np.minimum(np.maximum(2 * (x - self.begin) / self.width - 1, -1.0), 1.0)
         found, series = [], self.series
         for k in range(4):
             found.append(_summed(series, u) * (2 / self.width) ** k + self._fades(x, k))
-            series = chebyshev.chebder(series)
+            series = _derived(series)
         return Kinematics(*found)
 
     def _fades(self, x: Array, k: int) -> Value:
+        if certain(self.lag == 0):
+            return 0.0
         late, lag = np.maximum(x - self.begin, 0.0), np.where(self.lag > 0, self.lag, 1.0)
         return np.where(self.lag > 0, self.fading * np.exp(-late / lag) * (-1 / lag) ** k, 0.0)
 
 
-def _summed(series: Array, u: Array) -> Array:
-    """A series ``(degree + 1, ...)`` at ``u``, by Clenshaw's rule."""
+def _summed(series: Series, u: Array) -> Array:
+    """A series at ``u``, by Clenshaw's rule."""
     first, second = 0.0 * u, 0.0 * u
     for factor in series[:0:-1]:
-        first, second = factor[..., None] + 2 * u * first - second, first
-    total: Array = series[0][..., None] + u * first - second
-    return total
+        first, second = factor + 2 * u * first - second, first
+    return series[0] + u * first - second
 
 
-def _settled(wanted: Array, share: Value) -> Array:
-    """The series ``s`` with ``s + lag s' = wanted``, ``share`` being the lag over the width of the piece."""
-    turned = np.zeros((DEGREE + 1, DEGREE + 1))
-    turned[:-1] = chebyshev.chebder(np.eye(DEGREE + 1))
-    share = np.expand_dims(np.atleast_1d(share)[..., 0], (-2, -1))
-    system = np.eye(DEGREE + 1) + 2 * share * turned
-    found = np.linalg.solve(system, np.moveaxis(wanted, 0, -1)[..., None])[..., 0]
-    return np.moveaxis(found, -1, 0)
+def _derived(series: Series) -> Series:
+    """The series of the derivative: ``d_(n-1) = d_(n+1) + 2 n s_n``, and half of it at 0."""
+    found: Series = [0.0 * series[0]] * 2
+    for n in range(len(series) - 1, 0, -1):
+        found.insert(0, found[1] + 2 * n * series[n])
+    return [found[0] / 2, *found[1:-1]]
+
+
+def _settled(wanted: Series, share: Value) -> Series:
+    """The series ``s`` with ``s + lag s' = wanted``, ``share`` being the lag over the width of the piece.
+
+    From the last factor to the first, as the derivative's depend on later ones alone.
+    """
+    found: Series = [wanted[-1]]
+    slopes: Series = [0.0 * wanted[-1]] * 2
+    for n in range(len(wanted) - 2, -1, -1):
+        slopes.insert(0, slopes[1] + 2 * (n + 1) * found[0])
+        found.insert(0, wanted[n] - 2 * share * slopes[0] / (1 if n else 2))
+    return found
 
 
 def _joined(pieces: list[_Piece]) -> list[_Piece]:

@@ -60,12 +60,15 @@ class FormError(Declared):
                 f"an error of form rides on a motion program; {kind_words(type(program), article=True)} is none, "
                 "and a machine whose motion follows from quantities of its own takes no error of form"
             )
+        if hasattr(program, "with_form"):
+            formed: FormedProgram = program.with_form(self)
+            return formed
         if isinstance(program, MatchedProgram):
             return FormedMatchedProgram(program.parts, program.boundaries, program.rest, self, advance=program.advance)
         return FormedProgram(program.segments, program.start, self, advance=program.advance)
 
 
-class _Formed(MotionProgram if TYPE_CHECKING else object):  # type: ignore[misc]
+class Formed(MotionProgram if TYPE_CHECKING else object):  # type: ignore[misc]
     """What an error of form changes in the kind of motion program that it rides on."""
 
     form: FormError
@@ -101,7 +104,7 @@ class _Formed(MotionProgram if TYPE_CHECKING else object):  # type: ignore[misc]
 
 
 @dataclass(frozen=True)
-class FormedProgram(_Formed, MotionProgram):
+class FormedProgram(Formed, MotionProgram):
     """A motion program as a profile with an error of ``form`` gives it; see `FormError`.
 
     Its segments, its `transitions` and its `peaks` are those that are wanted; what is called with cam angles, and so
@@ -112,7 +115,7 @@ class FormedProgram(_Formed, MotionProgram):
 
 
 @dataclass(frozen=True)
-class FormedMatchedProgram(_Formed, MatchedProgram):
+class FormedMatchedProgram(Formed, MatchedProgram):
     """A matched program as a profile with an error of ``form`` gives it; see `FormedProgram`."""
 
     form: FormError = field(default_factory=FormError)

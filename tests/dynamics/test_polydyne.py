@@ -9,13 +9,31 @@ from numpy.testing import assert_allclose
 from camkit import OscillatingRollerCam, TranslatingRollerCam, deg, mm, rpm, with_quantities
 from camkit.cam import ArmLoad, SlideLoad
 from camkit.dynamics import ElasticArm, ElasticTrain, HelicalSpring, TrainChain, polydyne
-from camkit.motion import Cycloidal, Dwell, MotionProgram, Poly345, Poly4567, Poly56789, Rise, SplineLaw
+from camkit.files import from_json, to_json
+from camkit.motion import (
+    Boundary,
+    Cycloidal,
+    Dwell,
+    FormError,
+    MatchedProgram,
+    MotionProgram,
+    Poly345,
+    Poly4567,
+    Poly56789,
+    Polynomial,
+    Rise,
+    SplineLaw,
+    Through,
+)
+from camkit.program import record
+from camkit.quantities import quantities_of, value_of
 from train_cases import GIVEN, VALUES, A, flat, program
 
 WANTED, LOAD, SPEED = program(Poly56789()), flat().load, GIVEN["poly"]["rpm"] * rpm
 TRAIN = replace(A, damping=0.0)
 INDEX = MotionProgram((Rise(120 * deg, 20 * mm, Poly56789()), Dwell(240 * deg)), advance=20 * mm)
 MADE = polydyne(WANTED, TRAIN, LOAD, SPEED)
+CURVES = "pitch_radius", "pressure_angle", "contact_force", "efficiency"
 
 
 def wide(motion):
@@ -106,6 +124,40 @@ def test_what_cannot_be_in_a_population_is_nan():
     for many in (by_speed, polydyne(WANTED, by_train, LOAD, SPEED)):
         assert_allclose(many.possible[:, 0], [True, False, True])
         assert_allclose(np.isnan(many([1.0, 3.0]).s[:, 0]), [False, True, False])
+
+
+@pytest.mark.parametrize("train", [TRAIN, A])
+def test_a_page_computes_it(train):
+    cam = TranslatingRollerCam(polydyne(WANTED, train, LOAD, SPEED), load=LOAD, groove=False)
+    values = {"motion.design_speed": 500 * rpm, "motion.rise.lift": 21 * mm}
+    found = record(lambda cam: {name: getattr(cam.analyse(61), name) for name in CURVES}, cam)
+    x = {path: values.get(path, value_of(cam, path)) for path in quantities_of(cam)}
+    analysis = with_quantities(cam, values).analyse(61)
+    for name in CURVES:
+        expected = getattr(analysis, name)
+        assert_allclose(found(x)[name], expected, rtol=0, atol=1e-9 * np.nanmax(abs(expected)))
+
+
+def test_an_error_of_form_rides_on_it():
+    error, phi = FormError(amplitude=0.01 * mm, waves=9), np.linspace(0, 6.28, 101)
+    formed = error.on(MADE)
+    for found, plain, wave in zip(formed(phi), MADE(phi), error.at(phi), strict=True):
+        assert_allclose(found, plain + wave, rtol=0, atol=1e-12 * abs(plain).max())
+    changed = with_quantities(formed, {"design_speed": 500 * rpm, "form.amplitude": 0.0})
+    assert_allclose(changed(phi).s, polydyne(WANTED, TRAIN, LOAD, 500 * rpm)(phi).s, rtol=0, atol=1e-15)
+    assert from_json(to_json(formed)) == formed
+
+
+def test_a_matched_motion_is_wanted_too():
+    """With jerk and its derivative given at both ends: five derivatives are continuous there."""
+    ends = Boundary(0.0, 0.0, 0.0, j=0.0), Boundary(0.0, 0.0, 0.0, j=0.0)
+    up = Polynomial(through=(Through(0.5, s=12 * mm),))
+    wanted = MatchedProgram((up, Dwell(180 * deg)), ends)
+    made = polydyne(wanted, A, LOAD, SPEED)
+    response = A.follow(wide(made), SPEED)
+    assert_allclose(response.position, wanted(response.cam_angle).s, rtol=0, atol=1e-6 * mm)
+    phi = np.linspace(0, 6.28, 101)
+    assert_allclose(made.wanted(phi).s, wanted(phi).s, rtol=0, atol=1e-15)
 
 
 def test_refusals():
