@@ -1,5 +1,6 @@
 """Elastic trains behind any cam: their steady motion, contact loss and flight, and cams made for them."""
 
+from .beside_plain import CamsOverSpeed, beside_plain
 from .camshaft import Camshaft, Windup
 from .flight import Event, Flight, simulate
 from .follower import (
@@ -25,6 +26,7 @@ from .trains import ElasticArm, ElasticTrain, Train, TrainChain
 from .tuning import tuned
 
 __all__ = [
+    "CamsOverSpeed",
     "Camshaft",
     "ElasticArm",
     "ElasticFollower",
@@ -42,6 +44,7 @@ __all__ = [
     "TrainChain",
     "Windup",
     "acceleration_ratio",
+    "beside_plain",
     "contact_loss",
     "contact_loss_margin",
     "contact_loss_speed",

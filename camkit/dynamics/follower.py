@@ -20,12 +20,13 @@ import numpy as np
 from ..motion import MotionProgram
 from ..motion.closing import TURN
 from ..motion.resolution import Resolution, resolve
-from ..quantities import Analysable, Design, LeastMeasure, Measure, PeakMeasure, choice
+from ..quantities import Analysable, Conversion, Design, LeastMeasure, Measure, PeakMeasure, choice
 from ..quantities.kinds import refuse_arguments, shown, whole
 from ..quantities.types import Array, Value
 from ..study import Study
 from ..study.free import Menu
 from .at_speed import Shown
+from .beside_plain import BesidePlain, conversions_of
 from .driven import Analysed, top
 from .ranges import MAKERS
 from .steady import LEAST, MOST, Response, respond
@@ -86,6 +87,11 @@ class ElasticFollower(Design):
         whole(self.samples, "the number of samples of a turn", 8, MOST)
         super().__post_init__()
 
+    @property
+    def conversions(self) -> tuple[Conversion, ...]:
+        """A polydyne cam for its train (see `camkit.dynamics.polydyne`), and back to the plain one."""
+        return conversions_of(self)
+
     def ready_for(self, paths: Iterable[str]) -> Self:
         """The same design with a cam that is ready for what is free in it (see `Design.ready_for`)."""
         needed = {*paths}
@@ -130,7 +136,7 @@ def _elastic(kind: Any) -> Any:
     resolution = cached_property(_resolution)
     resolution.__set_name__(kind, "resolution")
     own = {"resistance": property(_resistance), "resolution": resolution}
-    return make_dataclass(f"Elastic{kind.__name__}", more, bases=(Shown, kind), frozen=True, namespace=own)
+    return make_dataclass(f"Elastic{kind.__name__}", more, bases=(BesidePlain, Shown, kind), frozen=True, namespace=own)
 
 
 def _resistance(analysis: Elastic) -> Array:

@@ -33,6 +33,7 @@ from ..units import factor
 from ..views.defaults import default_views
 from ..views.picture import View
 from .kit.changes import changed, numbers_of, with_numbers
+from .kit.conversions import convert, offered
 from .kit.displayed import Displayed
 from .kit.files import Files
 from .kit.keeper import Keeper
@@ -182,7 +183,7 @@ class Instrument(Made, Files, Displayed, anywidget.AnyWidget):
     def _send_structure(self) -> None:
         with self.hold_sync():
             first = {m.name: float(n) for m, n in zip(self.measures, self._first, strict=True) if np.isfinite(n)}
-            more = {**self.files, "first": first, "make": self.makes.last[0]}
+            more = {**self.files, "conversions": offered(self.design), "first": first, "make": self.makes.last[0]}
             self.structure, self.program = {**self.living.structure, **more}, self.living.packed
             self._push()
 
@@ -265,6 +266,8 @@ class Instrument(Made, Files, Displayed, anywidget.AnyWidget):
                 self.open_file(bytes(buffers[0]), message["open"])
             elif "session" in message:
                 self.keeper.answer(message["session"])
+            elif "convert" in message:
+                convert(self, message["convert"])
             elif "seek" in message:
                 pull(self, *message["seek"])
             elif "study" in message:

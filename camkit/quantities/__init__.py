@@ -44,7 +44,16 @@ from .declaration import (
     row,
     unremarked,
 )
-from .design import Analysable, D, Design, measures_of, refuse_design, refuse_population, refuse_unmeasured
+from .design import (
+    Analysable,
+    Conversion,
+    D,
+    Design,
+    measures_of,
+    refuse_design,
+    refuse_population,
+    refuse_unmeasured,
+)
 from .known import certain, floats, known, text_if, text_of, unless
 from .markup import words
 from .measure import CurveMeasure, LeastMeasure, Measure, PeakMeasure
@@ -53,6 +62,7 @@ from .tree import Paths, choices_of, declared_in, label, members, quantities_of,
 __all__ = [
     "Analysable",
     "Choice",
+    "Conversion",
     "CurveMeasure",
     "D",
     "Declared",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field
-from typing import Any, ClassVar, Protocol, Self, TypeVar, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -42,6 +42,22 @@ def refuse_population(thing: object, what: str) -> None:
     for part in (thing, *getattr(thing, "__dict__", {}).values()):
         if isinstance(part, Declared) and columns(part):
             raise ValueError(f"{what} is a population, {shown(part)} with columns; it must be one design")
+
+
+class Conversion(NamedTuple):
+    """What a design can be made into at one stroke: each of its ``conversions`` is a button of a panel.
+
+    They are the same for all designs that differ in their quantities alone.
+    """
+
+    name: str
+    """On the button."""
+    part: str
+    """The path of what changes: the button stands by its quantities."""
+    meaning: str
+    """In a sentence."""
+    make: Callable[[], tuple[Analysable, str]]
+    """Gives that design, and what is to be said of it, if anything; ``ValueError`` where it cannot be."""
 
 
 class Design(Declared):

@@ -24,6 +24,7 @@ from .progress import candidates, convergence, min_over_bound
 from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
 from .space import ball_joints, linkage_in_space, output_angle, pressure_angles, velocity_ratio
+from .speeds import force_beside_plain, vibration_beside_plain
 from .sweep import limit_sweep, sweep_view
 from .tables import TABLE_VIEWS
 from .tolerances import band, cloud, deviation, sobol_bars
@@ -75,6 +76,7 @@ __all__ = [
     "deviation_over",
     "drive",
     "efficiency",
+    "force_beside_plain",
     "force_beside_rigid",
     "force_over_speed",
     "front_winners",
@@ -112,6 +114,7 @@ __all__ = [
     "unrolled_cam",
     "utilisation",
     "velocity_ratio",
+    "vibration_beside_plain",
     "vibration_left",
     "wear",
     "wear_over_way",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space
+from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space, speeds
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
@@ -55,6 +55,8 @@ VIEW_OF: dict[str, View] = {
     "sizes": sizes.plane_of_sizes,
     "utilisation": sizes.utilisation,
     "rings": sizes.section,
+    "beside_plain": speeds.vibration_beside_plain,
+    "forces_beside_plain": speeds.force_beside_plain,
     "outline_deviation": outlines.outline_deviation,
 }
 """By what an analysis offers: the name of one of its attributes."""

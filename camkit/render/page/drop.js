@@ -20,6 +20,11 @@ export const openerOf = (structure, host) => chooser("Open", `Open ${wanted(stru
  * @param {import("./panel.js").Host} host */
 export const tableOf = ({ readable }, host) => make("div", { class: "camkit-from-table" }, ...chooser("Motion from a table", TABLE, readable, host));
 
+/** Buttons beside the quantities of a part, which make the design another one. @param {{name: string, meaning: string}[]} conversions
+ * @param {import("./panel.js").Host} host */
+export const conversionsOf = (conversions, host) => make("div", { class: "camkit-from-table" }, ...conversions.map(({ name, meaning }) =>
+  make("button", { type: "button", title: meaning, "data-asks": true, onclick: () => host.convert(name) }, name)));
+
 /** Take files that are dropped on a panel whose kernel hears of them. @param {any} panel */
 export function takeDrops(panel) {
   const { root, host, structure, leaving: { signal } } = panel;

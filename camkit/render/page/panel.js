@@ -3,7 +3,7 @@ import { Chart } from "./picture.js";
 import { make } from "./controls.js";
 import { fill, format } from "./numbers.js";
 import { button, filesOf, screenOf } from "./bar.js";
-import { takeDrops, tableOf } from "./drop.js";
+import { conversionsOf, takeDrops, tableOf } from "./drop.js";
 import { Handles } from "./handles.js";
 import { Made } from "./made.js";
 import { History } from "./history.js";
@@ -32,7 +32,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
  *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
- *   seek(name: string, value: number): void, reset(): void, file(kind: string): void, open(file: File): void, name(asked: Record<string, any>): void, study(): void}} Host what
+ *   seek(name: string, value: number): void, convert(name: string): void, reset(): void, file(kind: string): void, open(file: File): void, name(asked: Record<string, any>): void, study(): void}} Host what
  *   stands behind the page, if anything does
  */
 
@@ -160,6 +160,10 @@ export class Panel {
     this.quantities = new Quantities(structure, this.units, moved,
       host && ((path, option) => host.choose(path, option)));
     for (const motion of host ? structure.tables ?? [] : []) this.quantities.lead(motion, tableOf(structure, host));
+    const conversions = host ? structure.conversions ?? [] : [];
+    for (const part of new Set(conversions.map((/** @type {any} */ one) => one.part))) {
+      this.quantities.lead(part, conversionsOf(conversions.filter((/** @type {any} */ one) => one.part === part), host));
+    }
     this.positions = new Positions(structure, this.units, this.values, moved, (settled) => this.ask(settled));
     this.rows = [...this.quantities.rows, ...this.positions.rows];
     const explain = (/** @type {HTMLElement} */ element, /** @type {() => any} */ measure) => this.why.explain(element, measure);

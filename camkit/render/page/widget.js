@@ -62,6 +62,7 @@ async function view({ model, el }) {
     back: (/** @type {any} */ { make, values }) => ask({ back: [make, values] }),
     pin: (/** @type {any} */ { make, values }, /** @type {number[]} */ at) => model.send({ pin: [make, values, at] }),
     seek: (/** @type {string} */ name, /** @type {number} */ value) => ask({ seek: [name, value] }),
+    convert: (/** @type {string} */ name) => ask({ convert: name }),
     reset: () => ask({ reset: true }),
     choose: (/** @type {string} */ path, /** @type {string} */ option) => ask({ choose: [path, option] }),
     file: (/** @type {string} */ kind) => { saving = true; ask({ file: kind }); },
