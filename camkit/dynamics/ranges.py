@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..extrema import crests
 from ..quantities import LeastMeasure, PeakMeasure, counted, members, unless
 from ..quantities.kinds import one_number
 from ..quantities.types import Array, Value
@@ -48,7 +49,7 @@ def dwell_vibration_between(low: float, high: float, speeds: int | None = None) 
 def peak_force_between(low: float, high: float, speeds: int | None = None) -> PeakMeasure:
     """The largest contact force between two speeds of the cam (rad/s), N; refused as `dwell_vibration_between` is."""
     within = _Between("peak contact force", low, high, speeds)
-    peaks, points = within.most(lambda at: top(_force(at))), within.every(_force)
+    peaks, points = within.most(lambda at: top(_force(at))), within.every(lambda at: crests(_force(at)))
     return PeakMeasure(within.name, "N", peaks, points=points, made=within.made)
 
 
@@ -58,8 +59,9 @@ def min_force_between(low: float, high: float, speeds: int | None = None) -> Lea
     Refused as `dwell_vibration_between` is.
     """
     within = _Between("minimum contact force", low, high, speeds)
-    least, points = within.most(lambda at: -bottom(at.contact_force)), within.every(lambda at: at.contact_force)
-    return LeastMeasure(within.name, "N", lambda a: -least(a), points=points, made=within.made)
+    deepest = within.most(lambda at: -bottom(at.contact_force))
+    points = within.every(lambda at: -crests(-at.contact_force))
+    return LeastMeasure(within.name, "N", lambda a: -deepest(a), points=points, made=within.made)
 
 
 MAKERS = {
@@ -87,7 +89,9 @@ def _away(response: Response) -> Array:
     """The same at every cam angle; 0 outside the dwells."""
     angle, away = response.cam_angle, abs(response.position - response.rest)
     dwells = [(angle >= start) & (angle <= end) for start, end in response.driven.dwells]
-    return np.where(np.any(dwells, axis=0) if dwells else False, away, 0.0) / _travel(response)
+    within = np.any(dwells, axis=0) if dwells else np.zeros(angle.shape, dtype=bool)
+    deep = within & np.roll(within, 1, axis=-1) & np.roll(within, -1, axis=-1)
+    return np.where(within, crests(away, deep), 0.0) / _travel(response)
 
 
 def _travel(response: Response) -> Array:
