@@ -207,7 +207,7 @@ class Living:
         `CannotRecord` where there is no program.
         """
         if not self.program:
-            raise CannotRecord(self._recorded[2])
+            raise CannotRecord(f"this design is computed by its kernel; no page can do that ({self._recorded[2]})")
         parts = {
             "style": STYLE,
             "structure": in_html(self.structure | {"docks": docks, "named": named}),

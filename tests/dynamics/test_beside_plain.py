@@ -125,6 +125,8 @@ def test_the_instrument_has_the_buttons():
     assert app.message.startswith("The fourth derivative of the wanted motion jumps")
     app._asked({"choose": ["cam.motion.rise.law", "cycloidal"]}, [])
     assert app.message.startswith("The velocity of the follower jumps at 0 deg of the cam; an elastic train")
+    app._asked({"file": "html"}, [])
+    assert app.message.startswith("This design is computed by its kernel; no page can do that")
     app._asked({"convert": MAKE}, [])
     assert app.message == f"There is no button '{MAKE}' here."
     app._asked({"back": [make, values]}, [])  # Undo
