@@ -14,10 +14,11 @@ from camkit.panels.kit.sheet import Sheet
 from camkit.quantities import choices_of, quantities_of, value_of
 
 
-def _others(control):
-    """Values that a control can take besides its own: a step up for a number, every option for a menu."""
+def _others(control, most):
+    """Values that a control can take besides its own: a step up for a number, ``most`` options of a menu, or every."""
     if isinstance(control, Menu):
-        return [value for value in control.values if value != control.value]
+        others = [value for value in control.values if value != control.value]
+        return others[:: max(1, -(-len(others) // most))] if most else others
     if isinstance(control, Check):
         return [not control.value]
     if isinstance(control, Typed):
@@ -38,8 +39,10 @@ def _narrower(band):
     return [(middle, high), (low, middle)]
 
 
-def try_everything(panel):
+def try_everything(panel, most=0):
     """Move every slider, box and menu of ``panel`` to other values and back; says how many were moved.
+
+    A menu comes to every option, or to ``most`` from all along it.
 
     Raises whatever a callback raises, and ``AssertionError`` if a control did not come back or the panel says that a
     measure, a view or what follows it could not be computed.
@@ -54,7 +57,7 @@ def try_everything(panel):
                 quiet.enter_context(held.hold_sync())
         for control in controls:
             before = control.value
-            for value in [*_others(control), before]:
+            for value in [*_others(control, most), before]:
                 _give(control, value)
                 _refuse_failure(panel)
             assert control.value == before, f"{control.description or type(control).__name__} did not come back"
