@@ -58,6 +58,7 @@ RESULTS = NOT_MADE_BY_HAND | {
     *("Line", "SideBySide", "ShaftAnalysis", "TubeSizes", "Trials", "Picture", "Still", "OnGrid", "Material"),
     *("Evaluated", "Found", "Active", "Row", "Price", "Response", "SpeedSweep"),
     *("Event", "Flight", "Windup", "Reduced", "CamsOverSpeed", "Conversion"),
+    *("BearingLife", "Entrainment", "SurfaceLife"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
@@ -185,6 +186,7 @@ GOOD = {
     "cam_angle": lambda: np.linspace(0, 2 * np.pi, 31),
     "columns": lambda: {"angle": [0.0, 1.0]},
     "count": lambda: 3,
+    "curvature": lambda: 50.0,
     "curve": lambda: AnalysisCurve("pressure_angle", "deg", "pressure angle"),
     "declared": lambda: camkit.quantities.declarations(CAM)["base_radius"],
     "design": lambda: CAM,
@@ -193,6 +195,7 @@ GOOD = {
     "explorer": app,
     "f": lambda: [[0.0, 1.0], [1.0, 0.0]],
     "first": lambda: TRIALS[0],
+    "force_per_length": lambda: 1e5,
     "free": lambda: ("base_radius",),
     "found": lambda: [camkit.minimise(LEVER())],
     "frequency": lambda: 20.0,
@@ -212,7 +215,9 @@ GOOD = {
     "lift": lambda: 10.0,
     "outer": lambda: "outer_diameter",
     "longest": lambda: 1.0,
+    "lubricant": camkit.cam.Lubricant,
     "matrices": lambda: [[1, 3], [1 / 3, 1]],
+    "modulus": lambda: 1e11,
     "most": lambda: 100.0,
     "names": lambda: ("a", "b"),
     "pair": camkit.cam.ContactPair,
@@ -220,6 +225,7 @@ GOOD = {
     "peak": lambda: slope,
     "plane": lambda: camkit.DesignMap(SHAFT, n=5),
     "population": lambda: 4,
+    "pressure": lambda: 1e9,
     "problem": lambda: "tension spring",
     "program": lambda: CAM.motion,
     "room": lambda: 8.0,
@@ -263,6 +269,7 @@ GOOD = {
     "tubes": lambda: TUBES,
     "unit": lambda: "mm",
     "value": lambda: 0.03,
+    "velocity": lambda: 2.0,
     "views": lambda: (pressure_angle,),
     "weights": lambda: None,
     "words": lambda: "1/3",
@@ -275,6 +282,7 @@ GOOD = {
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
+    "cam_life.strength": camkit.cam.SurfaceStrength,
     "value_of.path": lambda: "base_radius",
     "with_quantities.values": lambda: {"base_radius": 0.04},
     "AnalysisCurve.name": lambda: "pressure_angle",

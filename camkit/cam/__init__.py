@@ -12,6 +12,8 @@ from .barrel import (
     rolling_cone,
 )
 from .compared import Compared, deviation_from
+from .entrainment import Entrainment, entrainment, reversals
+from .film import Lubricant, film_thickness
 from .flat_analysis import FlatAnalysis
 from .follower_measures import (
     face_width,
@@ -32,7 +34,9 @@ from .force_closure import (
     torque_balance,
 )
 from .from_outline import ContactJump, OutlineMotion, cam_from_outline, motion_from_outline
+from .life import BearingLife, NoBearing, RollerBearing, SurfaceStrength, load_stress_factor
 from .loads import ArmLoad, Contact, Friction
+from .lubricated_pair import LubricatedPair
 from .measured_outline import MeasuredOutline
 from .measures import (
     arm_acceleration,
@@ -59,6 +63,20 @@ from .pair import ConjugatePair, ConjugatePairAnalysis
 from .roller_analysis import RollerAnalysis
 from .shaking import vibration_at
 from .slide import SlideFriction, SlideLoad
+from .surface_measures import (
+    bearing_life,
+    bearing_load,
+    min_entrainment,
+    min_film,
+    min_film_ratio,
+    min_life,
+    peak_load_stress,
+    peak_rubbing,
+    pressure_share,
+    roller_life,
+    thin_film,
+)
+from .surfaces import SurfaceLife, cam_life
 from .timing import at_lift
 from .translating_flat import TranslatingFlatAnalysis, TranslatingFlatCam
 from .translating_roller import TranslatingRollerAnalysis, TranslatingRollerCam
@@ -67,6 +85,7 @@ __all__ = [
     "ArmLoad",
     "BarrelAnalysis",
     "BarrelCam",
+    "BearingLife",
     "CamAnalysis",
     "CamOutline",
     "Compared",
@@ -76,9 +95,13 @@ __all__ = [
     "ContactJump",
     "ContactPair",
     "DrawnOutline",
+    "Entrainment",
     "FlatAnalysis",
     "Friction",
+    "Lubricant",
+    "LubricatedPair",
     "MeasuredOutline",
+    "NoBearing",
     "NoContact",
     "OscillatingBarrelAnalysis",
     "OscillatingBarrelCam",
@@ -88,8 +111,11 @@ __all__ = [
     "OscillatingRollerCam",
     "OutlineMotion",
     "RollerAnalysis",
+    "RollerBearing",
     "SlideFriction",
     "SlideLoad",
+    "SurfaceLife",
+    "SurfaceStrength",
     "TorqueBalance",
     "TranslatingFlatAnalysis",
     "TranslatingFlatCam",
@@ -99,32 +125,48 @@ __all__ = [
     "arm_travel",
     "at_lift",
     "base_radius",
+    "bearing_life",
+    "bearing_load",
     "bottom_pressure_angle",
     "cam_from_outline",
+    "cam_life",
     "contact_along",
     "deviation_from",
+    "entrainment",
     "face_width",
+    "film_thickness",
     "groove_gap",
     "jump_margin",
     "jump_speed",
     "leaving_speed",
+    "load_stress_factor",
     "max_pressure_angle",
     "mean_efficiency",
     "mean_torque",
     "min_concave_radius",
     "min_convex_radius",
+    "min_entrainment",
+    "min_film",
+    "min_film_ratio",
     "min_force",
+    "min_life",
     "min_profile_radius",
     "motion_from_outline",
     "peak_acceleration",
     "peak_force",
+    "peak_load_stress",
     "peak_pressure",
+    "peak_rubbing",
     "peak_skid",
     "peak_torque",
     "peak_wear",
     "preload_needed",
+    "pressure_share",
     "published_mean_efficiency",
+    "reversals",
+    "roller_life",
     "rolling_cone",
+    "thin_film",
     "torque_balance",
     "track_rollers",
     "travel",

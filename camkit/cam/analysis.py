@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from ..geometry import Body, rotated
 from ..motion import Kinematics, Law, MotionProgram
 from ..motion.closing import TURN
 from ..motion.resolution import ROUGH, STEPS, Resolution, resolve
-from ..quantities import counted, quantities_of, unless
+from ..quantities import quantities_of, unless
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
@@ -28,12 +28,11 @@ from .corners import corners
 from .extremes import highest, lowest
 from .force_closure import ContactPair, contact_along, index_of_wear
 from .measures import number
+from .surfaces import Surfaces
 from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
 """The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
-
-Kind = TypeVar("Kind", bound="CamAnalysis")
 
 
 @dataclass(frozen=True)
@@ -80,8 +79,7 @@ class CamAnalysis(ABC):
     def at(self, cam_angle: Array) -> Self:
         """The same cam at other cam angles."""
         other = replace(self, cam_angle=cam_angle)
-        # cached properties: the cam has one resolution
-        other.__dict__.update(resolved=self.resolved, resolution=self.resolution)
+        other.__dict__.update(resolved=self.resolved, resolution=self.resolution)  # cached: the cam has one
         return other
 
     @property
@@ -160,13 +158,18 @@ class CamAnalysis(ABC):
 
     @property
     @abstractmethod
-    def lean(self) -> Value:
-        """Angle by which the force of a contact that is not smooth leans from the normal, rad."""
+    def fit(self) -> np.ndarray:
+        """Curvature of cam and follower together where they press on each other, 1/m; not above 0: undercut."""
 
     @property
     @abstractmethod
-    def fit(self) -> np.ndarray:
-        """Curvature of cam and follower together where they press on each other, 1/m; not above 0: undercut."""
+    def surface_rates(self) -> tuple[Array, Array]:
+        """How fast the contact runs along the profile, and the cam's surface past the follower's, per speed, m."""
+
+    @property
+    @abstractmethod
+    def lean(self) -> Value:
+        """Angle by which the force of a contact that is not smooth leans from the normal, rad."""
 
     @property
     @abstractmethod
@@ -302,6 +305,11 @@ class CamAnalysis(ABC):
         return index_of_wear(self.contact_force * self.loaded_flank, self.fit)
 
     @cached_property
+    def surfaces(self) -> Surfaces:
+        """How both surfaces run past each other, their film and their wear."""
+        return Surfaces(self)
+
+    @cached_property
     def rubbing(self) -> statics.Rubbing:
         """Contact force and cam torque with friction."""
         return statics.rubbing(self)
@@ -334,8 +342,7 @@ class CamAnalysis(ABC):
         jumps, leaps, angle = self._corners
         size = np.maximum(way * jumps, leaps)
         most = np.argmax(size, axis=-1, keepdims=True)
-        angle = np.broadcast_to(angle, size.shape)
-        return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in (size, angle)))
+        return Extreme(*(np.take_along_axis(x, most, -1)[..., 0] for x in np.broadcast_arrays(size, angle)))
 
     @property
     def bumps(self) -> Value:
@@ -391,10 +398,3 @@ class CamAnalysis(ABC):
             found = highest(self, f) if way > 0 else lowest(self, f)
             self._found[f, way] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
         return self._found[f, way]
-
-
-def over_the_motion(kind: type[Kind], cam: Any, n: int) -> Kind:
-    """The analysis of a cam at ``n`` even cam angles over its motion's span; ``ValueError`` if it cannot be built."""
-    analysis = kind(cam, np.linspace(0, 1, counted(n, "cam angles")) * cam.motion.span)
-    analysis.refuse_impossible()
-    return analysis

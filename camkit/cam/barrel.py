@@ -31,12 +31,11 @@ from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from ..units import deg, mm
 from . import bodies
-from .analysis import over_the_motion
 from .directions import ROTATIONS
 from .follower_measures import ROLLER_CURVE, jump_margin
-from .followers import RockingAnalysis, SlidingAnalysis, comes_back, rise_and_return
-from .force_closure import ContactPair, NoContact, contact_choice
+from .followers import RockingAnalysis, SlidingAnalysis, comes_back, over_the_motion, rise_and_return
 from .loads import ArmLoad, Friction
+from .lubricated_pair import AnyContact, contact_choice
 from .measures import ROCKING, SLIDING, base_radius, number, over_cam
 from .roller_analysis import RollerAnalysis
 from .shaking import MAKERS
@@ -61,7 +60,7 @@ class Drum(Design, ABC):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns, seen along the rise")
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a drum's end and a spring")
     """Whether the roller runs in a groove, or (``False``) on a drum's end, to which a spring or a weight holds it."""
-    contact: ContactPair | NoContact = contact_choice()
+    contact: AnyContact = contact_choice()
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -13,6 +13,9 @@ from ..extrema import Extreme
 from ..quantities.types import Array, Value
 from .analysis import CamAnalysis
 
+OF_ROLLERS = "friction.roller_pin", "contact.bearing", "contact.bearing.rating"
+"""Paths of what a flat face has no use for."""
+
 
 @dataclass(frozen=True)
 class FlatAnalysis(CamAnalysis):
@@ -102,6 +105,19 @@ class FlatAnalysis(CamAnalysis):
     def fit(self) -> np.ndarray:
         """Curvature of the profile; the face adds nothing."""
         return self.profile_curvature
+
+    @property
+    @abstractmethod
+    def facing_rate(self) -> Value:
+        """By how much the cam turns past the face, per turn of the cam."""
+
+    @property
+    def surface_rates(self) -> tuple[Array, Array]:
+        """``rho`` times the `facing_rate`, and how fast the cam's surface runs past the face, along it."""
+        point, (nx, ny) = self.contact_point(), self.normal
+        (sx, sy), (vx, vy) = self.surface_velocity(point), self.bearing.velocity_at(point)
+        slides = self.cam.rotation * (nx * (sy - vy) - ny * (sx - vx))
+        return self.profile_radius * self.facing_rate, slides
 
     @property
     def face_normal(self) -> np.ndarray:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property, reduce
-from typing import ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from ..geometry import vector
 from ..motion import Cycloidal, Dwell, MotionProgram, Return, Rise
-from ..quantities import Design, unless
+from ..quantities import Design, counted, unless
 from ..quantities.types import Array, Value
 from ..units import deg
 from .analysis import CamAnalysis
@@ -37,6 +37,16 @@ def comes_back(motion: MotionProgram, kind: str) -> bool | Array:
             "back to where it was: the advance of its motion must be 0"
         )
     return motion.comes_back
+
+
+Kind = TypeVar("Kind", bound=CamAnalysis)
+
+
+def over_the_motion(kind: type[Kind], cam: Any, n: int) -> Kind:
+    """The analysis of a cam at ``n`` even cam angles over its motion's span; ``ValueError`` if it cannot be built."""
+    analysis = kind(cam, np.linspace(0, 1, counted(n, "cam angles")) * cam.motion.span)
+    analysis.refuse_impossible()
+    return analysis
 
 
 class DiskCam(Design, ABC):

@@ -191,11 +191,6 @@ class NoContact(Design):
     offers: ClassVar[tuple[str, ...]] = ()
 
 
-def contact_choice() -> Any:
-    """A dataclass field for the contact of cam and follower, which a design need not give."""
-    return choice("C", NoContact(), (NoContact(), ContactPair()), "materials and width, for the pressure between them")
-
-
 def index_of_wear(force: Array, curvature: Array) -> Array:
     """``F sqrt(F kappa)`` of the ``curvature`` of both surfaces together; ``nan`` where undercut or pulled apart.
 

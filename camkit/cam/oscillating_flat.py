@@ -26,15 +26,14 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm, rpm
 from . import bodies
-from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .extremes import lowest
-from .flat_analysis import FlatAnalysis
+from .flat_analysis import OF_ROLLERS, FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
-from .followers import DiskCam, RockingAnalysis, rise_and_return
-from .force_closure import ContactPair, NoContact, contact_choice
+from .followers import DiskCam, RockingAnalysis, over_the_motion, rise_and_return
 from .loads import ArmLoad, Friction
+from .lubricated_pair import AnyContact, contact_choice
 from .measures import ROCKING
 from .shaking import MAKERS
 from .sizing import if_possible, refuse_radius
@@ -70,15 +69,15 @@ class OscillatingFlatCam(DiskCam):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: ArmLoad = field(default_factory=_closed)
     friction: Friction = field(default_factory=Friction)
-    contact: ContactPair | NoContact = contact_choice()
+    contact: AnyContact = contact_choice()
 
     name: ClassVar[str] = "rocking face"
     roller_radius: ClassVar[float] = 0.0
     """There is no roller."""
 
     def following(self) -> dict[str, str]:
-        """No roller, no pin."""
-        return {"friction.roller_pin": "a flat face has no roller"}
+        """No roller, no pin, no bearing."""
+        return dict.fromkeys(OF_ROLLERS, "a flat face has no roller")
 
     @property
     def base_radius(self) -> Value:
@@ -133,6 +132,11 @@ class OscillatingFlatAnalysis(RockingAnalysis, FlatAnalysis):
     def _gain(self) -> np.ndarray:
         """``1 + sigma v``: arm motion as seen from the cam."""
         return 1 + self.cam.rotation * self.velocity
+
+    @property
+    def facing_rate(self) -> Value:
+        """``1 + sigma v``."""
+        return self._gain
 
     @cached_property
     def _contact_length(self) -> Array:

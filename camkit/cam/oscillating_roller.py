@@ -24,12 +24,11 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 from . import bodies
-from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
-from .followers import DiskCam, RockingAnalysis, rise_and_return
-from .force_closure import ContactPair, NoContact, contact_choice
+from .followers import DiskCam, RockingAnalysis, over_the_motion, rise_and_return
 from .loads import ArmLoad, Contact, Friction
+from .lubricated_pair import AnyContact, contact_choice
 from .measures import ARM_CURVE, ROCKING
 from .roller_analysis import RollerAnalysis
 from .shaking import MAKERS
@@ -61,7 +60,7 @@ class OscillatingRollerCam(DiskCam):
     friction: Friction = field(default_factory=Friction)
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
-    contact: ContactPair | NoContact = contact_choice()
+    contact: AnyContact = contact_choice()
 
     name: ClassVar[str] = "rocking roller"
 

@@ -142,6 +142,13 @@ class RollerAnalysis(CamAnalysis):
         with np.errstate(divide="ignore", invalid="ignore"):
             return 1 / (r * (1 - r * self.bend(flank)))
 
+    @property
+    def surface_rates(self) -> tuple[Array, Array]:
+        """``g (1 - r kappa)`` on the flank that presses, ``g`` the pitch curve's length per rad; 0: it rolls."""
+        centre, kappa = self.roller_centre, self.loaded_flank * self.curvature
+        (sx, sy), (vx, vy) = self.surface_velocity(centre), self.bearing.velocity_at(centre)
+        return np.hypot(sx - vx, sy - vy) * (1 - self.cam.roller_radius * kappa), 0.0 * self.contact_force
+
     @cached_property
     def pitch(self) -> np.ndarray:
         """Pitch curve: the roller's centre as the cam sees it, m."""

@@ -22,14 +22,13 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
-from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import ROTATIONS
 from .extremes import lowest
-from .flat_analysis import FlatAnalysis
+from .flat_analysis import OF_ROLLERS, FlatAnalysis
 from .follower_measures import FLAT_CURVE, jump_margin
-from .followers import DiskCam, SlidingAnalysis, rise_and_return
-from .force_closure import ContactPair, NoContact, contact_choice
+from .followers import DiskCam, SlidingAnalysis, over_the_motion, rise_and_return
+from .lubricated_pair import AnyContact, contact_choice
 from .measures import SLIDING
 from .shaking import MAKERS
 from .sizing import if_possible, refuse_radius
@@ -57,15 +56,15 @@ class TranslatingFlatCam(DiskCam):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     load: SlideLoad = field(default_factory=SlideLoad)
     friction: SlideFriction = field(default_factory=SlideFriction)
-    contact: ContactPair | NoContact = contact_choice()
+    contact: AnyContact = contact_choice()
 
     name: ClassVar[str] = "sliding face"
     roller_radius: ClassVar[float] = 0.0
     """There is no roller."""
 
     def following(self) -> dict[str, str]:
-        """No roller, no pin."""
-        return {"friction.roller_pin": "a flat face has no roller"}
+        """No roller, no pin, no bearing."""
+        return dict.fromkeys(OF_ROLLERS, "a flat face has no roller")
 
     @property
     def start_height(self) -> Value:
@@ -129,6 +128,11 @@ class TranslatingFlatAnalysis(SlidingAnalysis, FlatAnalysis):
     def profile_radius(self) -> np.ndarray:
         """``rho = r_0 + s + w``: radius of curvature of the cam, convex > 0, m."""
         return self.height + self.acceleration
+
+    @property
+    def facing_rate(self) -> Value:
+        """1: the face keeps its direction."""
+        return 1.0
 
     @property
     def pressure_angle(self) -> np.ndarray:

@@ -23,13 +23,12 @@ from ..quantities.kinds import a_number
 from ..quantities.types import Array, Value
 from ..units import mm
 from . import bodies
-from .analysis import over_the_motion
 from .conjugate import opposite
 from .directions import CLOSURES, ROTATIONS
 from .extremes import highest
 from .follower_measures import ROLLER_CURVE, jump_margin
-from .followers import DiskCam, SlidingAnalysis, rise_and_return
-from .force_closure import ContactPair, NoContact, contact_choice
+from .followers import DiskCam, SlidingAnalysis, over_the_motion, rise_and_return
+from .lubricated_pair import AnyContact, contact_choice
 from .measures import SLIDING, number
 from .roller_analysis import RollerAnalysis
 from .shaking import MAKERS
@@ -67,7 +66,7 @@ class TranslatingRollerCam(DiskCam):
     friction: SlideFriction = field(default_factory=SlideFriction)
     groove: bool = choice("g", True, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
     """Whether the roller runs in a groove, or (``False``) on a plate to which a spring or a weight holds it."""
-    contact: ContactPair | NoContact = contact_choice()
+    contact: AnyContact = contact_choice()
 
     name: ClassVar[str] = "sliding roller"
 

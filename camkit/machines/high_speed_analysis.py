@@ -54,7 +54,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     @property
     def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
-        offers: tuple[str | AnalysisCurve, ...] = self.machine.offers
+        offers: tuple[str | AnalysisCurve, ...] = (*self.machine.offers, *getattr(self.cam.contact, "more", ()))
         return offers
 
     @property
@@ -199,6 +199,12 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def rated(self) -> bool:
         """Whether that is a share, as of a `HighSpeedCam` by itself, and no speed in rad/s."""
         return self.machine is self.cam
+
+    @property
+    def rated_speed(self) -> Value:
+        """What a `speed` of 1 is, rad/s."""
+        rated: Value = self.cam.rated_speed if self.rated else 1.0
+        return rated
 
     @property
     def way(self) -> Array:

@@ -12,7 +12,7 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.  The geometry is that
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
@@ -22,6 +22,7 @@ from ..cam import bodies
 from ..cam.directions import ROTATIONS
 from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
+from ..cam.lubricated_pair import LubricatedPair
 from ..geometry import Body, angle_opposite, end_to_end
 from ..motion import LAW_MENU, Dwell, MotionProgram, Return, Rise, ShapedLaw
 from ..quantities import Design, choice, counted, quantity, unless
@@ -39,6 +40,8 @@ ACCELERATION = AnalysisCurve("acceleration", "1/rad", "acceleration")
 """Of the arm by the cam angle; the coefficients of the laws shape it."""
 STRONG = 12.0
 """The strongest closing spring ``K`` that a slider or a study offers."""
+CONTACTS = ContactPair(width=20 * mm), LubricatedPair(width=20 * mm)
+"""What can be said of the contact, for a menu."""
 LOADS = InertialSpringLoad(), ConstantTorque(), SliderLoad()
 """What the arm can resist with, for a menu."""
 
@@ -58,8 +61,8 @@ class FreeLawCam(Design):
     )
     rise_law: Any = choice("a", ShapedLaw(), LAW_MENU, "law by which the arm swings away")
     return_law: Any = choice("a'", ShapedLaw(), LAW_MENU, "law by which the arm swings back", c="d")
-    contact: ContactPair = field(default_factory=lambda: ContactPair(width=20 * mm))
-    """The materials of cam and roller and the length of the line on which they touch."""
+    contact: ContactPair = choice("C", CONTACTS[0], CONTACTS, "materials and length of the line of contact")
+    """The materials of cam and roller and the length of the line on which they touch; lubricant and strength."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +94,8 @@ class HighSpeedCam(FreeLawCam):
         "K", 0, 0, STRONG, "", "closing spring / inertia by rated speed squared; 0: the weakest", at_least=0
     )
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
+    rated_speed: float = quantity("n_0", 600, 10, 6000, "rpm", "for which load and spring are given")
+    """Of which film and surface velocities alone depend."""
 
     offers: ClassVar[tuple[str | AnalysisCurve, ...]] = (
         "bodies",
@@ -112,6 +117,11 @@ class HighSpeedCam(FreeLawCam):
         super().__post_init__()
         self._refuse_intervals()
         self._refuse_sizes()
+
+    def following(self) -> dict[str, str]:
+        """Without a film the rated speed has no effect."""
+        lubricated = isinstance(self.contact, LubricatedPair)
+        return {} if lubricated else {"rated_speed": "the contact has no lubricant"}
 
     def _refuse_intervals(self) -> None:
         moving = self.rise_angle + self.return_angle

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -26,6 +26,17 @@ from ..quantities import refuse_population, unremarked
 from ..quantities.types import Array, Value
 from ..units import deg, mm
 
+OFFERS = (
+    "whole",
+    "lift",
+    "velocity",
+    "acceleration",
+    "jerk",
+    "profile_radius",
+    "spring_force",
+    "contact_stress",
+    "resistance",
+)
 ROUNDING = 1e-12
 """A lift this little (m) below 0 is the start of the flank."""
 
@@ -34,18 +45,10 @@ ROUNDING = 1e-12
 class ValveAnalysis(CamAnalysis):
     """What follows from a `ValveCam` at the given cam angles, counted from the start of the opening flank."""
 
-    offers: ClassVar[tuple[str, ...]] = (
-        "whole",
-        "lift",
-        "velocity",
-        "acceleration",
-        "jerk",
-        "profile_radius",
-        "spring_force",
-        "contact_stress",
-        "resistance",
-    )
-    """The shapes and curves that are shown of it where nobody chooses, in this order."""
+    @property
+    def offers(self) -> tuple[str, ...]:
+        """The shapes and curves that are shown of it where nobody chooses, in this order."""
+        return (*OFFERS, *getattr(self.cam.contact, "more", ()))
 
     @property
     def program(self) -> MotionProgram:

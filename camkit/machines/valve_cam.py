@@ -18,6 +18,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..cam.force_closure import ContactPair
+from ..cam.lubricated_pair import LubricatedPair
 from ..cam.slide import SlideFriction
 from ..motion import Mirrored, MotionProgram, Return, Rise
 from ..quantities import Design, choice, counted, quantity, unless
@@ -30,6 +31,8 @@ from .valve_train import FLAT, FOLLOWERS, ValveLoad
 
 LEAST_GAP = 1e-3
 """Exponents closer than this count as repeated: the coefficients would be the difference of huge numbers."""
+CONTACTS = ContactPair(width=14 * mm), LubricatedPair(width=14 * mm)
+"""What can be said of the contact, for a menu."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +62,8 @@ class ValveCam(Design):
     speed_margin: float = quantity("x", 15, 0, 60, "%", "overspeed that must not make the follower jump", at_least=0)
     load: ValveLoad = field(default_factory=ValveLoad)
     """The train and the spring above the cam, and the camshaft's speed."""
-    contact: ContactPair = field(default_factory=lambda: ContactPair(width=14 * mm))
-    """The materials of cam and follower and the length of the line on which they touch."""
+    contact: ContactPair = choice("C", CONTACTS[0], CONTACTS, "materials and length of the line of contact")
+    """The materials of cam and follower and the length of the line on which they touch; lubricant and strength."""
 
     offset: ClassVar[float] = 0.0
     """The follower travels in line with the cam axis."""

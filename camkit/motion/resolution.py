@@ -56,6 +56,14 @@ class Resolution(NamedTuple):
         inside[self.first] = inside[self.last] = False
         return inside
 
+    @property
+    def weights(self) -> np.ndarray:
+        """By which values at these angles add up to their integral over the angle: Simpson's rule in each piece."""
+        steps = self.last - self.first
+        step = (self.angle[..., self.last] - self.angle[..., self.first]) / np.maximum(steps, 1)
+        rule = np.concatenate([_simpson(int(n)) for n in steps])
+        return rule * step[..., np.repeat(np.arange(len(steps)), steps + 1)]
+
     def within(self, segments: Sequence[int]) -> np.ndarray:
         """Which angles belong to segments of those numbers, ``(n,)``."""
         return np.repeat([i in segments for i, _ in self.shares], self.last - self.first + 1)
@@ -99,6 +107,18 @@ class Resolution(NamedTuple):
         )
         moves = np.concatenate([self.moves, other.moves])
         return Resolution(end_to_end(self.angle, other.angle), first, last, moves, self.shares + other.shares)
+
+
+def _simpson(steps: int) -> Array:
+    """Simpson's rule for even steps of 1; of an odd number of them the last three by the three-eighths rule."""
+    if steps < 2:
+        return np.full(steps + 1, steps / 2)
+    rule, even = np.zeros(steps + 1), steps if steps % 2 == 0 else steps - 3
+    for k in range(3 if even else 0):
+        rule[k : even + k - 1 : 2] += (1 / 3, 4 / 3, 1 / 3)[k]
+    if even < steps:
+        rule[even:] += np.array([3, 9, 9, 3]) / 8
+    return rule
 
 
 def resolve(

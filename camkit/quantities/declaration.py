@@ -248,9 +248,9 @@ class Choice:
     @property
     def possible(self) -> str:
         """What can be chosen, in words."""
-        if self._plain:
+        if self._plain and self.options != tuple(self.named):
             return f"one of {', '.join(f'{option!r} ({name})' for name, option in self.named.items())}"
-        return f"one of {self.offered} or another like them"
+        return f"one of {self.offered}{'' if self._plain else ' or another like them'}"
 
     @cached_property
     def _types(self) -> frozenset[type]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
-from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space, speeds
+from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space, speeds, surfaces
 from .picture import Axes, Line, Picture, View
 
 VIEW_OF: dict[str, View] = {
@@ -24,6 +24,8 @@ VIEW_OF: dict[str, View] = {
     "curvature": cam.curvature,
     "efficiency": cam.efficiency,
     "contact_pressure": cam.contact_pressure,
+    "surface_rates": surfaces.entrainment,
+    "surfaces": surfaces.film_ratio,
     "stress_coefficient": intervals.contact_stress,
     "wear_coefficient": intervals.wear,
     "pressure": intervals.hertz_pressure,

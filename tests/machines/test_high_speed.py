@@ -495,7 +495,7 @@ def test_a_weak_spring_loses_contact():
         ({"return_angle": -90 * deg}, r"the return angle .* is -90 deg"),
         ({"speed": 0.0}, r"the speed .* is 0 %"),
         ({"spring_factor": -1.0}, r"the spring factor .* is -1; it must be a finite number of at least 0"),
-        ({"contact": 10 * mm}, r"the contact is 0.01; it must be a ContactPair"),
+        ({"contact": 10 * mm}, r"the contact is 0.01; it must be one of along a line, lubricated"),
         ({"load": 10.0}, r"the load is 10; it must be one of inertia and closing spring, constant torque"),
         ({"rise_angle": 0.0}, r"the rise angle .* is 0 deg; it must be a finite number above 0 deg"),
         ({"return_angle": 280 * deg}, r"swings over 370 deg of the cam; there are 360 deg"),
