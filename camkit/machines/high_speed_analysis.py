@@ -55,7 +55,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def offers(self) -> tuple[str | AnalysisCurve, ...]:
         """The shapes and curves that are shown of it where nobody chooses, in this order."""
         offers: tuple[str | AnalysisCurve, ...] = (*self.machine.offers, *getattr(self.cam.contact, "more", ()))
-        return offers
+        return (*offers, "contact_force") if self.groove else offers
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -216,17 +216,27 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """A force that is rounding, N."""
         return 1e-9 * abs(self.moving.contact_force).max(-1, keepdims=True)
 
+    @property
+    def form_closed(self) -> Value:
+        """Whether a groove alone holds the roller, and no spring does."""
+        return self.groove and number(self.closing_rate + self.preload) == 0
+
     @cached_property
     def margin(self) -> np.ndarray:
-        """``q = 1 - r kappa``: 0 or less where the roller undercuts the profile."""
-        return 1 - self.cam.roller_radius * self.curvature
+        """``q = 1 - r kappa``: 0 or less where the roller undercuts the profile; of a groove the worse flank's."""
+        return 1 - self.cam.roller_radius * (abs(self.curvature) if self.groove else self.curvature)
 
     @cached_property
     def ease(self) -> np.ndarray:
-        """``r q / N = 1 / F_sigma^2``, m/N: smooth where ``F_sigma`` has a pole; ``nan`` without contact."""
+        """``r q / |N| = 1 / F_sigma^2`` of the flank that works, m/N; ``nan`` without contact.
+
+        It is smooth where ``F_sigma`` has a pole.
+        """
+        r, N = self.cam.roller_radius, self.contact_force
         with np.errstate(divide="ignore", invalid="ignore"):
-            touching = np.where(self.contact_force >= -self.rounding, abs(self.contact_force), np.nan)
-            return self.cam.roller_radius * self.margin / touching
+            if self.groove:
+                return r * (1 - r * self.bend(self.loaded_flank)) / abs(N)
+            return r * self.margin / np.where(-self.rounding <= N, abs(N), np.nan)
 
     @cached_property
     def stress_coefficient(self) -> np.ndarray:
@@ -239,7 +249,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     @cached_property
     def wear_coefficient(self) -> np.ndarray:
         """``F_wear = N F_sigma``, N^1.5 mm^-0.5."""
-        return self.contact_force * self.stress_coefficient
+        return (abs(self.contact_force) if self.groove else self.contact_force) * self.stress_coefficient
 
     # ---------------------------------------------------------------- peaks
 
@@ -270,7 +280,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def spring_rate(self) -> Array:
         """`spring_factor`, shaped to multiply arrays of angles."""
         given = self.cam.spring_factor
-        if certain(given > 0):
+        if self.groove or certain(given > 0):
             return given
         return np.where(given > 0, given, np.expand_dims(self.min_spring_factor, -1))
 
@@ -281,20 +291,26 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
 
     @cached_property
     def undercut_margin(self) -> Array:
-        """Least ``q = 1 - r kappa``; 0 or less: the profile is undercut; ``-inf`` if the arm's speed drops at once."""
+        """Least ``q = 1 - r kappa``, of a groove of either flank; 0 or less: it is undercut.
+
+        ``-inf`` if the arm's speed drops at once, of a groove if it jumps.
+        """
         return self.margins.min(-1)
 
     @cached_property
     def margins(self) -> np.ndarray:
-        """``q`` over rise and fall, its valleys as deep as they are; ``-inf`` at a drop of the arm's speed."""
-        margins, drop = -self.tops(curves.tightness), self.corner(-1)
-        away = abs(self.moving_angle - np.expand_dims(drop.cam_angle, -1))
-        nearest = away <= away.min(-1, keepdims=True)
-        return np.where((np.expand_dims(drop.value, -1) > 0) & nearest, -np.inf, margins)
+        """``q`` over rise and fall, its valleys as deep as they are; ``-inf`` where the flank has a corner."""
+        margins = -self.tops(curves.tightness)
+        for way in (-1, 1) if self.groove else (-1,):
+            corner = self.corner(way)
+            away = abs(self.moving_angle - np.expand_dims(corner.cam_angle, -1))
+            nearest = away <= away.min(-1, keepdims=True)
+            margins = np.where((np.expand_dims(corner.value, -1) > 0) & nearest, -np.inf, margins)
+        return margins
 
     @cached_property
     def forces(self) -> np.ndarray:
-        """``N`` over rise and fall, its valleys as deep as they are, N."""
+        """``N`` over rise and fall, its valleys as deep as they are, N; below 0 at a groove's outer flank."""
         return -self.tops(curves.pull)
 
     @cached_property
@@ -315,17 +331,19 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
     def pressure(self) -> np.ndarray:
         """``p_0`` over rise and fall with its peaks, Pa: only ``N / rho_pr = F_sigma^2`` counts."""
         pair = self.cam.contact
-        return line_contact(1 / pair.width, self.stress**2, pair.modulus).pressure
+        return line_contact(self.stress**2 / pair.width, 1.0, pair.modulus).pressure
 
     @cached_property
     def _pulled(self) -> Any:
         """Whether the roller would have to be pulled somewhere, ``N < 0``: ``(..., 1)``."""
+        if self.groove:
+            return np.zeros(np.shape(self.rounding), dtype=bool)
         return (self.forces < -self.rounding).any(-1, keepdims=True)
 
     @property
     def loses_contact(self) -> Array:
-        """Whether the roller would lift off somewhere: ``N < 0``, or the arm's speed drops at once."""
-        return self._pulled[..., 0] | (self.corner(-1).value > 0)
+        """Whether the roller lifts off somewhere: ``N < 0``, or the arm's speed drops at once; in a groove never."""
+        return self._pulled[..., 0] if self.groove else self._pulled[..., 0] | (self.corner(-1).value > 0)
 
     @property
     def beyond(self) -> np.ndarray:

@@ -19,7 +19,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from ..cam import bodies
-from ..cam.directions import ROTATIONS
+from ..cam.directions import CLOSURES, ROTATIONS
 from ..cam.force_closure import ContactPair
 from ..cam.loads import Friction
 from ..cam.lubricated_pair import LubricatedPair
@@ -71,6 +71,8 @@ class HighSpeedCam(FreeLawCam):
 
     ``spring_factor`` is the rate of the closing spring over ``J omega^2`` at the rated speed (``speed`` = 100 %); 0
     stands for the weakest spring that holds the arm's inertia there.  Faster, the same spring may let the roller lift.
+    With a ``groove`` the cam is closed by form: 0 is then no spring at all, and stress and wear are those of the flank
+    that works, the outer one where the normal force is below 0.
     ``load`` is an `InertialSpringLoad`, a `ConstantTorque` or anything else with a ``name`` and their method
     ``resisting_torque``.
 
@@ -96,6 +98,7 @@ class HighSpeedCam(FreeLawCam):
     rotation: int = choice("sigma", 1, ROTATIONS, "direction in which the cam turns")
     rated_speed: float = quantity("n_0", 600, 10, 6000, "rpm", "for which load and spring are given")
     """Of which film and surface velocities alone depend."""
+    groove: bool = choice("g", False, CLOSURES, "what guides the roller: a groove, or a plate and a spring or weight")
 
     offers: ClassVar[tuple[str | AnalysisCurve, ...]] = (
         "bodies",
@@ -108,8 +111,6 @@ class HighSpeedCam(FreeLawCam):
         "cam_torque",
     )
     """The shapes and curves that are shown of its analysis where nobody chooses, in this order."""
-    groove: ClassVar[bool] = False
-    """A plate: spring or weight hold the roller to it."""
     friction: ClassVar[Friction] = Friction(0, 0, 0, 0)
     """None is counted."""
 
@@ -161,7 +162,7 @@ class HighSpeedCam(FreeLawCam):
         """
         needed = {*paths}
         ready = super().ready_for(needed)
-        if "spring_factor" not in needed or ready.spring_factor:
+        if "spring_factor" not in needed or ready.spring_factor or ready.groove:
             return ready
         weakest = float(ready.analyse().min_spring_factor) * self.speed**2
         return ready.replace(spring_factor=min(weakest, STRONG))
@@ -218,4 +219,4 @@ class HighSpeedCam(FreeLawCam):
 
     def drawn(self, analysis: HighSpeedAnalysis) -> tuple[Body, ...]:
         """The cam, and the arm with its roller."""
-        return *bodies.disk(analysis, False), *analysis.follower
+        return *bodies.disk(analysis, self.groove), *analysis.follower

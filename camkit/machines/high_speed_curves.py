@@ -41,6 +41,11 @@ def pull(part: HighSpeedAnalysis) -> Array:
     return -part.contact_force
 
 
+def push(part: HighSpeedAnalysis) -> Array:
+    """The force between cam and roller, of a groove that of either flank, N."""
+    return abs(part.contact_force) if part.groove else part.contact_force
+
+
 def strain(part: HighSpeedAnalysis) -> Array:
     """``-1 / F_sigma^2``."""
     return -part.ease

@@ -6,7 +6,6 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from operator import attrgetter
 from typing import Any
 
 from ..cam.force_closure import jump_speed
@@ -16,6 +15,7 @@ from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
 from ..study.study import Space, Study
 from ..units import mm
+from . import high_speed_curves as curves
 from .high_speed_analysis import HighSpeedAnalysis
 from .high_speed_cam import STRONG, FreeLawCam, HighSpeedCam
 from .high_speed_load import InertialSpringLoad
@@ -26,9 +26,6 @@ def peak(name: str, unit: str, curve: Callable[[Any], Array]) -> PeakMeasure:
     return PeakMeasure(name, unit, curve, angle=lambda a: a.moving_angle)
 
 
-_force = attrgetter("contact_force")
-
-
 def _steepness(part: HighSpeedAnalysis) -> Array:
     return abs(part.pressure_angle)
 
@@ -37,13 +34,20 @@ def _torque(part: HighSpeedAnalysis) -> Array:
     return abs(part.cam_torque)
 
 
+def _spring_use(analysis: HighSpeedAnalysis) -> Array:
+    """What the inertia needs of the closing spring; nothing in a groove."""
+    if analysis.groove:
+        return abs(0.0 * analysis.springs)
+    return analysis.cam.speed**2 * analysis.springs / analysis.spring_rate
+
+
 peak_stress = peak("stress index F_sigma", "N^0.5 mm^-0.5", lambda a: a.stress)
 peak_wear = peak("wear index", "N^1.5 mm^-0.5", lambda a: a.wear)
 max_pressure_angle = peak("maximum pressure angle", "deg", lambda a: a.tops(_steepness))
-peak_force = peak("peak normal force", "N", lambda a: a.tops(_force))
+peak_force = peak("peak normal force", "N", lambda a: a.tops(curves.push))
 peak_pressure = peak("peak Hertz pressure", "MPa", lambda a: a.pressure)
 peak_torque = peak("peak cam torque without friction", "N mm", lambda a: a.tops(_torque))
-spring_use = peak("closing spring needed", "%", lambda a: a.cam.speed**2 * a.springs / a.spring_rate)
+spring_use = peak("closing spring needed", "%", _spring_use)
 min_force = -peak("minimum normal force", "N", lambda a: -a.forces)
 lift_off = Measure("speed at which the roller leaves the cam", "%", jump_speed)
 overrun = peak("arm beyond its ends / swing", "%", lambda a: a.beyond)
@@ -104,8 +108,8 @@ def high_speed_study(
     Free are arm, roller and largest radius, with ``free_laws`` the eight coefficients too.  The closing spring is
     then free as well: its weakest rate is a maximum over the angles in turn, which descends better as the limit
     that no more spring is needed than there is.  Methods without slopes do better with ``free_spring=False``, the
-    weakest spring for every law.  The roller may not lift at the speed of ``start``.  ``space`` replaces the bounds of
-    the sizes; ``at_most`` and ``at_least`` add limits.
+    weakest spring for every law.  The roller may not lift at the speed of ``start``; a groove holds it without a
+    spring.  ``space`` replaces the bounds of the sizes; ``at_most`` and ``at_least`` add limits.
 
     >>> study = high_speed_study()
     >>> print(f"{study.evaluate(study.x0).f[0, 0] * mm**0.5:.4f}")
@@ -116,10 +120,12 @@ def high_speed_study(
     start = start.ready_for(COEFFICIENTS) if free_laws else start
     free: dict[str, tuple[float, float]] = dict(space or GEOMETRY) | (laws_free(start) if free_laws else {})
     most: dict[Measure, float] = {}
-    least: dict[Measure, float] = {min_radius: 30 * mm, undercut_margin: CLEAR, min_force: 0.0}
+    least: dict[Measure, float] = {min_radius: 30 * mm, undercut_margin: CLEAR}
+    if not start.groove:
+        least[min_force] = 0.0
     if free_laws:
         least[min_lead] = 0.0
-    if free_laws and free_spring and isinstance(start.load, InertialSpringLoad):
+    if free_laws and free_spring and isinstance(start.load, InertialSpringLoad) and not start.groove:
         free["spring_factor"] = (WEAK, STRONG)
         most[spring_use] = 1.0
     if free_laws and not free_spring:

@@ -25,6 +25,7 @@ from camkit.machines.high_speed_measures import (
     min_force,
     min_lead,
     overrun,
+    peak_force,
     peak_pressure,
     peak_stress,
     peak_wear,
@@ -225,6 +226,74 @@ def test_profile_runs_from_its_smallest_to_its_largest_radius(design):
     assert_allclose(analysis.profile[:, 0], analysis.profile[:, -1], atol=1e-15)
     assert analysis.cam_angle[[0, -1]] == pytest.approx([0, 2 * np.pi])
     assert (np.diff(analysis.cam_angle) > 0).all()
+
+
+# ---------------------------------------------------------------- closed by form
+
+
+@SHAPES
+@pytest.mark.parametrize("load", [SPRING, InertialSpringLoad(25.0, 0.2)], ids=["no spring", "spring"])
+def test_stress_in_a_groove_is_that_of_the_flank_that_works(design, load):
+    """F_sigma^2 = |N| times the curvature of roller and flank, that of either flank from its points."""
+    given = design.replace(groove=True, load=load, roller_radius=35 * mm, spring_factor=0 if load is SPRING else 0.4)
+    brute, sides = Brute(given), set()
+    for interval in given.analyse(91).intervals:
+        phi, N = interval.cam_angle, interval.contact_force
+        wound = (load.closing * given.swing + interval.motion.s) * given.spring_factor
+        moment = load.inertia_speed2 * (interval.motion.a + wound)
+        assert_allclose(interval.resisting_torque, moment, rtol=1e-12)
+        assert (interval.loaded_flank[1:-1] == np.where(moment < 0, -1, 1)[1:-1]).all()
+        r, outer = given.roller_radius, lambda t: brute.pitch(t) + given.roller_radius * brute.normal(t)
+        assert_allclose(interval.outer_profile, outer(phi), atol=1e-12)
+        fit = np.where(N < 0, 1 / r - curvature_of(outer, phi), 1 / r + curvature_of(brute.profile, phi))
+        assert_allclose(interval.stress_coefficient**2 / mm, abs(N) * fit, rtol=1e-4, atol=1e-3)
+        assert_allclose(interval.wear_coefficient, abs(N) * interval.stress_coefficient, rtol=1e-14)
+        pressure = np.sqrt(abs(N) * fit * given.contact.modulus / (np.pi * given.contact.width))
+        assert_allclose(interval.contact_pressure, pressure, rtol=1e-4, atol=1e3)
+        sides |= {*interval.loaded_flank}
+    assert sides == {-1, 1}
+
+
+def test_a_groove_needs_no_spring_and_loses_no_contact():
+    plate, groove = FIRST.analyse(), FIRST.replace(groove=True).analyse()
+    assert groove.spring_factor == 0
+    assert groove.form_closed
+    assert not plate.form_closed
+    assert not any(groove.flags.values())
+    assert min_force(groove) < 0 < min_force(plate)
+    assert np.isinf(lift_off(groove))
+    at = groove.moving
+    assert peak_force(groove) == pytest.approx(abs(at.contact_force).max(), rel=1e-3)
+    assert peak_stress(groove) == pytest.approx(at.stress_coefficient.max() / mm**0.5, rel=1e-3)
+    assert np.sqrt(peak_pressure(groove) ** 2 * np.pi * 0.02 / FIRST.contact.modulus) == pytest.approx(
+        peak_stress(groove)
+    )
+    assert "contact_force" in groove.offers
+    sprung = FIRST.replace(groove=True, spring_factor=2.6).analyse()
+    assert not sprung.form_closed
+    assert_allclose(sprung.stress, FIRST.replace(spring_factor=2.6).analyse().stress, rtol=1e-12)
+    assert FIRST.replace(groove=True).ready_for(["spring_factor"]).spring_factor == 0
+
+
+def test_both_flanks_of_a_groove_may_be_undercut():
+    def fast(angle, groove=True):
+        return cam(165, 20, 130, groove=groove, rise_angle=angle * deg, return_angle=angle * deg)
+
+    angle = brentq(lambda x: undercut_margin(fast(x).analyse(401)), 60, 90)
+    phi = np.linspace(0, angle * deg, 40001)[2000:-2000]
+    curvature = curvature_of(Brute(fast(angle)).pitch, phi)
+    assert -20 * mm * curvature.min() == pytest.approx(1, rel=1e-5)
+    assert "groove undercut" in fast(angle - 2).analyse().trouble
+    assert undercut_margin(fast(angle - 2).analyse()) < 0 < undercut_margin(fast(angle - 2, False).analyse())
+
+
+def test_a_groove_asks_for_no_force():
+    for free_laws in (False, True):
+        study = high_speed_study(FIRST.replace(groove=True), free_laws=free_laws)
+        assert min_force not in study.at_least
+        assert "spring_factor" not in study.free
+    found = minimise(high_speed_study(FIRST.replace(groove=True)), "slsqp", starts=1, seed=1)
+    assert peak_stress(found.design.analyse()) * mm**0.5 < 1.05  # a plate of these laws: 1.683
 
 
 # ---------------------------------------------------------------- forces
