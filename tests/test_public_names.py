@@ -59,6 +59,7 @@ RESULTS = NOT_MADE_BY_HAND | {
     *("Evaluated", "Found", "Active", "Row", "Price", "Response", "SpeedSweep"),
     *("Event", "Flight", "Windup", "Reduced", "CamsOverSpeed", "Conversion"),
     *("BearingLife", "Entrainment", "SurfaceLife"),
+    *("FactorCheck", "FactorRow"),
 } - {"Front"}  # fmt: skip
 """What functions give, and nobody makes."""
 INSIDE = {
@@ -265,6 +266,7 @@ GOOD = {
     "train": ElasticTrain,
     "speeds": lambda: [20.0, 30.0],
     "tuned.period_ratio": lambda: 5.0,
+    "factor_check.machine": lambda: camkit.dynamics.ElasticFollower(CAM),
     "trials": lambda: TRIALS[:2],
     "tubes": lambda: TUBES,
     "unit": lambda: "mm",

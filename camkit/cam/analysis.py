@@ -327,7 +327,7 @@ class CamAnalysis(ABC):
     @property
     def form_closed(self) -> Value:
         """Whether a groove alone holds the follower, from both sides, and no spring does: it cannot jump."""
-        return self.groove and number(self.cam.load.spring_rate + self.cam.load.preload) == 0
+        return self.groove and number(self.closing_rate + self.preload) == 0
 
     @cached_property
     def _corners(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

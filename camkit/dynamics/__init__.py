@@ -2,6 +2,7 @@
 
 from .beside_plain import CamsOverSpeed, beside_plain
 from .camshaft import Camshaft, Windup
+from .factor import FactorCheck, FactorRow, factor_check
 from .flight import Event, Flight, simulate
 from .follower import (
     ElasticFollower,
@@ -32,6 +33,8 @@ __all__ = [
     "ElasticFollower",
     "ElasticTrain",
     "Event",
+    "FactorCheck",
+    "FactorRow",
     "Flight",
     "HelicalSpring",
     "MasslessSpring",
@@ -54,6 +57,7 @@ __all__ = [
     "dwell_vibration_between",
     "dynamic_factor",
     "elastic_study",
+    "factor_check",
     "min_force_between",
     "natural_frequency",
     "peak_force_between",

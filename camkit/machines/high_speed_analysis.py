@@ -216,11 +216,6 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         """A force that is rounding, N."""
         return 1e-9 * abs(self.moving.contact_force).max(-1, keepdims=True)
 
-    @property
-    def form_closed(self) -> Value:
-        """Whether a groove alone holds the roller, and no spring does."""
-        return self.groove and number(self.closing_rate + self.preload) == 0
-
     @cached_property
     def margin(self) -> np.ndarray:
         """``q = 1 - r kappa``: 0 or less where the roller undercuts the profile; of a groove the worse flank's."""
@@ -382,7 +377,7 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         }
 
 
-OF_THE_WHOLE = ("buildable", "spring_rate", "rounding", "response")
+OF_THE_WHOLE = ("buildable", "spring_rate", "rounding", "response", "factor")
 """What is the same wherever a cam is looked at, and follows from all of it; a rigid follower has no response."""
 
 

@@ -15,6 +15,7 @@ from .defaults import curve_view, default_views
 from .design_map import ShownPlane, design_plane, designs_on_plane, objective_plane
 from .development import shapes_in_space, unrolled_cam
 from .event import cam_and_follower, lift, radius_of_curvature, spring_and_inertia, stress_over_event
+from .factor import factor_errors
 from .front import LiveFront, ShownFront, ShownFronts, fronts_overlaid, live_pareto, pareto, searches_compared
 from .intervals import contact_stress, hertz_pressure, load_over_way, stress_over_way, wear, wear_over_way
 from .laws import LAW_VIEWS, ShownProgram, ShownVibration, vibration_left
@@ -76,6 +77,7 @@ __all__ = [
     "deviation_over",
     "drive",
     "efficiency",
+    "factor_errors",
     "force_beside_plain",
     "force_beside_rigid",
     "force_over_speed",
