@@ -254,6 +254,7 @@ GOOD = {
     "mass": lambda: 0.1,
     "parts": lambda: [Part("rod", 0.1, 1e6)],
     "ElasticFollower.cam": lambda: CAM,
+    "CamWithPins.cam": lambda: CAM,
     "PolydyneProgram.segments": lambda: CAM.motion.segments,
     **{
         f"{of}_between.{end}": lambda: 60.0

@@ -24,7 +24,7 @@ DEFAULTS = {
     "FlatAnalysis": {"pitch"},
     "Kinked": {"kinks", "kinks_move"},
     "MotionProgram": {"waves"},
-    "RockingAnalysis": {"inertia", "resisting_torque", "static_resistance"},
+    "RockingAnalysis": {"arm_force", "inertia", "resisting_torque", "static_resistance"},
     "RollerAnalysis": {"path"},
     "Segment": {"reach"},
     "SlidingAnalysis": {"start_height"},

@@ -60,6 +60,7 @@ from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
 from .outlines import CamOutline, DrawnOutline
 from .pair import ConjugatePair, ConjugatePairAnalysis
+from .pins import CamWithPins, pin_pressure, pin_pv, pin_volume, pivot_pressure, pivot_pv, ring_thickness
 from .roller_analysis import RollerAnalysis
 from .shaking import vibration_at
 from .slide import SlideFriction, SlideLoad
@@ -88,6 +89,7 @@ __all__ = [
     "BearingLife",
     "CamAnalysis",
     "CamOutline",
+    "CamWithPins",
     "Compared",
     "ConjugatePair",
     "ConjugatePairAnalysis",
@@ -160,10 +162,16 @@ __all__ = [
     "peak_skid",
     "peak_torque",
     "peak_wear",
+    "pin_pressure",
+    "pin_pv",
+    "pin_volume",
+    "pivot_pressure",
+    "pivot_pv",
     "preload_needed",
     "pressure_share",
     "published_mean_efficiency",
     "reversals",
+    "ring_thickness",
     "roller_life",
     "rolling_cone",
     "thin_film",

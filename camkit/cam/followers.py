@@ -157,6 +157,11 @@ class RockingAnalysis(CamAnalysis):
         return self.resisting_torque
 
     @property
+    def arm_force(self) -> Array:
+        """Sum of the forces on the arm besides those of cam and pivot, its inertia among them, ``(2, n)``, N."""
+        return self.cam.load.arm_force(self.cam.arm_length, self.arm_angle, self.velocity, self.acceleration)
+
+    @property
     def damping(self) -> Value:
         """Torque over the arm's velocity, N m s/rad."""
         return self.cam.load.damping

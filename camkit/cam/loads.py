@@ -70,6 +70,16 @@ class ArmLoad(Design):
         k = self.table_factor
         return static + k * tabulated(self.torque_table, travel) + k * tabulated(self.cam_angle_table, cam_angle)
 
+    def arm_force(self, arm_length: Value, arm_angle: Value, velocity: Value, acceleration: Value) -> Array:
+        """Weight and inertia of the uniform arm, machine's frame, ``(2, n)``, N: what else it resists with is a couple.
+
+        ``velocity`` and ``acceleration`` are those by the cam angle.
+        """
+        sin, cos, up, turns = np.sin(arm_angle), np.cos(arm_angle), self.up_angle, arm_length / 2 * self.speed**2
+        x = self.gravity * np.cos(up) + turns * (acceleration * sin + velocity**2 * cos)
+        y = self.gravity * np.sin(up) + turns * (acceleration * cos - velocity**2 * sin)
+        return -np.stack(np.broadcast_arrays(self.mass * x, self.mass * y))
+
     def resisting_torque(
         self,
         arm_length: Value,

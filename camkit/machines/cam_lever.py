@@ -131,6 +131,17 @@ class CamLever(FreeLawCam):
         own = self.force_curve(way) if callable(self.force_curve) else tabulated(self.force_curve, way)
         return self.slider_force + own + 0.0 * way
 
+    def arm_force(self, analysis: HighSpeedAnalysis) -> Array:
+        """Of the slider on the lever, machine's frame, ``(2, n)``, N; the lever's inertia is a couple."""
+        pull = self.weight + self.force(analysis.way)
+        upright = rotated(np.stack([0.0 * pull, -pull]), -self._down)
+        return upright * _mirror(upright)
+
+    @property
+    def _down(self) -> Value:
+        """Of the lever's pivot as seen from the cam axis, rad."""
+        return -np.arctan2(self.pivot_height, self.slider_distance - self.lever)
+
     @cached_property
     def cam(self) -> HighSpeedCam:
         """The cam that swings the lever: its load is that at 1 rad/s, its speed in rad/s."""
@@ -155,7 +166,7 @@ class CamLever(FreeLawCam):
 
         The arm lies under the cam, its pivot below the cam axis and beside it, where the paper's sizes put it.
         """
-        cam, down = bodies.disk(analysis, False), -np.arctan2(self.pivot_height, self.slider_distance - self.lever)
+        cam, down = bodies.disk(analysis, False), self._down
         pivot, centre = (rotated(point * _mirror(point), down) for point in analysis.cranks["arm"])
         tilt = analysis.motion.s - self.swing / 2
         end = np.reshape(pivot, (2, 1)) + self.lever * np.stack([np.cos(tilt), np.sin(tilt)])

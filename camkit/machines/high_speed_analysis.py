@@ -191,6 +191,12 @@ class HighSpeedAnalysis(OscillatingRollerAnalysis):
         return rate(self._rate) if rate else 0.0
 
     @property
+    def arm_force(self) -> Array:
+        """Sum of the forces on the arm besides those of cam and pivot, N; a load that is a torque has none."""
+        loaded: Callable[[HighSpeedAnalysis], Array] | None = getattr(self.machine, "arm_force", None)
+        return loaded(self) if loaded else 0.0 * self.normal
+
+    @property
     def speed(self) -> Value:
         """At which the cam turns, as a share of the rated speed."""
         return self.cam.speed
