@@ -48,7 +48,7 @@ class Hit(NamedTuple):
     amplitude: float
     """m or rad."""
     force: float
-    """That it adds there along the travel, ``k_f S_n / (2 zeta)``, N or N m."""
+    """That it adds there along the travel, ``S_n k_f^2 / (k_f + k_s) / (2 zeta)``, N or N m."""
 
 
 class OverSpeed(NamedTuple):
@@ -143,7 +143,8 @@ class Shown:
         response, lift = self.response, self.harmonics
         natural, damping = float(response.natural_frequency), max(float(response.damping_ratio), 1e-6)
         n = np.arange(1, min(MOST_HITS, len(lift) - 1) + 1)
-        adds = float(np.ravel(response.train.static_stiffness)[0]) * lift[n] / (2 * damping)
+        stiff, rate = (float(np.ravel(k)[0]) for k in (response.train.static_stiffness, response.driven.rate))
+        adds = stiff**2 / (stiff + rate) * lift[n] / (2 * damping)
         counts = n[(adds > COUNTS * force) & (natural / n <= far)]
         return tuple(Hit(int(k), natural / k, float(lift[k]), float(adds[k - 1])) for k in counts)
 

@@ -24,7 +24,7 @@ PAIRS = tuple((i, j, j) for i, j in combinations(range(4), 2))
 TRIPLES = tuple(combinations(range(4), 3))
 ROUNDING = 1e-13
 """A direction that misses a cone by less is on it."""
-ROUNDS = 10
+ROUNDS = 16
 """How many directions are taken in, the farthest from the cone first; a curve's smallest cone has 2 or 3 on it."""
 
 

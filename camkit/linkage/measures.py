@@ -221,11 +221,7 @@ min_driving_torque = LeastMeasure(
     "minimum driving torque of the crank", "N m", lambda a: a.rubbing.driving_torque, angle=lambda a: a.crank_angle
 )
 """The way the crank turns.  Above 0 all the way the load cannot move the linkage by itself; < 0: it is held back."""
-friction_work = Measure(
-    "work of friction",
-    "J",
-    lambda a: np.trapezoid(a.rubbing.loss, abs(a.crank_angle - a.crank_angle[..., :1]), axis=-1),
-)
+friction_work = Measure("work of friction", "J", lambda a: a.rubbing.work)
 
 JOINTS = (
     max_crank_ball_angle,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
 from camkit.files import Session, from_json, to_json
@@ -41,6 +42,22 @@ def test_the_cone_is_the_smallest_that_holds_all(seed, spread, n):
     assert np.linalg.norm(axis) == pytest.approx(1)
     if best < 89:
         assert np.degrees(np.arccos(np.clip(axis @ points, -1, 1)).max()) == pytest.approx(best, abs=1e-5)
+
+
+def test_the_cone_of_a_winding_curve():
+    """No smaller cone holds it: its axis is a sum, none negative, of the directions that lie on the cone."""
+    rng, turn = np.random.default_rng(4), np.linspace(0, 2 * np.pi, 361)
+    waves = np.array([wave(n * turn) for n in (1, 2, 3) for wave in (np.cos, np.sin)])
+    curves = rng.normal(size=(3, 1000, 1)) + 0.6 * rng.normal(size=(3, 1000, 6)) @ waves
+    curves /= np.linalg.norm(curves, axis=0)
+    axes, seen = smallest_cone(curves)[..., 0], 0
+    for axis, curve in zip(axes.T, np.moveaxis(curves, 1, 0), strict=True):
+        inward = axis @ curve
+        if inward.min() > 0.05:
+            _, missed = nnls(curve[:, inward < inward.min() + 1e-9], axis)
+            assert missed < 1e-6
+            seen += 1
+    assert seen > 200
 
 
 @pytest.mark.parametrize("sweep", [(15, 105), (-60, 60), (0, 350)])

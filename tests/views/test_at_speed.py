@@ -106,6 +106,17 @@ def test_speeds_at_which_contact_is_lost_and_harmonics_hit():
     assert not [hit for hit in analysis.over_speed.hits if hit.number % 2 == 0]  # two alike halves have no even ones
 
 
+@pytest.mark.parametrize("rate", [5e3, 4e5])
+def test_what_a_harmonic_adds_at_its_resonance(rate):
+    """Against the amplitude of the force there, also where the return spring is half as stiff as the train."""
+    load = SlideLoad(mass=2.0, speed=600 * rpm, spring_rate=rate, preload=300.0)
+    analysis = ElasticFollower(TranslatingFlatCam(MOTION, 0.08, load=load), ElasticTrain(8e5, 5.0)).analyse()
+    for hit in analysis.over_speed.hits[:3]:
+        force = A.replace(damping=5.0, ground_damping=0.0).follow(analysis, hit.speed).train_force
+        amplitude = 2 * abs(np.fft.rfft(force)[hit.number]) / len(force)
+        assert hit.force == pytest.approx(amplitude, rel=1e-3)
+
+
 def test_a_rated_speed_is_100_per_cent():
     assert force_over_speed(of("rated")).axes.xlabel == "cam speed  [% of rated]"
     assert force_over_speed(of("rated"))["now"].x == pytest.approx([100, 100])
