@@ -326,6 +326,7 @@ GOOD = {
     "cam_card.lift": lambda: 0.001,
     "at_lift.what": lambda: "duration",
     "at_lift.lift": lambda: 0.001,
+    "flywheel.fluctuation": lambda: 0.02,
     "cam_from_outline.points": lambda: camkit.cam.DrawnOutline.circle(0.04, 0.0, -0.015),
     "cam_from_outline.follower": lambda: CAM,
     "deviation_from.motion": lambda: CAM.motion,

@@ -12,6 +12,7 @@ from .barrel import (
     rolling_cone,
 )
 from .compared import Compared, deviation_from
+from .drive import flywheel, torque_sweep
 from .entrainment import Entrainment, entrainment, reversals
 from .film import Lubricant, film_thickness
 from .flat_analysis import FlatAnalysis
@@ -52,9 +53,22 @@ from .measures import (
     peak_torque,
     peak_wear,
     published_mean_efficiency,
+    rms_torque,
+    surplus_work,
     travel,
     undercut_margin,
     work_efficiency,
+)
+from .motor import (
+    DrivenCam,
+    Motor,
+    Servo,
+    best_ratio,
+    mean_motor_power,
+    motor_peak,
+    motor_power,
+    motor_rms,
+    speed_fluctuation,
 )
 from .oscillating_flat import OscillatingFlatAnalysis, OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerAnalysis, OscillatingRollerCam
@@ -97,12 +111,14 @@ __all__ = [
     "ContactJump",
     "ContactPair",
     "DrawnOutline",
+    "DrivenCam",
     "Entrainment",
     "FlatAnalysis",
     "Friction",
     "Lubricant",
     "LubricatedPair",
     "MeasuredOutline",
+    "Motor",
     "NoBearing",
     "NoContact",
     "OscillatingBarrelAnalysis",
@@ -114,6 +130,7 @@ __all__ = [
     "OutlineMotion",
     "RollerAnalysis",
     "RollerBearing",
+    "Servo",
     "SlideFriction",
     "SlideLoad",
     "SurfaceLife",
@@ -129,6 +146,7 @@ __all__ = [
     "base_radius",
     "bearing_life",
     "bearing_load",
+    "best_ratio",
     "bottom_pressure_angle",
     "cam_from_outline",
     "cam_life",
@@ -137,6 +155,7 @@ __all__ = [
     "entrainment",
     "face_width",
     "film_thickness",
+    "flywheel",
     "groove_gap",
     "jump_margin",
     "jump_speed",
@@ -144,6 +163,7 @@ __all__ = [
     "load_stress_factor",
     "max_pressure_angle",
     "mean_efficiency",
+    "mean_motor_power",
     "mean_torque",
     "min_concave_radius",
     "min_convex_radius",
@@ -154,6 +174,9 @@ __all__ = [
     "min_life",
     "min_profile_radius",
     "motion_from_outline",
+    "motor_peak",
+    "motor_power",
+    "motor_rms",
     "peak_acceleration",
     "peak_force",
     "peak_load_stress",
@@ -172,10 +195,14 @@ __all__ = [
     "published_mean_efficiency",
     "reversals",
     "ring_thickness",
+    "rms_torque",
     "roller_life",
     "rolling_cone",
+    "speed_fluctuation",
+    "surplus_work",
     "thin_film",
     "torque_balance",
+    "torque_sweep",
     "track_rollers",
     "travel",
     "undercut_margin",

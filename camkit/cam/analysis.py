@@ -23,13 +23,10 @@ from ..quantities import quantities_of, unless
 from ..quantities.kinds import columns
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
-from . import bodies, statics
-from .corners import corners
-from .extremes import highest, lowest
+from . import bodies, corners, drive, extremes, statics, undercut
 from .force_closure import ContactPair, contact_along, index_of_wear
 from .measures import number
 from .surfaces import Surfaces
-from .undercut import undercut_in_words
 
 OFFERS = ("bodies", "motion", "pressure_angle", "contact_force", "cam_torque", "curvature", "efficiency")
 """The shapes and curves of any cam with its follower that are shown where nobody chooses, in this order."""
@@ -65,7 +62,7 @@ class CamAnalysis(ABC):
     @property
     def trouble(self) -> str:
         """What is lost of the profile, in a sentence; empty if nothing is."""
-        return undercut_in_words(self)
+        return undercut.undercut_in_words(self)
 
     @property
     @abstractmethod
@@ -293,6 +290,9 @@ class CamAnalysis(ABC):
         """Torque on the cam without friction, N m: power in = power out."""
         return self.resistance * self.velocity
 
+    turning = cached_property(drive.turning)
+    torque_sweep = drive.torque_sweep
+
     @cached_property
     def contact_pressure(self) -> np.ndarray:
         """Largest Hertz pressure between cam and follower, Pa (see `contact_along`); ``nan`` without a ``contact``."""
@@ -335,7 +335,7 @@ class CamAnalysis(ABC):
 
         ``(..., k)``; the last one leads back to the first.  A leap of the follower itself counts as both ways.
         """
-        return corners(self.resolved, self.resolution, self.program)
+        return corners.corners(self.resolved, self.resolution, self.program)
 
     def corner(self, way: int) -> Extreme:
         """The largest jump of the follower's speed, upwards (``way`` = 1) or downwards (-1), m/rad or 1; 0: none."""
@@ -395,6 +395,6 @@ class CamAnalysis(ABC):
 
     def _extreme(self, f: Callable[[Self], Value], way: int) -> Extreme:
         if (f, way) not in self._found:
-            found = highest(self, f) if way > 0 else lowest(self, f)
+            found = extremes.highest(self, f) if way > 0 else extremes.lowest(self, f)
             self._found[f, way] = Extreme(*(np.where(self.buildable[..., 0], x, np.nan)[()] for x in found))
         return self._found[f, way]

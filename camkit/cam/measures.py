@@ -180,7 +180,11 @@ travel, arm_travel = (over_cam("travel", unit, _travel) for unit in ("mm", "deg"
 """From the motion's level 0, of a sliding follower and of an arm."""
 peak_acceleration, arm_acceleration = over_cam("peak acceleration", "mm/rad^2", _acceleration, "bumps"), MOTION[1]
 """By the cam angle, of a sliding follower and of an arm."""
-SLIDING, ROCKING = (travel, peak_acceleration, peak_wear), (arm_travel, arm_acceleration, peak_wear)
+rms_torque = Measure("rms cam torque without friction", "N mm", lambda a: a.turning.rms)
+surplus_work = Measure("surplus work of the cam torque", "J", lambda a: a.turning.swing)
+"""Between the largest and the least over the turn: what a flywheel has to store."""
+DRIVE = rms_torque, surplus_work
+SLIDING, ROCKING = (travel, peak_acceleration, peak_wear, *DRIVE), (arm_travel, arm_acceleration, peak_wear, *DRIVE)
 """What a law can make small, or has to keep at some cam angles, beside what the tables show."""
 
 CURVE = (

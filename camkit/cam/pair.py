@@ -21,9 +21,10 @@ from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from ..units import rpm
 from .analysis import CamAnalysis
+from .drive import torque_sweep, turning
 from .follower_measures import min_profile_radius
 from .loads import ArmLoad
-from .measures import base_radius, max_pressure_angle, mean_efficiency, peak_force, peak_torque
+from .measures import DRIVE, base_radius, max_pressure_angle, mean_efficiency, peak_force, peak_torque
 from .oscillating_flat import OscillatingFlatCam
 from .oscillating_roller import OscillatingRollerCam
 from .shaking import MAKERS
@@ -171,6 +172,9 @@ class ConjugatePairAnalysis:
         """``v`` of the follower as the first cam gives it."""
         return self.first.velocity
 
+    turning = cached_property(turning)
+    torque_sweep = torque_sweep
+
     @property
     def efficiency(self) -> np.ndarray:
         """Power out over power in: of the first cam where the follower goes out, of the second where it comes back."""
@@ -269,5 +273,6 @@ ConjugatePair.measures = (
     peak_force,
     peak_torque,
     mean_efficiency,
+    *DRIVE,
 )
 ConjugatePair.makers = MAKERS

@@ -15,6 +15,7 @@ from ..quantities import Measure, PeakMeasure
 from ..quantities.kinds import one_number
 from ..quantities.known import certain
 from ..quantities.types import Array
+from .drive import flywheel
 from .timing import at_lift
 
 
@@ -69,5 +70,9 @@ def _travel(program: MotionProgram) -> Array:
     return np.where(travel > 0, travel, np.nan)
 
 
-MAKERS: dict[str, Callable[..., Measure]] = {"vibration at": vibration_at, "at lift": at_lift}
+MAKERS: dict[str, Callable[..., Measure]] = {
+    "vibration at": vibration_at,
+    "at lift": at_lift,
+    "flywheel": flywheel,
+}
 """How files have such measures made again."""

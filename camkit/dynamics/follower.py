@@ -10,10 +10,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, make_dataclass, replace
 from functools import cache, cached_property
-from typing import Any, ClassVar, Protocol, Self, cast
+from typing import Any, ClassVar, Protocol, cast
 
 import numpy as np
 
@@ -92,12 +91,6 @@ class ElasticFollower(Design):
         """A polydyne cam for its train (see `camkit.dynamics.polydyne`), and back to the plain one."""
         return conversions_of(self)
 
-    def ready_for(self, paths: Iterable[str]) -> Self:
-        """The same design with a cam that is ready for what is free in it (see `Design.ready_for`)."""
-        needed = {*paths}
-        cam = self.cam.ready_for([path.removeprefix("cam.") for path in needed if path.startswith("cam.")])
-        return super().ready_for(needed) if cam is self.cam else self.replace(cam=cam).ready_for(needed)
-
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, with the forces of the train."""
         rigid = cast(Analysable, self.cam).analyse(n)
@@ -135,7 +128,7 @@ def _elastic(kind: Any) -> Any:
     more = [("response", Response, field(kw_only=True, repr=False)), ("samples", int, field(kw_only=True))]
     resolution = cached_property(_resolution)
     resolution.__set_name__(kind, "resolution")
-    own = {"resistance": property(_resistance), "resolution": resolution}
+    own = {"resistance": property(_resistance), "resolution": resolution, "at_speeds": _at_speeds}
     return make_dataclass(f"Elastic{kind.__name__}", more, bases=(BesidePlain, Shown, kind), frozen=True, namespace=own)
 
 
@@ -145,6 +138,12 @@ def _resistance(analysis: Elastic) -> Array:
     part = response.train.cam_side_mass * response.speed**2 * analysis.acceleration
     force: Array = response.train_force_at(analysis.cam_angle) + part
     return force
+
+
+def _at_speeds(analysis: Any, speeds: Array) -> Any:
+    """The same cam and train at several speeds, ``(k,)``: a population of as many."""
+    response = respond(analysis.response.train, analysis, speeds[:, None], least=analysis.samples)
+    return replace(analysis, response=response)
 
 
 def _resolution(analysis: Elastic) -> Resolution:

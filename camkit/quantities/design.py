@@ -80,10 +80,16 @@ class Design(Declared):
 
         Where it lacks one because of what is chosen, it gets the option that has it and can be made ``around`` the
         chosen one: in place of a plain motion law that law as coefficients shape it, all of them 0.  A design with a
-        number that stands for "whatever is needed" says here what it becomes.
+        number that stands for "whatever is needed" says here what it becomes.  Parts that it answers for come first.
         """
         refuse_population(self, "the design")
-        lacking = {*paths} - declared_in(self).keys()
+        wanted = {*paths}
+        for name in self.answers_for:
+            part: Design = getattr(self, name)
+            ready = part.ready_for([path.removeprefix(f"{name}.") for path in wanted if path.startswith(f"{name}.")])
+            if ready is not part:
+                return self.replace(**{name: ready}).ready_for(wanted)
+        lacking = wanted - declared_in(self).keys()
         made = {}
         for path, choice in choices_of(self).items() if lacking else ():
             names = {lacked.removeprefix(f"{path}.") for lacked in lacking if lacked.startswith(f"{path}.")}

@@ -29,6 +29,7 @@ from .speeds import force_beside_plain, vibration_beside_plain
 from .sweep import limit_sweep, sweep_view
 from .tables import TABLE_VIEWS
 from .tolerances import band, cloud, deviation, sobol_bars
+from .turning import surplus_over_turn, torque_and_work, torque_over_speed
 
 __all__ = [
     "LAW_VIEWS",
@@ -112,7 +113,10 @@ __all__ = [
     "spring_and_inertia",
     "stress_over_event",
     "stress_over_way",
+    "surplus_over_turn",
     "sweep_view",
+    "torque_and_work",
+    "torque_over_speed",
     "unrolled_cam",
     "utilisation",
     "velocity_ratio",

@@ -6,6 +6,7 @@ from ..study.tolerances import AnalysisCurve
 from ..units import deg, factor
 from . import at_speed, cam, development, driveline, event, intervals, outlines, shafts, sizes, space, speeds, surfaces
 from .picture import Axes, Line, Picture, View
+from .turning import torque_and_work, torque_over_speed
 
 VIEW_OF: dict[str, View] = {
     "bodies": cam.mechanism,
@@ -23,6 +24,8 @@ VIEW_OF: dict[str, View] = {
     "cam_torque": cam.cam_torque,
     "curvature": cam.curvature,
     "efficiency": cam.efficiency,
+    "turning": torque_and_work,
+    "torque_sweep": torque_over_speed,
     "contact_pressure": cam.contact_pressure,
     "surface_rates": surfaces.entrainment,
     "surfaces": surfaces.film_ratio,
