@@ -17,7 +17,7 @@ from test_kinds import BAD, CLASSES, FUNCTIONS, NOT_MADE_BY_HAND, outcome
 
 import camkit
 from camkit import Judgements, Measure, PeakMeasure, Study, TranslatingRollerCam, deg, explore
-from camkit.dynamics import ElasticTrain, Part, polydyne
+from camkit.dynamics import ElasticTrain, HelicalSpring, Part, polydyne
 from camkit.linkage import Box
 from camkit.machines.shaft import standard_tubes
 from camkit.papers.optimiser_trials import measured_trials
@@ -327,6 +327,15 @@ GOOD = {
     "at_lift.what": lambda: "duration",
     "at_lift.lift": lambda: 0.001,
     "flywheel.fluctuation": lambda: 0.02,
+    "spring_duty.spring": HelicalSpring,
+    "spring_duty.preload": lambda: 100.0,
+    "spring_duty.travel": lambda: 0.01,
+    "near_surge.spring": HelicalSpring,
+    "return_springs.coils": lambda: [0.02, 0.03],
+    "return_springs.active_coils": lambda: [5.0],
+    "fitted.cam": lambda: CAM,
+    "fitted.spring": HelicalSpring,
+    "fitted.preload": lambda: 100.0,
     "cam_from_outline.points": lambda: camkit.cam.DrawnOutline.circle(0.04, 0.0, -0.015),
     "cam_from_outline.follower": lambda: CAM,
     "deviation_from.motion": lambda: CAM.motion,

@@ -20,8 +20,9 @@ from .follower import (
 from .polydyne import PolydyneProgram, polydyne
 from .ranges import dwell_vibration_between, min_force_between, peak_force_between
 from .reduction import Part, Reduced, reduced, spring_part
+from .return_springs import fitted, near_surge, return_springs, spring_duty
 from .speeds import SpeedSweep, contact_loss_speed, speed_sweep
-from .spring import HelicalSpring, MasslessSpring
+from .spring import HelicalSpring, MasslessSpring, spring_agreement
 from .steady import Response
 from .trains import ElasticArm, ElasticTrain, Train, TrainChain
 from .tuning import tuned
@@ -58,14 +59,19 @@ __all__ = [
     "dynamic_factor",
     "elastic_study",
     "factor_check",
+    "fitted",
     "min_force_between",
     "natural_frequency",
+    "near_surge",
     "peak_force_between",
     "period_ratio",
     "polydyne",
     "reduced",
+    "return_springs",
     "simulate",
     "speed_sweep",
+    "spring_agreement",
+    "spring_duty",
     "spring_part",
     "tuned",
 ]

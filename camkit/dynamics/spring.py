@@ -6,6 +6,10 @@ A uniform spring is a wave: held at its far end, it resists a motion of the freq
 
 of which the first terms are the spring's rate ``k`` and a third of its mass.
 
+The return spring that pushes is the load's, with its ``spring_rate`` and ``preload``; a `HelicalSpring` of a train adds
+how it surges.  `camkit.dynamics.fitted` gives the load the rate of the spring; `spring_agreement` says how far they are
+apart.
+
 Source: Wahl, Mechanical Springs; Norton, Cam Design and Manufacturing Handbook (spring surge); Shigley, Mechanical
 Engineering Design (helical springs).
 """
@@ -17,7 +21,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..quantities import Design, quantity, unless
+from ..quantities import Design, Measure, quantity, unless
 from ..quantities.kinds import numbers
 from ..quantities.types import Array, Value
 from ..units import mm
@@ -115,3 +119,11 @@ class HelicalSpring(Design):
         15132.951+345.478j N/m
         """
         return self.rate * self.share(numbers(frequency, "the frequency"))
+
+
+spring_agreement = Measure(
+    "rate of the helical spring, of the load's",
+    "%",
+    lambda a: (a.response.train.spring.rate / a.response.driven.rate)[..., 0],
+)
+HelicalSpring.measures = (spring_agreement,)
