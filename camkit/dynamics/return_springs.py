@@ -42,6 +42,7 @@ COILS = np.array([8, 9, 10, 11.2, 12.5, 14, 16, 18, 20, 22.4, 25, 28, 31.5, 35.5
 """Mean diameters of the coil: preferred numbers, R 20."""
 ACTIVE = np.arange(3, 12.5, 0.5)
 """Active coils, whole and half."""
+MOST_COILS = 1000
 SHOWN_ROWS = 12
 
 
@@ -207,16 +208,10 @@ def return_springs(
             raise ValueError("the follower is on an arm; the springs of the search push a sliding one")
         held = _Held.of(analysis, LEAST if train else SAMPLES)
     wires = spring_wires(wire)
-    sizes = [
-        numbers(x, what).ravel() for x, what in ((coils, "the coil diameters"), (active_coils, "the active coils"))
-    ]
-    place, coil, n = (x.ravel() for x in np.meshgrid(np.arange(len(wires.diameter)), *sizes, indexing="ij"))
-    index = coil / wires.diameter[place]
-    fits = (index >= INDICES[0]) & (index <= INDICES[1]) & (n >= 1)
-    refuse_empty(coil[fits], "springs with an index from 4 to 12 in the grid")
-    place, coil, n = place[fits], coil[fits], n[fits]
+    place, coil, n = _grid(wires.diameter, coils, active_coils)
     d = wires.diameter[place]
-    spring = HelicalSpring(*(x[:, None] for x in (d, coil, n, n + 2)))
+    columns: list[Any] = [x[:, None] for x in (d, coil, n, n + 2)]
+    spring = HelicalSpring(*columns)
     bears = np.ravel(spring_duty(spring, 0.0, held.travel).max_stress) <= wires.shear[place]
     preload = held.elastic(train, spring, margin, bears) if train else held.rigid(spring, margin)
     duty = SpringDuty(*(np.ravel(x) for x in spring_duty(spring, preload[:, None], held.travel)))
@@ -234,6 +229,17 @@ def return_springs(
     order = np.lexsort((np.asarray(duty.largest_force), why != ""))
     ordered = SpringDuty(*(np.asarray(x)[order] for x in duty))
     return ReturnSprings(d[order], coil[order], n[order], preload[order], ordered, ratio[order], why[order])
+
+
+def _grid(wires: Array, coils: ArrayLike, active_coils: ArrayLike) -> tuple[Array, Array, Array]:
+    """Place of the wire, coil and active coils of all springs with a possible index; ``ValueError`` for none."""
+    asked = (coils, "the coil diameters"), (active_coils, "the active coils")
+    sizes = [numbers(given, what).ravel() for given, what in asked]
+    place, coil, n = (x.ravel() for x in np.meshgrid(np.arange(len(wires)), *sizes, indexing="ij"))
+    index = coil / wires[place]
+    fits = (index >= INDICES[0]) & (index <= INDICES[1]) & (n >= 1) & (n < MOST_COILS)
+    refuse_empty(coil[fits], "springs with an index from 4 to 12 in the grid")
+    return place[fits], coil[fits], n[fits]
 
 
 class _Held(NamedTuple):
