@@ -48,7 +48,7 @@ def test_many_designs(report):
     assert abs(work()[0][7] / alone.max_force - 1) < 1e-10
     taken = least(work)
     report(f"elastic trains, {DESIGNS} designs x {ANGLES} angles with their motion", f"{taken:.0f} ms")
-    assert taken < 100
+    assert taken < 50
 
 
 def test_many_speeds(report):
@@ -56,7 +56,7 @@ def test_many_speeds(report):
     speeds = np.linspace(200, 600, SPEEDS) * rpm
     taken = least(lambda: speed_sweep(analysis, train, speeds, SAMPLES))
     report(f"an elastic train, {SPEEDS} speeds x {SAMPLES} angles", f"{taken:.0f} ms")
-    assert taken < 50
+    assert taken < 20
 
 
 def test_a_measure_between_two_speeds(report):

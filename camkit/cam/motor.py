@@ -15,15 +15,16 @@ Machines (ratio of the gear).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields, make_dataclass
+from dataclasses import dataclass, field, make_dataclass
 from functools import cache
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
 from ..extrema import Extreme, raised
-from ..quantities import Analysable, Design, Measure, PeakMeasure, choice, quantity
-from ..quantities.kinds import numbers, shown
+from ..quantities import Design, Measure, PeakMeasure, choice, quantity
+from ..quantities.design import refuse_unanalysable, with_more
+from ..quantities.kinds import numbers
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from .drive import Turned, cam_of, mean_size, running_integral, speed_of, turning_of
@@ -154,16 +155,13 @@ class DrivenCam(Design):
     name: ClassVar[str] = "cam with a motor"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.cam, Analysable) or isinstance(self.cam, type):
-            raise ValueError(f"the cam is {shown(self.cam)}; it must be a design of a cam")
+        refuse_unanalysable(self.cam, "the cam")
         super().__post_init__()
 
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, and its motor."""
         alone: Any = self.cam.analyse(n)  # type: ignore[attr-defined]
-        given = {f.name: getattr(alone, f.name) for f in fields(alone)}
-        kind: Any = type(alone)
-        return _driven(kind)(**given, motor=self.motor)
+        return with_more(alone, _driven, motor=self.motor)
 
 
 class Driven(Turned, Protocol):

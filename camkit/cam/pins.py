@@ -13,13 +13,14 @@ Source: Shigley's Mechanical Engineering Design (lubrication and journal bearing
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, make_dataclass
+from dataclasses import dataclass, field, make_dataclass
 from functools import cache
 from typing import Any, ClassVar, Protocol, cast
 
 import numpy as np
 
 from ..quantities import Analysable, Design, Measure, quantity, unless
+from ..quantities.design import refuse_unanalysable, with_more
 from ..quantities.kinds import shown
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
@@ -113,8 +114,7 @@ class CamWithPins(Design):
     name: ClassVar[str] = "cam with its pins"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.cam, Analysable) or isinstance(self.cam, type):
-            raise ValueError(f"the cam is {shown(self.cam)}; it must be a design of a cam")
+        refuse_unanalysable(self.cam, "the cam")
         super().__post_init__()
 
     def analyse(self, n: int = 721) -> Any:
@@ -122,8 +122,7 @@ class CamWithPins(Design):
         bare = cast(Analysable, self.cam).analyse(n)
         if not hasattr(type(bare), "contact_force"):
             raise ValueError(f"the cam is {shown(self.cam)}; it must have one follower, and pins those of that")
-        given = {f.name: getattr(bare, f.name) for f in fields(bare)}
-        analysis = _pinned(cast(type[Pinned], type(bare)))(**given, pins=self)
+        analysis = with_more(bare, _pinned, pins=self)
         room = ring(analysis)
         if refuse := unless(np.logical_not(room <= 0)):
             pin, roller = self.pin_diameter / mm, 2 * _radius(analysis) / mm

@@ -11,7 +11,7 @@ Source: Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields, make_dataclass
+from dataclasses import dataclass, field, make_dataclass
 from functools import cache
 from typing import NamedTuple, Protocol, Self, cast
 
@@ -19,6 +19,7 @@ import numpy as np
 
 from ..extrema import Extreme
 from ..quantities import Analysable, Measure, PeakMeasure, measures_of
+from ..quantities.design import with_more
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import table
 from ..quantities.types import Array, Value
@@ -127,8 +128,8 @@ def factor_check(machine: ElasticFollower, measures: Sequence[Measure] = (), ang
     elastic: Forces = machine.analyse(angles)
     rigid: Forces = cast(Analysable, machine.cam).analyse(angles)
     factors = [_most(elastic, name) / _most(rigid, name) for name in ("resistance", "contact_force")]
-    scaled = [_made(_factored, rigid, factor=np.expand_dims(factor, -1)) for factor in factors]
-    pressing = elastic if elastic.groove else _made(_pressing, elastic)
+    scaled = [with_more(rigid, _factored, factor=np.expand_dims(factor, -1)) for factor in factors]
+    pressing = elastic if elastic.groove else with_more(elastic, _pressing)
     asked = tuple(measures) or tuple(m for m in measures_of(machine.cam) if _depends(m, rigid, scaled[0]))
     rows = (FactorRow(m, *(m(a) for a in (rigid, pressing, *scaled))) for m in asked)
     lost = np.logical_not(elastic.form_closed) & (elastic.lowest(_contact).value < 0)
@@ -150,13 +151,6 @@ def _depends(measure: Measure, rigid: object, scaled: object) -> bool:
     if not isinstance(measure, PeakMeasure) or measure.sign < 0:
         return False
     return not np.all(np.isclose(measure(scaled), measure(rigid), 1e-9, 0))
-
-
-def _made(kind_of: Callable[[type[Forces]], type], analysis: Forces, **more: object) -> Forces:
-    """An analysis with other forces."""
-    given = {f.name: getattr(analysis, f.name) for f in fields(analysis)}  # type: ignore[arg-type]
-    made: Forces = kind_of(type(analysis))(**given, **more)
-    return made
 
 
 @cache

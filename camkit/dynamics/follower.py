@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, make_dataclass, replace
+from dataclasses import dataclass, field, make_dataclass, replace
 from functools import cache, cached_property
 from typing import Any, ClassVar, Protocol, cast
 
@@ -20,7 +20,8 @@ from ..motion import MotionProgram
 from ..motion.closing import TURN
 from ..motion.resolution import Resolution, resolve
 from ..quantities import Analysable, Conversion, Design, LeastMeasure, Measure, PeakMeasure, choice
-from ..quantities.kinds import refuse_arguments, shown, whole
+from ..quantities.design import refuse_unanalysable, with_more
+from ..quantities.kinds import refuse_arguments, whole
 from ..quantities.types import Array, Value
 from ..study import Study
 from ..study.free import Menu
@@ -81,8 +82,7 @@ class ElasticFollower(Design):
     name: ClassVar[str] = "cam with an elastic train"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.cam, Analysable) or isinstance(self.cam, type):
-            raise ValueError(f"the cam is {shown(self.cam)}; it must be a design of a cam")
+        refuse_unanalysable(self.cam, "the cam")
         whole(self.samples, "the number of samples of a turn", 8, MOST)
         super().__post_init__()
 
@@ -95,9 +95,7 @@ class ElasticFollower(Design):
         """The cam at ``n`` cam angles, with the forces of the train."""
         rigid = cast(Analysable, self.cam).analyse(n)
         response = respond(self.train, rigid, least=self.samples + self.samples % 2)
-        given = {f.name: getattr(rigid, f.name) for f in fields(rigid)}
-        kind: Any = type(rigid)
-        return _elastic(kind)(**given, response=response, samples=self.samples)
+        return with_more(rigid, _elastic, response=response, samples=self.samples)
 
 
 def elastic_study(study: Study[Any], train: Train, samples: int = LEAST) -> Study[ElasticFollower]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import Field
+from dataclasses import Field, fields
 from typing import Any, ClassVar, NamedTuple, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
@@ -13,6 +13,8 @@ from .kinds import columns, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, letters, table, words
 from .measure import Measure
 from .tree import a_design, choices_of, declared_in, label, value_of, with_quantities
+
+Kind = TypeVar("Kind")
 
 
 @runtime_checkable
@@ -30,10 +32,15 @@ D = TypeVar("D", bound=Analysable)
 """The kind of design that a study is of, and so its front and its minimum."""
 
 
-def refuse_design(design: object, what: str) -> None:
-    """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
+def refuse_unanalysable(design: object, what: str) -> None:
+    """``ValueError`` in a sentence for what is neither a design nor a population of designs."""
     if not isinstance(design, Analysable) or isinstance(design, type):
         raise ValueError(f"{what} is {shown(design)}; it must be a design that can be analysed, such as a cam")
+
+
+def refuse_design(design: object, what: str) -> None:
+    """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
+    refuse_unanalysable(design, what)
     refuse_population(design, what)
 
 
@@ -42,6 +49,12 @@ def refuse_population(thing: object, what: str) -> None:
     for part in (thing, *getattr(thing, "__dict__", {}).values()):
         if isinstance(part, Declared) and columns(part):
             raise ValueError(f"{what} is a population, {shown(part)} with columns; it must be one design")
+
+
+def with_more(thing: Kind, kind_of: Callable[[Any], Callable[..., Kind]], **more: object) -> Kind:
+    """A ``thing`` that holds ``more`` besides, of the kind that follows from its own: an analysis with a motor."""
+    given = {f.name: getattr(thing, f.name) for f in fields(thing)}  # type: ignore[arg-type]
+    return kind_of(type(thing))(**given, **more)
 
 
 class Conversion(NamedTuple):

@@ -186,7 +186,7 @@ def test_a_study_finds_the_smallest_pins():
 def test_pins_that_cannot_be():
     with pytest.raises(ValueError, match="the roller's pin is 6 mm thick, the roller 6 mm; the pin must be thinner"):
         CamWithPins(arm(roller_radius=3 * mm)).analyse()
-    with pytest.raises(ValueError, match="the cam is 3; it must be a design of a cam"):
+    with pytest.raises(ValueError, match="the cam is 3; it must be a design that can be analysed, such as a cam"):
         CamWithPins(3)
     with pytest.raises(ValueError, match=r"the pivot diameter .* is 0 mm"):
         CamWithPins(arm(), 0.0)

@@ -231,7 +231,7 @@ def test_a_population_of_trains_behind_one_cam():
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match="the cam is 3; it must be a design of a cam"):
+    with pytest.raises(ValueError, match="the cam is 3; it must be a design that can be analysed, such as a cam"):
         ElasticFollower(3)
     with pytest.raises(ValueError, match="the number of samples of a turn is 2"):
         ElasticFollower(flat(), A, 2)
