@@ -16,7 +16,7 @@ def picture(
     shown: object,
     *views: View,
     width: float = 12.6,
-    height: float = 7.0,
+    height: float | None = None,
     turn: float | None = None,
     azimuth: float | None = None,
     elevation: float | None = None,
@@ -24,7 +24,8 @@ def picture(
 ) -> Still:
     """A still figure of ``shown`` through ``views``: of a design (its analysis), or of what the views take.
 
-    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.
+    Without ``views`` it shows the shapes and curves that the analysis offers, in its order.  ``width`` and ``height``
+    are inches; the height follows from how many views there are, unless it is given.
 
     ``turn``, ``azimuth``, ``elevation`` (rad) and ``limits`` go to the views that ask for them (see `draw`).
     """

@@ -26,6 +26,15 @@ from .positions import given_to, made_by, view_name
 
 LARGEST = 100
 """No figure is wider or higher, inches."""
+HEIGHT, ROW = 7.0, 2.7
+"""Of a figure whose height nobody gave, inches: with up to seven views, and for each row of one with more."""
+ACROSS = {
+    1: [slice(0, 4)],
+    2: [slice(0, 2), slice(2, 4)],
+    3: [slice(0, 2), slice(2, 3), slice(3, 4)],
+    4: [slice(i, i + 1) for i in range(4)],
+}
+"""Of four columns, those of each of so many pictures in a row."""
 STRIP = {"left": 0.01, "right": 0.99, "bottom": 0.02, "top": 0.9, "wspace": 0.04}
 """Where pictures side by side stand, shares of the figure and of a picture's width."""
 
@@ -57,21 +66,30 @@ def _pixels(figure: Figure) -> Image.Image:
     return Image.frombuffer("RGBX", buffer.shape[1::-1], buffer, "raw", "RGBX", 0, 1).convert("RGB")
 
 
-def layout(views: Sequence[View], width: float = 12.6, height: float = 7.0, dpi: int = 100) -> tuple[Still, list[Axes]]:
-    """A figure with one pair of axes for each view: the first large on the left, the others in two columns."""
+def layout(
+    views: Sequence[View], width: float = 12.6, height: float | None = None, dpi: int = 100
+) -> tuple[Still, list[Axes]]:
+    """A figure with one pair of axes for each view: the first large on the left, the others in two columns.
+
+    More than seven go on below, up to four beside each other, in a higher figure (``height`` inches, if it is given).
+    """
     if not views:
         raise ValueError("the picture needs one or more views")
+    rest = len(views) - 1
+    columns = 2 if rest > 3 else 1
+    beside = rest if rest <= 6 else 4 if rest <= 8 else 6
+    below = [len(part) for part in np.array_split(range(rest - beside), -(-(rest - beside) // 4))] if rest > 6 else []
+    rows = max(1, -(-beside // columns))
+    height = (ROW * (rows + len(below)) if below else HEIGHT) if height is None else height
     for name, size in (("width", width), ("height", height)):
         a_number(size, f"the {name} of the picture", f"be from 0.1 to {LARGEST} inches", lambda s: 0.1 <= s <= LARGEST)
     with rc_context(theme_style()):
         figure = Still(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(figure)
-        rest = len(views) - 1
-        columns = 2 if rest > 3 else 1
-        rows = max(1, -(-rest // columns))
-        grid = figure.add_gridspec(rows, (2 + columns) if rest else 1)
-        axes = [figure.add_subplot(grid[:, :2] if rest else grid[:, :])]
-        axes += [figure.add_subplot(grid[i // columns, 2 + i % columns]) for i in range(rest)]
+        grid = figure.add_gridspec(rows + len(below), (2 + columns) if rest else 1)
+        axes = [figure.add_subplot(grid[:rows, :2] if rest else grid[:, :])]
+        axes += [figure.add_subplot(grid[i // columns, 2 + i % columns]) for i in range(beside)]
+        axes += [figure.add_subplot(grid[rows + i, span]) for i, many in enumerate(below) for span in ACROSS[many]]
     return figure, axes
 
 
@@ -96,7 +114,7 @@ def figure_of(
     shown: object,
     *views: View,
     width: float,
-    height: float,
+    height: float | None,
     turn: float | None,
     azimuth: float | None,
     elevation: float | None,
