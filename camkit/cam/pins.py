@@ -145,8 +145,9 @@ def _size(force: Array) -> Array:
 
 def _pivot_force(a: Pinned) -> Array:
     """Of the pivot on the arm, machine's frame, ``(2, n)``, N; ``nan`` where nothing rocks."""
-    others = a.arm_force if hasattr(a, "arm_force") else np.nan
-    return -(a.contact_force * a.normal + others)
+    others = a.arm_force if hasattr(a, "arm_force") else (np.nan, np.nan)
+    both = (a.contact_force * along + other for along, other in zip(a.normal, others, strict=True))
+    return -np.stack(np.broadcast_arrays(*both))
 
 
 def _pivot_pressure(a: Pinned) -> Array:

@@ -200,10 +200,8 @@ class Response:
     def train_force_at(self, cam_angle: Array) -> Array:
         """The `train_force` at any cam angles (rad), ``(k,)`` or ``(p, k)``: cubics between the even ones."""
         n = len(self.cam_angle)
-        step = TURN / n
-        share = np.mod(cam_angle, TURN) / step
-        low = np.minimum(np.floor(share), n - 1).astype(int)
-        x, high = share - low, (low + 1) % n
+        step, (low, x) = TURN / n, _step_of(cam_angle, n)
+        high = (low + 1) % n
         (T0, T1), (v0, v1) = (
             [_placed(values, at) for at in (low, high)] for values in (self._dynamic, self._steepness)
         )
@@ -341,12 +339,17 @@ class Response:
         return away
 
 
+def _step_of(cam_angle: Array, n: int) -> tuple[Array, Array]:
+    """Which of ``n`` even steps of a turn a cam angle (rad) is in, and what share of it lies before the angle."""
+    share = np.mod(cam_angle, TURN) * n / TURN
+    low = np.where(np.isfinite(share), np.minimum(np.floor(share), n - 1), 0).astype(int)
+    return low, share - low
+
+
 def _between(values: Array, cam_angle: Array) -> Array:
     """Values at even cam angles of a turn at others (rad), by the cubic through the four around."""
     n = values.shape[-1]
-    share = np.mod(cam_angle, TURN) * n / TURN
-    low = np.where(np.isfinite(share), np.floor(share), 0).astype(int)
-    x = share - low
+    low, x = _step_of(cam_angle, n)
     far, left, right, away = (_placed(values, (low + k) % n) for k in (-1, 0, 1, 2))
     middle = (1 + x) * (2 - x) * ((1 - x) * left + x * right) / 2
     return middle - x * (1 - x) * ((2 - x) * far + (1 + x) * away) / 6

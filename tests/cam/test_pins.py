@@ -31,7 +31,7 @@ from camkit.cam import (
 )
 from camkit.dynamics import ElasticArm, ElasticFollower, tuned
 from camkit.machines import CamLever
-from camkit.quantities import measures_of, quantities_of
+from camkit.quantities import measures_of, quantities_of, value_of, with_quantities
 
 LOAD = ArmLoad(mass=3.0, speed=400 * rpm, spring_rate=8.0, preload=6.0, torque=2.0, gravity=9.81, up_angle=40 * deg)
 
@@ -181,6 +181,19 @@ def test_a_study_finds_the_smallest_pins():
         alone = study.evaluate(row)
         assert_allclose(alone.f[0], f, rtol=1e-12)
         assert_allclose(alone.g[0], g, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("cam", [arm(), arm(groove=True), TranslatingRollerCam(), CamLever(), HighSpeedCam()])
+@pytest.mark.parametrize("scale", [[1.0, 1.3], [1.0, 1.3, 0.8]])
+def test_a_population_of_loads_is_each_of_its_members(cam, scale):
+    """Two and three of them: as many as a vector has parts, and one more."""
+    names = {"load.speed", "shaft_speed", "speed"} & {*quantities_of(cam)}
+    columns = {name: np.array(scale)[:, None] * value_of(cam, name) for name in names}
+    many = CamWithPins(with_quantities(cam, columns)).analyse()
+    for i in range(len(scale)):
+        one = CamWithPins(with_quantities(cam, {name: float(x[i, 0]) for name, x in columns.items()})).analyse()
+        for measure in (pivot_pressure, pivot_pv, pin_pressure, pin_pv):
+            assert_allclose(np.broadcast_to(measure(many), len(scale))[i], measure(one), rtol=1e-9)
 
 
 def test_pins_that_cannot_be():

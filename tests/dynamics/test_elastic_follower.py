@@ -16,6 +16,7 @@ from camkit import (
     minimise,
     mm,
     rpm,
+    with_quantities,
 )
 from camkit.cam import (
     ArmLoad,
@@ -45,7 +46,7 @@ from camkit.dynamics import (
     period_ratio,
     tuned,
 )
-from camkit.machines import CamLever, high_speed_measures, high_speed_study
+from camkit.machines import CamLever, ValveCam, high_speed_measures, high_speed_study
 from camkit.machines.high_speed_measures import min_lead, overrun, peak_stress, peak_wear, undercut_margin
 from camkit.motion import Cycloidal, ModifiedSine
 from camkit.quantities import measures_of, quantities_of
@@ -221,6 +222,13 @@ def test_a_search_and_tolerances():
     assert contact_margin(at) > 0.2 - 1e-6
     spread = Tolerances(STUDY, {"train.stiffness": 5e4, "cam.load.preload": 20.0}, parts=64)
     assert spread.share == 1
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_cam_that_cannot_be_beside_others_is_nan_without_a_warning():
+    widths = {"contact.width": np.array([[14.0], [-1.0]]) * mm}
+    analysis = ElasticFollower(with_quantities(ValveCam(), widths), ElasticTrain(5e6, 100.0, 10.0)).analyse()
+    assert np.isnan(peak_force(analysis)).tolist() == [False, True]
 
 
 def test_a_population_of_trains_behind_one_cam():
