@@ -17,7 +17,7 @@ from ..units import deg, mm, rpm, um
 from .cam import ANGLE, bodies, position
 from .picture import Area, Axes, Band, LabelStyle, Line, Mark, Picture, Points, Text, gaps, in_lines
 
-FORMAL = "formal: it leaves the cam, see gap"
+FORMAL = "formal: the follower leaves the cam, see gap"
 OTHER = "the other flank of the groove leads"
 MOST_DRAWN = 1440
 """Samples of a turn that are drawn, about."""
@@ -98,13 +98,14 @@ def force_beside_rigid(analysis: AtSpeed) -> Picture:
         Area("pull", x, np.where(lost, elastic, 0.0), 0.0 * x, role="trouble", opacity=0.25),
         Line("rigid", x, rigid, role="ghost", stroke="dashed", label="rigid"),
         Line("elastic", x, elastic, role="position", label="elastic"),
-        Line("formal", x, gaps(elastic, lost), role="trouble", stroke="line", label=said),
-        Points("most", x[[high]], elastic[[high]], role="position", label=f"largest {response.max_force:.4g} N"),
+        Line("formal", x, gaps(elastic, lost), role="trouble", stroke="line"),
+        Points("most", x[[high]], elastic[[high]], role="position", names=(f"largest {response.max_force:.4g} N",)),
         Points("least", x[[low]], elastic[[low]], role="trouble" if lost.any() else "position", fill="paper",
-               label=f"least {response.least_force:.4g} N"),
+               names=(f"least {response.least_force:.4g} N" + f", {said}" * bool(said),)),
     ]  # fmt: skip
-    title = f"Force{', formal' if said == FORMAL else ''}: dynamic factor {response.dynamic_factor:.4g}"
-    return Picture.of(Axes(title=title, xlabel=ANGLE, ylabel="contact force  [N]"), marks)
+    title = f"Dynamic factor {response.dynamic_factor:.3g}" + ", formal" * (said == FORMAL)
+    xlabel = f"{ANGLE}    ({response.least_force:.4g} to {response.max_force:.4g} N)"
+    return Picture.of(Axes(title=title, xlabel=xlabel, ylabel="contact force  [N]"), marks)
 
 
 def acceleration_beside_cam(analysis: AtSpeed) -> Picture:
@@ -141,11 +142,12 @@ def force_over_speed(analysis: AtSpeed) -> Picture:
         Line("most", x, found.sweep.max_force, role="position", label="largest"),
         Line("least", x, gaps(least, kept), role="follower", label="least"),
         Line("formal", x, gaps(least, ~kept), role="follower", stroke="thin dotted"),
-        Line("now", [now, now], [low, high], role="ink", label=f"now {now:.4g} {unit}"),
-        Line("leaves", *(([leaves] * 2, [low, high]) if there else ([], [])), role="limit", label="leaves" * there),
+        Line("now", [now, now], [low, high], role="ink"),
+        Line("leaves", *(([leaves] * 2, [low, high]) if there else ([], [])), role="limit"),
     ]
-    title = "Force over speed" + (f": leaves at {leaves:.4g} {unit}" if there else "")
-    axes = Axes(title=title, xlabel=f"cam speed  [{unit}]", ylabel="contact force  [N]",
+    title = f"Leaves at {leaves:.4g} {unit}" if there else "Force over speed"
+    xlabel = f"cam speed  [{unit}]    (now {now:.4g}; thin lines: natural frequency / n)"
+    axes = Axes(title=title, xlabel=xlabel, ylabel="contact force  [N]",
                 xlim=(0.0, x[-1]), ylim=(low, high))  # fmt: skip
     return Picture.of(axes, marks)
 
@@ -161,9 +163,8 @@ def _hits(analysis: AtSpeed, high: float) -> Iterator[Mark]:
     """Where harmonics of the lift meet the natural frequency, by number."""
     found, force, (_, size) = analysis.over_speed, "N m" if analysis.rocks else "N", _speeds(analysis)
     places = np.array([hit.speed for hit in found.hits]) / size
-    for k, (at, hit) in enumerate(zip(places, found.hits, strict=True)):
-        label = "natural frequency / n" if k == 0 else ""
-        yield Line(f"hit {hit.number}", [at, at], [0.0, 0.9 * high], role="velocity", stroke="thin", label=label)
+    for at, hit in zip(places, found.hits, strict=True):
+        yield Line(f"hit {hit.number}", [at, at], [0.0, 0.9 * high], role="velocity", stroke="thin")
     for at, hit in [*zip(places, found.hits, strict=True)][:NUMBERED]:
         yield Text(f"number {hit.number}", at, 0.95 * high, f"{hit.number}", role="velocity", size=9.5)
     told = tuple(
