@@ -32,8 +32,8 @@ CLASH, SURGE, SLENDER = 0.15, 15.0, 5.26
 """Deflection left to the solid length over the largest one, at least; first natural frequency of the spring over that
 of the shaft, at least; free length over coil diameter above which a spring between flat ends may buckle."""
 INDICES = 4.0, 12.0
-ENDURED = 241 * MPa
-"""Alternating shear stress that unpeened springs endure for ever (Zimmerli)."""
+ENDURED, PEENED = 241 * MPa, 398 * MPa
+"""Alternating shear stress that springs endure for ever as they are wound, and shot-peened (Zimmerli)."""
 RATES, SPEEDS, SLOWEST = 64, 40, 0.5
 """At so many rates and speeds the preload is found that an elastic train needs, from such a share of the fastest."""
 SAMPLES = 360
@@ -136,7 +136,7 @@ def near_surge(spring: HelicalSpring, analysis: Any, around: int = 2) -> NearSur
     return NearSurge(ratio, number, sizes[number])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ReturnSprings:
     """Springs of a search, those that serve first and of these the weakest; arrays ``(p,)`` go with each other."""
 
@@ -162,6 +162,9 @@ class ReturnSprings:
     def __getitem__(self, i: int) -> HelicalSpring:
         return HelicalSpring(*(float(x[i]) for x in (self.wire, self.coil, self.active_coils, self.active_coils + 2)))
 
+    def __repr__(self) -> str:
+        return f"{int(self.serve.sum())} of {len(self)} springs serve, the weakest first"
+
     def _repr_html_(self) -> str:
         head = ("d [mm]", "D [mm]", "active coils", "preload [N]", "largest force [N]", "free length [mm]",
                 "stress [MPa]", "f_1 / f", "")  # fmt: skip
@@ -169,8 +172,7 @@ class ReturnSprings:
         does = self.duty.largest_force, self.duty.free_length / mm, self.duty.max_stress / MPa, self.surge_ratio
         cells = np.stack([*sizes, *does], axis=-1)[:SHOWN_ROWS]
         rows = [(*(f"{x:.4g}" for x in row), str(why)) for row, why in zip(cells, self.why_not, strict=False)]
-        count = int(self.serve.sum())
-        return table(head, rows, f"{count} of {len(self)} springs serve, the weakest first")
+        return table(head, rows, repr(self))
 
 
 def return_springs(
@@ -182,14 +184,16 @@ def return_springs(
     active_coils: ArrayLike = ACTIVE,
     max_outside: float | None = None,
     max_length: float | None = None,
+    peened: bool = False,
 ) -> ReturnSprings:
     """Real springs for a sliding follower: the weakest that holds it on the cam ``margin`` above its speed.
 
     All combinations of standard wires (see `camkit.data.spring_wires`), mean ``coils`` (m) and ``active_coils`` with an
     index from 4 to 12, two more coils closed and ground, each with the least preload that keeps contact, of a rigid
     follower with a third of the spring's mass or of an elastic ``train`` without it.  Of these serve those whose stress
-    is allowed and endured, whose surge is at least 15 times the shaft's frequency, that cannot buckle, and that are
-    within ``max_outside`` and ``max_length`` (m); ``why_not`` says what the others lack.
+    is allowed and endured (shot-peened: 398 MPa of alternating stress in place of 241), whose surge is at least 15
+    times the shaft's frequency, that cannot buckle, and that are within ``max_outside`` and ``max_length`` (m);
+    ``why_not`` says what the others lack.
 
     >>> from camkit import TranslatingFlatCam
     >>> from camkit.quantities import with_quantities
@@ -219,7 +223,8 @@ def return_springs(
     reasons = {
         "no preload keeps contact": ~np.isfinite(preload),
         "the stress at the largest force is too large": duty.max_stress > wires.shear[place],
-        "the alternating stress is not endured for ever": duty.alternating_stress > ENDURED,
+        "the alternating stress is not endured for ever": duty.alternating_stress > PEENED,
+        "the alternating stress is endured shot-peened only": (duty.alternating_stress > ENDURED) & (not peened),
         "its coils surge: f_1 below 15 shaft frequencies": ratio < SURGE,
         "it may buckle": duty.slenderness > SLENDER,
         "it is too wide": coil + d > (np.inf if max_outside is None else max_outside),

@@ -146,7 +146,7 @@ def force_over_speed(analysis: AtSpeed) -> Picture:
         Line("leaves", *(([leaves] * 2, [low, high]) if there else ([], [])), role="limit"),
     ]
     title = f"Leaves at {leaves:.4g} {unit}" if there else "Force over speed"
-    xlabel = f"cam speed  [{unit}]    (now {now:.4g}; thin lines: natural frequency / n)"
+    xlabel = f"cam speed  [{unit}]    (thin: natural frequency / n)"
     axes = Axes(title=title, xlabel=xlabel, ylabel="contact force  [N]",
                 xlim=(0.0, x[-1]), ylim=(low, high))  # fmt: skip
     return Picture.of(axes, marks)

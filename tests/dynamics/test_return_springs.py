@@ -3,7 +3,20 @@
 import numpy as np
 import pytest
 
-from camkit import OscillatingRollerCam, TranslatingRollerCam, mm, rpm
+from camkit import (
+    Cycloidal,
+    Dwell,
+    MotionProgram,
+    MPa,
+    OscillatingRollerCam,
+    Return,
+    Rise,
+    TranslatingRollerCam,
+    deg,
+    mm,
+    rpm,
+    with_quantities,
+)
 from camkit.cam import jump_speed
 from camkit.data.spring_wires import spring_wires
 from camkit.dynamics import (
@@ -122,3 +135,18 @@ def test_return_spring_refusals():
         HelicalSpring(4 * mm, 4 * mm)
     with pytest.raises(ValueError, match="it must be a design that can be analysed"):
         fitted(TranslatingRollerCam().motion, HelicalSpring(), 1.0)
+
+
+def test_a_long_stroke_at_speed_asks_for_shot_peened_springs():
+    """Stress and surge are bound to each other by the stroke: Zimmerli's 241 MPa are too little, 398 MPa are not."""
+    push, back = Rise(110 * deg, 40 * mm, Cycloidal()), Return(100 * deg, 40 * mm, Cycloidal())
+    cam = TranslatingRollerCam(MotionProgram((push, Dwell(20 * deg), back, Dwell(130 * deg))), 45 * mm, 12 * mm)
+    cam = with_quantities(cam.replace(groove=False), {"load.mass": 0.5, "load.speed": 650 * rpm})
+    wound, peened = (return_springs(cam.analyse(), margin=0.1, peened=way) for way in (False, True))
+    assert not wound.serve.any()
+    assert "the alternating stress is endured shot-peened only" in wound.why_not
+    serves = peened.duty.alternating_stress[peened.serve]
+    assert serves.size
+    assert (serves > 241 * MPa).all()
+    assert (serves <= 398 * MPa).all()
+    assert repr(peened) == f"{serves.size} of 6441 springs serve, the weakest first"
