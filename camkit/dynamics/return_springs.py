@@ -208,8 +208,6 @@ def return_springs(
     margin = one_number(margin, "the speed margin", "be a finite number of at least 0", lambda x: 0 <= x < 1e3)
     with applied("the search for return springs", analysis):
         refuse_population(analysis, "the cam")
-        if not analysis.acceleration_unit.startswith("mm"):
-            raise ValueError("the follower is on an arm; the springs of the search push a sliding one")
         held = _Held.of(analysis, LEAST if train else SAMPLES)
     wires = spring_wires(wire)
     place, coil, n = _grid(wires.diameter, coils, active_coils)
@@ -259,6 +257,8 @@ class _Held(NamedTuple):
 
     @classmethod
     def of(cls, analysis: Any, samples: int) -> _Held:
+        if not analysis.acceleration_unit.startswith("mm"):
+            raise ValueError("the follower is on an arm; the springs of the search push a sliding one")
         given = driven(analysis, samples)
         if not float(given.speed[0]) > 0:
             raise ValueError("the cam is at rest; a spring is found for one that turns")
