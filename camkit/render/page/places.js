@@ -4,12 +4,14 @@ import { many } from "./marks.js";
 import { unitOf } from "./numbers.js";
 
 const ALIKE = 5e-4; // a share: the curve is drawn at its samples, the measure is of the curve
+const SURE = 1e-4; // a share: by so much nearer, the place is another measure's, and this one's number is near it by chance
 const LONG = 1800; // ms for which a place is shown
 const TOLD = /\bat ([-\u2212]?\d+(?:\.\d+)?)(?: to ([-\u2212]?\d+(?:\.\d+)?))? (?:deg\b|°)/; // in a sentence
 const UNIT = /\[(.*?)\]/;
 
-/** @typedef {{chart: import("./picture.js").Chart, x: number, y: number, miss: number, inverse: boolean}} Place in units of
- * the axes; `miss`: how far the curve is from the number there, a share; `inverse`: the curve is of 1 over the number */
+/** @typedef {{chart: import("./picture.js").Chart, x: number, y: number, miss: number, size: number, inverse: boolean}} Place in units of
+ * the axes; `miss`: how far the curve is from the number there, a share; `size`: of the curve there, as the number would be, SI;
+ * `inverse`: the curve is of 1 over the number */
 
 export class Places {
   /** @param {import("./panel.js").Panel} panel */
@@ -33,13 +35,17 @@ export class Places {
         const outputs = chart.own ?? panel.outputs, x = many(mark.x, outputs), y = many(mark.y, outputs);
         const [highest, lowest, farthest] = extremes(y);
         for (const i of new Set([highest, lowest, farthest].filter((place) => place >= 0))) {
-          const found = y[i] * factor, of = (same(1) ? found : 1 / found) / value;
+          const size = same(1) ? y[i] * factor : 1 / (y[i] * factor), of = size / value;
           const miss = Math.abs((i === farthest ? Math.abs(of) : of) - 1); // of what is farthest from 0 its size is meant
-          if (miss < ALIKE && miss < (best?.miss ?? Infinity)) best = { chart, x: x[x.length === 1 ? 0 : i], y: y[i], miss, inverse: !same(1) };
+          if (miss < ALIKE && miss < (best?.miss ?? Infinity)) best = { chart, x: x[x.length === 1 ? 0 : i], y: y[i], miss, size, inverse: !same(1) };
         }
       }
     }
-    return best;
+    if (!best) return null;
+    const { size, miss } = best;
+    const others = panel.judged.some((/** @type {any} */ { m, now }) => // of its own number this is never so
+      m.unit === measure.unit && Math.abs(Math.abs(now / size) - 1) < miss - SURE);
+    return others ? null : best;
   }
 
   /** Turn to where a measure is what it is, and show that place on its curve. @param {any} measure
