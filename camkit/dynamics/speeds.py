@@ -100,7 +100,7 @@ def contact_loss_speed(analysis: Any, train: Train) -> Value:
     refuse_arguments(contact_loss_speed, locals())
     first = train.follow(analysis, samples=LEAST)
     rest = bottom(_at_rest(train, first.driven))
-    shape = (*rest.shape, 1)
+    shape = (*np.broadcast_shapes(rest.shape, first.train_force.shape[:-1]), 1)
     frequency, ratio = (
         np.broadcast_to(np.expand_dims(x, -1), shape) for x in (first.natural_frequency, first.damping_ratios.min(-1))
     )

@@ -226,8 +226,8 @@ def test_a_search_and_tolerances():
 
 @pytest.mark.filterwarnings("error")
 def test_a_cam_that_cannot_be_beside_others_is_nan_without_a_warning():
-    widths = {"contact.width": np.array([[14.0], [-1.0]]) * mm}
-    analysis = ElasticFollower(with_quantities(ValveCam(), widths), ElasticTrain(5e6, 100.0, 10.0)).analyse()
+    speeds = {"load.speed": np.array([[800.0], [-1.0]]) * rpm}
+    analysis = ElasticFollower(with_quantities(ValveCam(), speeds), ElasticTrain(5e6, 100.0, 10.0)).analyse()
     assert np.isnan(peak_force(analysis)).tolist() == [False, True]
 
 

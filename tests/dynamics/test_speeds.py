@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from camkit import rpm
+from camkit import rpm, with_quantities
 from camkit.cam import BarrelCam, jump_speed
-from camkit.dynamics import ElasticTrain, contact_loss_speed, simulate, speed_sweep
+from camkit.dynamics import ElasticTrain, HelicalSpring, contact_loss_speed, simulate, speed_sweep
 from train_cases import VALUES, A, flat, valve
 
 
@@ -91,6 +91,18 @@ def test_refusals():
         speed_sweep(flat().analyse(), A, 3.0)
     with pytest.raises(ValueError, match="the speed of the cam is -1; it must be a finite number above 0"):
         speed_sweep(flat().analyse(), A, [10.0, -1.0])
+
+
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [("damping", (100.0, 40.0)), ("ground_damping", (20.0, 60.0)), ("cam_side_mass", (0.0, 0.3)),
+     ("spring.surge_damping", (0.01, 0.05))],
+)  # fmt: skip
+def test_trains_that_differ_in_what_a_cam_at_rest_does_not_feel(path, values):
+    analysis, train = flat().analyse(), A.replace(spring=HelicalSpring())
+    many = contact_loss_speed(analysis, with_quantities(train, {path: np.array(values)[:, None]}))
+    alone = [contact_loss_speed(analysis, with_quantities(train, {path: value})) for value in values]
+    assert_allclose(many, alone, rtol=1e-6)
 
 
 def test_a_groove_lets_no_follower_leave_it():
