@@ -92,8 +92,8 @@ class Shown:
         if np.ndim(least) or not least < 0 or np.any(self.form_closed):
             return lost
         formal = (
-            f"the least contact force would be {least:.4g} N: steady motion is formal, the follower leaves the cam; "
-            "its flight shows what it does (simulate)"
+            f"the follower leaves the cam, its least contact force would be {least:.4g} N: what is called formal is of "
+            "one that stays on, the gap is of one that leaves"
         )
         return f"{lost}; {formal}" if lost else formal
 

@@ -71,7 +71,7 @@ def test_measures_of_the_cam_are_those_of_the_train():
 
 def test_a_motion_that_would_pull_is_called_formal():
     fast, slow = (ElasticFollower(flat(speed=n * rpm), A).analyse(91) for n in (800, 600))
-    assert fast.trouble.startswith("the least contact force would be -")
+    assert fast.trouble.startswith("the follower leaves the cam, its least contact force would be -")
     assert "the follower leaves the cam" in fast.trouble
     assert slow.trouble == ""
 
