@@ -35,7 +35,7 @@ export class Table {
     this.before = make("th", { scope: "col" });
     const [first, now, change] = ["measure", "now", "change"].map((words) => make("th", { scope: "col" }, words));
     this.table = make("table", {}, make("tr", {}, first, now, this.before, change));
-    this.element = make("div", { class: "camkit-numbers" }, this.table);
+    this.element = make("div", { class: "camkit-numbers camkit-measures" }, this.table);
     /** @type {{line: HTMLElement, cells: HTMLElement[], m: any}[]} */ this.lines = [];
   }
 
@@ -62,6 +62,6 @@ export class Table {
 function write(made, { m, now, then, change, kept }, units) {
   made.m = m;
   made.line.className = kept ? "" : "camkit-bad";
-  const words = [letters(m.name), told(m, now, units), told(m, then, units), Number.isFinite(change) ? `${format(Math.abs(change) < 0.05 ? 0 : change, "+.1f")} %` : ""];
+  const words = [letters(m.name), told(m, now, units), Number.isFinite(then) ? told(m, then, units) : "–", Number.isFinite(change) ? `${format(Math.abs(change) < 0.05 ? 0 : change, "+.1f")} %` : ""];
   words.forEach((word, k) => { if (made.cells[k].textContent !== word) made.cells[k].textContent = word; });
 }
