@@ -107,5 +107,5 @@ def film_ratio(analysis: Touched) -> Picture:
         marks.append(Line(key, x, gaps(y, there), label=label, **style))
         marks.append(Line(f"{key} thin", x, gaps(y, y < 1), role="trouble"))
         marks.append(Line(f"{key} none", x, gaps(0 * x, touches & np.isnan(curve.surfaces.film_ratio)), role="trouble"))
-    axes = Axes(title="Film of lubricant", xlabel=ANGLE, ylabel="λ = h / Rq")
+    axes = Axes(title="Film over roughness", xlabel=ANGLE, ylabel="λ = h / Rq")
     return Picture.of(axes, marks)
