@@ -177,9 +177,10 @@ class Motored:
 
     @property
     def offers(self) -> tuple[str | AnalysisCurve, ...]:
-        """What the cam offers, the work of its torque, the torque of the motor, and both over speeds."""
+        """The mechanism, then what concerns the drive: work, torque of the motor, both over speeds; then the cam."""
         torque = AnalysisCurve("motor_torque", "N m", "motor torque")
-        return (*super().offers, "turning", torque, "torque_sweep")  # type: ignore[misc]
+        mechanism, *curves = super().offers  # type: ignore[misc]
+        return (mechanism, "turning", torque, "torque_sweep", *curves)
 
     @property
     def motor_torque(self: Driven) -> Array:

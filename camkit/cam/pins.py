@@ -13,6 +13,7 @@ Source: Shigley's Mechanical Engineering Design (lubrication and journal bearing
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, make_dataclass
 from functools import cache
 from typing import Any, ClassVar, Protocol, cast
@@ -134,9 +135,15 @@ class CamWithPins(Design):
 def _pinned(kind: type[Pinned]) -> type:
     """The analysis of a cam of a ``kind``, with its pins."""
     own = {name: property(f) for name, f in OWN.items()}
-    own["offers"] = property(lambda a: (*kind.offers.__get__(a, kind), *CURVES))
+    own["offers"] = property(lambda a: _after_mechanism(kind.offers.__get__(a, kind)))
     more = [("pins", CamWithPins, field(kw_only=True, repr=False))]
     return make_dataclass(f"{kind.__name__}WithPins", more, bases=(kind,), frozen=True, namespace=own)
+
+
+def _after_mechanism(offered: Sequence[str | AnalysisCurve]) -> tuple[str | AnalysisCurve, ...]:
+    """The curves of the pins where they are seen first: beside the mechanism."""
+    mechanism, *curves = offered
+    return (mechanism, *CURVES, *curves)
 
 
 def _size(force: Array) -> Array:

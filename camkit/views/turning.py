@@ -38,8 +38,7 @@ def torque_and_work(analysis: Turned) -> Picture:
     """The torque on the cam over the turn, its mean and rms; the areas about the mean are the work for a flywheel."""
     shown = analysis.turning
     x, M, mean = shown.cam_angle / deg, shown.torque, shown.mean + 0.0 * shown.torque
-    told = f" mean {text_of(shown.mean, '.4g')}, rms {text_of(shown.rms, '.4g')} N m, "
-    work = f"surplus work {text_of(shown.swing, '.4g')} J"
+    told = f"rms {text_of(shown.rms, '.4g')} N m, surplus work {text_of(shown.swing, '.4g')} J"
     return Picture.of(
         Axes(title="Torque and work", xlabel=ANGLE, ylabel="M  [N m]"),
         Area("surplus", x, mean, np.maximum(M, mean), role="limit", opacity=0.15),
@@ -47,7 +46,7 @@ def torque_and_work(analysis: Turned) -> Picture:
         Line("mean", x[[0, -1]], mean[[0, -1]], stroke="dashed", label="mean"),
         Line("rms", x[[0, -1]], shown.rms + 0.0 * mean[[0, -1]], stroke="thin", label="rms"),
         Line("torque", x, M, role="position", label="cam torque"),
-        Text("numbers", x[0], np.min(M, axis=-1), told + work, anchor="left bottom", size=9.0, boxed=True),
+        Text("numbers", x[-1], np.max(M, axis=-1), told, anchor="right top", size=9.0, boxed=True),
     )
 
 
