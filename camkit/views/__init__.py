@@ -26,6 +26,7 @@ from .shafts import drive
 from .sizes import plane_of_sizes, section, utilisation
 from .space import ball_joints, linkage_in_space, output_angle, pressure_angles, velocity_ratio
 from .speeds import force_beside_plain, vibration_beside_plain
+from .surfaces import entrainment, film_ratio
 from .sweep import limit_sweep, sweep_view
 from .tables import TABLE_VIEWS
 from .tolerances import band, cloud, deviation, sobol_bars
@@ -78,7 +79,9 @@ __all__ = [
     "deviation_over",
     "drive",
     "efficiency",
+    "entrainment",
     "factor_errors",
+    "film_ratio",
     "force_beside_plain",
     "force_beside_rigid",
     "force_over_speed",
