@@ -59,13 +59,13 @@ class SurfaceStrength(Design):
     def life(self, pressure: Value) -> Array:
         """Loadings with a Hertz ``pressure`` (Pa) before the surface pits; ``inf`` for none."""
         with np.errstate(over="ignore"):
-            return 10 ** self.log_life(numbers(pressure, "the pressures"))
+            return 10 ** self.log_life(pressure)
 
     def log_life(self, pressure: Value) -> Array:
         """``lg N``: what a search can compare, however long the life is."""
         S, cycles, e = self.line
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.log10(cycles) + e * (np.log10(S) - np.log10(pressure))
+            return np.log10(cycles) + e * (np.log10(S) - np.log10(numbers(pressure, "the pressures")))
 
     def allowable(self, cycles: Value) -> Array:
         """Pressure that the surface bears so many times, Pa."""
@@ -127,7 +127,7 @@ class RollerBearing(Design):
         ``L10 = 1e6 (C / P)^(10/3)``; ``nan`` where the roller leaves the cam, and under a flat face.
         """
         with applied("the life of the bearing", analysis), np.errstate(all="ignore"):
-            borne = analysis.surfaces.bearing_load if load is None else load
+            borne = analysis.surfaces.bearing_load if load is None else numbers(load, "the load of the bearing")[()]
             own = 1e6 * (number(self.rating) / borne) ** ROLLERS
             cam = own / analysis.surfaces.roller_turns
             hour = 3600 * np.abs(number(analysis.surfaces.turning_speed)) / (2 * np.pi)  # in turns

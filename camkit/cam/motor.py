@@ -23,8 +23,8 @@ import numpy as np
 
 from ..extrema import Extreme, raised
 from ..quantities import Design, Measure, PeakMeasure, choice, quantity
-from ..quantities.design import refuse_unanalysable, with_more
-from ..quantities.kinds import numbers
+from ..quantities.design import refuse_no_cam, with_more
+from ..quantities.kinds import numbers, shown
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
 from .drive import Turned, cam_of, mean_size, running_integral, speed_of, turning_of
@@ -155,12 +155,14 @@ class DrivenCam(Design):
     name: ClassVar[str] = "cam with a motor"
 
     def __post_init__(self) -> None:
-        refuse_unanalysable(self.cam, "the cam")
+        refuse_no_cam(self.cam, DrivenCam)
         super().__post_init__()
 
     def analyse(self, n: int = 721) -> Any:
         """The cam at ``n`` cam angles, and its motor."""
         alone: Any = self.cam.analyse(n)  # type: ignore[attr-defined]
+        if not hasattr(type(alone), "turning"):
+            raise ValueError(f"the cam is {shown(self.cam)}; it must be one that a torque turns")
         return with_more(alone, _driven, motor=self.motor)
 
 

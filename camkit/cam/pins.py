@@ -21,7 +21,7 @@ from typing import Any, ClassVar, Protocol, cast
 import numpy as np
 
 from ..quantities import Analysable, Design, Measure, quantity, unless
-from ..quantities.design import refuse_unanalysable, with_more
+from ..quantities.design import refuse_no_cam, with_more
 from ..quantities.kinds import shown
 from ..quantities.types import Array, Value
 from ..study import AnalysisCurve
@@ -115,7 +115,7 @@ class CamWithPins(Design):
     name: ClassVar[str] = "cam with its pins"
 
     def __post_init__(self) -> None:
-        refuse_unanalysable(self.cam, "the cam")
+        refuse_no_cam(self.cam, CamWithPins)
         super().__post_init__()
 
     def analyse(self, n: int = 721) -> Any:

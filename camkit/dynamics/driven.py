@@ -15,6 +15,8 @@ from ..quantities.applied import applied
 from ..quantities.types import Array, Value
 from ..units import in_unit
 
+ROUND = 2.0
+"""By how much more than beside it values may bend at a sample, else they have a corner there."""
 MARGIN = 5
 """So many cam angles show a step at either end of a dwell."""
 
@@ -159,8 +161,26 @@ def top(values: Array) -> Array:
     >>> print(f"{top(np.cos(phi - 0.1)):.5f}")
     0.99993
     """
+    return _raised(values, np.array(True)).max(-1)
+
+
+def top_with_corners(values: Array) -> Array:
+    """The same of values that may have corners: where they bend at one sample alone, that is the top.
+
+    >>> phi = TURN * np.arange(24) / 24
+    >>> corner = 1 + np.minimum(3 * np.sin(phi), -np.sin(phi))
+    >>> print(f"{top(corner):.3f} {top_with_corners(corner):.3f}")
+    1.032 1.000
+    """
+    bend = 2 * values - np.roll(values, 1, axis=-1) - np.roll(values, -1, axis=-1)
+    beside = np.maximum(abs(np.roll(bend, 1, axis=-1)), abs(np.roll(bend, -1, axis=-1)))
+    return _raised(values, bend <= ROUND * beside).max(-1)
+
+
+def _raised(values: Array, inner: Array) -> Array:
     around = np.concatenate([values[..., -1:], values, values[..., :1]], axis=-1)
-    return raised(around, np.ones(around.shape[-1], dtype=bool))[..., 1:-1].max(-1)
+    inside = np.concatenate([inner[..., -1:], inner, inner[..., :1]], axis=-1) if inner.ndim else inner
+    return raised(around, inside)[..., 1:-1]
 
 
 def bottom(values: Array) -> Array:

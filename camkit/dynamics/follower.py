@@ -20,7 +20,7 @@ from ..motion import MotionProgram
 from ..motion.closing import TURN
 from ..motion.resolution import Resolution, resolve
 from ..quantities import Analysable, Conversion, Design, LeastMeasure, Measure, PeakMeasure, choice
-from ..quantities.design import refuse_unanalysable, with_more
+from ..quantities.design import refuse_no_cam, with_more
 from ..quantities.kinds import refuse_arguments, whole
 from ..quantities.types import Array, Value
 from ..study import Study
@@ -82,7 +82,7 @@ class ElasticFollower(Design):
     name: ClassVar[str] = "cam with an elastic train"
 
     def __post_init__(self) -> None:
-        refuse_unanalysable(self.cam, "the cam")
+        refuse_no_cam(self.cam, ElasticFollower)
         whole(self.samples, "the number of samples of a turn", 8, MOST)
         super().__post_init__()
 

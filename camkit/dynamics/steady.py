@@ -25,7 +25,7 @@ from ..quantities import certain, counted, unless
 from ..quantities.kinds import a_number, refuse_unequal
 from ..quantities.types import Array, Value
 from ..units import in_unit
-from .driven import Analysed, Driven, bottom, driven, top
+from .driven import Analysed, Driven, bottom, driven, top, top_with_corners
 from .trains import Passed, Train, natural_modes, passed
 
 LEAST, ALONE, MOST = 720, 11520, 46080
@@ -296,7 +296,7 @@ class Response:
     @property
     def dynamic_factor(self) -> Value:
         """``K_d``: the largest contact force over that of a rigid train, wherever in the turn either stands."""
-        return self.max_force / top(self.rigid_contact_force)
+        return self.max_force / top_with_corners(self.rigid_contact_force)
 
     @property
     def stiffness_spread(self) -> tuple[Value, Value]:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol, Self, TypeVar, runtime_c
 import numpy as np
 
 from .declaration import Choice, Declared, Quantity, declarations
-from .kinds import columns, refuse_kinds, refuse_lengths, shown
+from .kinds import columns, kind_words, refuse_kinds, refuse_lengths, shown
 from .markup import Html, html, letters, table, words
 from .measure import Measure
 from .tree import a_design, choices_of, declared_in, label, value_of, with_quantities
@@ -42,6 +42,17 @@ def refuse_design(design: object, what: str) -> None:
     """``ValueError`` in a sentence for what is not one design: a class of designs, a population, or something else."""
     refuse_unanalysable(design, what)
     refuse_population(design, what)
+
+
+def refuse_no_cam(cam: object, machine: type) -> None:
+    """``ValueError`` in a sentence for the cam of a kind of ``machine`` that is none, or such a machine already."""
+    refuse_unanalysable(cam, "the cam")
+    inside: object = cam
+    while inside is not None:
+        if isinstance(inside, machine):
+            kind = kind_words(machine, article=True)
+            raise ValueError(f"the cam has all that {kind} has already; it must be a cam without that")
+        inside = getattr(inside, "cam", None)
 
 
 def refuse_population(thing: object, what: str) -> None:

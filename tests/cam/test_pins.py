@@ -197,6 +197,8 @@ def test_a_population_of_loads_is_each_of_its_members(cam, scale):
 
 
 def test_pins_that_cannot_be():
+    with pytest.raises(ValueError, match="the cam has all that a cam with pins has already"):
+        CamWithPins(ElasticFollower(CamWithPins(arm())))
     with pytest.raises(ValueError, match="the roller's pin is 6 mm thick, the roller 6 mm; the pin must be thinner"):
         CamWithPins(arm(roller_radius=3 * mm)).analyse()
     with pytest.raises(ValueError, match="the cam is 3; it must be a design that can be analysed, such as a cam"):

@@ -32,6 +32,7 @@ from camkit.cam import (
 )
 from camkit.dynamics import ElasticFollower
 from camkit.files import Session, from_json, to_json
+from camkit.linkage import Driveline
 from camkit.machines import CamLever
 from camkit.motion import Cycloidal, HalfHarmonicStart, ModifiedTrapezoid
 from camkit.quantities import measures_of, quantities_of
@@ -223,6 +224,10 @@ def test_views():
 def test_drive_refusals():
     with pytest.raises(ValueError, match="the cam is 3; it must be a design that can be analysed, such as a cam"):
         DrivenCam(3)
+    with pytest.raises(ValueError, match="the cam has all that a driven cam has already"):
+        DrivenCam(ElasticFollower(DRIVEN.replace(cam=flat())))
+    with pytest.raises(ValueError, match="the cam is a Driveline; it must be one that a torque turns"):
+        DrivenCam(Driveline()).analyse()
     with pytest.raises(ValueError, match=r"efficiency .*is 120 %; it must be .* at most 100 %"):
         Motor(efficiency=1.2)
     with pytest.raises(ValueError, match=r"ratio .*is 0"):

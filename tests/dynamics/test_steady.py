@@ -147,6 +147,13 @@ def test_a_stiff_train_is_rigid():
     assert away[1] < away[0] / 8
 
 
+def test_the_factor_of_a_force_that_is_largest_at_a_corner():
+    """The spring alone is most compressed where the dwell begins: there the rigid force is known, 50 + 5e3 * 0.02 N."""
+    slow = ElasticTrain(8e5, 100.0, 20.0).follow(flat(speed=300 * rpm, mass=0.7, preload=50.0).analyse(), samples=720)
+    assert slow.rigid_contact_force.max() == pytest.approx(150)
+    assert slow.dynamic_factor == pytest.approx(slow.max_force / 150, rel=1e-12)
+
+
 def test_a_slow_cam_moves_a_train_as_if_it_stood_still():
     response = A.follow(flat(speed=5 * rpm).analyse())
     s, v = response.driven.travel, 5 * rpm * response.driven.velocity
