@@ -146,7 +146,7 @@ def measures_of(design: object) -> tuple[Measure, ...]:
 
     >>> from camkit.cam import ContactPair, TranslatingRollerCam
     >>> [measure.name for measure in measures_of(TranslatingRollerCam(contact=ContactPair()))][-2:]
-    ['wear index', 'peak contact pressure']
+    ['surplus work of the cam torque', 'peak contact pressure']
     """
     return (*getattr(type(design), "measures", ()), *_measures_below(a_design(design)))
 

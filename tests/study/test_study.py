@@ -17,7 +17,7 @@ from camkit.linkage.measures import swing
 from camkit.linkage.rssr import RSSR
 from camkit.linkage.universal_joint import fluctuation
 from camkit.motion import LAWS, Cycloidal, ShapedLaw
-from camkit.quantities import Design, Quantity, declarations, quantity, value_of, with_quantities
+from camkit.quantities import Design, Quantity, declared_in, quantity, value_of, with_quantities
 from camkit.study import weighted
 from camkit.study.weighted import WeightedSum
 from camkit.units import mm
@@ -210,9 +210,8 @@ DESIGNS = [
 def test_every_design_is_analysed_at_a_number_of_positions(kind) -> None:
     """What a study asks of a design: its measures are one number each, those of two designs two."""
     design = kind()
-    name = next(k for k, q in declarations(design).items() if isinstance(q, Quantity))
-    value = getattr(design, name)
-    many = design.replace(**{name: np.array([[value], [value]])})
+    path = next(path for path, q in declared_in(design).items() if isinstance(q, Quantity))
+    many = with_quantities(design, {path: np.array([[value_of(design, path)]] * 2)})
     one, two = design.analyse(61), many.analyse(61)
     for measure in kind.measures:
         assert np.size(measure(one)) == 1, measure.name
