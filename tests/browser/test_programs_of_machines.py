@@ -18,9 +18,9 @@ LAST_DIGITS = 16
 """A number that the last digit of an input moves by more than a share is no better known: by so many of these."""
 
 
-def inputs_of(program, design, position):
+def inputs_of(program, design, position, seed=3):
     """Designs beside this one; and this one without some things that may be 0, as a roller is then a knife edge."""
-    beside, declared, start = designs_beside(design, ROWS, 3), quantities_of(design), start_of(design) | position
+    beside, declared, start = designs_beside(design, ROWS, seed), quantities_of(design), start_of(design) | position
     rng = np.random.default_rng(3)
     for key, value in position.items():
         beside[key] = value + 0.3 * rng.normal(size=(ROWS, 1))
@@ -35,6 +35,11 @@ def replayed(program, inputs):
     names = [name for name in program.outputs if isinstance(name, str)]
     found = [program(dict(zip(program.inputs, row, strict=True))) for row in inputs]
     return {name: np.array([np.ravel(one[name]) for one in found], dtype=float) for name in names}
+
+
+def possible(outputs):
+    """How many designs give more than half of their numbers."""
+    return sum(np.isfinite(np.concatenate([*outputs.values()], axis=-1)).mean(-1) > 0.5)
 
 
 def test_every_law_and_every_option_of_the_short_menus_is_tried():
@@ -52,9 +57,12 @@ def test_a_machine_is_in_the_page_what_it_is_in_numpy(page, name):  # noqa: F811
     program = record(function, DESIGNS[name], position)
     inputs = inputs_of(program, DESIGNS[name], position)
     expected = replayed(program, inputs)
+    if possible(expected) < 3:  # such as a polynomial, whose exponents have to grow
+        inputs = inputs_of(program, DESIGNS[name], position, seed=7)
+        expected = replayed(program, inputs)
+    assert possible(expected) >= 3
     (found,) = replies(page, [[numbers(program), inputs.tolist()]])
     places, moved = list(program.outputs), None
-    assert sum(np.isfinite(np.concatenate([*expected.values()], axis=-1)).mean(-1) > 0.5) >= 3
     for key, values in expected.items():
         of_page = np.array([one[places.index(key)] for one in found], dtype=float).reshape(values.shape)
         known = np.isfinite(values)
