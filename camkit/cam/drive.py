@@ -87,8 +87,18 @@ def turning_of(analysis: Turned, name: str) -> Turning:
     work, square = (running_integral(angle, curve, pieces) for curve in (torque, torque**2))
     mean = work[..., -1] / span
     surplus = work - np.expand_dims(mean, -1) * (angle - angle[..., :1])
-    most, least = (raised(way * surplus, pieces.inner).max(-1) for way in (1, -1))
+    above = torque - np.expand_dims(mean, -1)
+    most, least = (top_by_slope(angle, way * surplus, way * above) for way in (1, -1))
     return Turning(angle, torque, mean, np.sqrt(square[..., -1] / span) + more, surplus, most + least + more)
+
+
+def top_by_slope(angle: Array, values: Array, slope: Array) -> Array:
+    """The largest of ``values`` over the ``angle``, the tops between two where their ``slope`` falls through 0."""
+    here, there, step = slope[..., :-1], slope[..., 1:], np.diff(angle, axis=-1)
+    fall = np.where(here > there, here - there, 1.0)
+    before, after = (values[..., k] + step * slope[..., k] ** 2 / (2 * fall) for k in (np.s_[:-1], np.s_[1:]))
+    top = np.where((here > 0) & (there < 0), (before * -there + after * here) / fall, -np.inf)
+    return np.maximum(values.max(-1), top.max(-1))
 
 
 def mean_size(analysis: Turned) -> Value:
