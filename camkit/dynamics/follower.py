@@ -70,6 +70,12 @@ class ElasticFollower(Design):
     and tolerances: quantities of both have paths, ``cam.motion.rise.angle`` and ``train.stiffness``.  The ``response``
     of the analysis has what a train has besides.
 
+    >>> from camkit import SlideLoad, TranslatingRollerCam, rpm
+    >>> load = SlideLoad(mass=2.0, speed=600 * rpm, preload=300.0)
+    >>> at_speed = ElasticFollower(TranslatingRollerCam(groove=False, load=load)).analyse()
+    >>> print(f"dynamic factor {dynamic_factor(at_speed):.3f}, leaves at {contact_loss(at_speed) / rpm:.0f} rpm")
+    dynamic factor 1.112, leaves at 698 rpm
+
     Raises ``ValueError`` for what is no cam; `analyse` does as `Train.follow` does.
     """
 
