@@ -113,9 +113,9 @@ class ElasticArm(Train):
     name: ClassVar[str] = "one inertia, on an arm"
 
 
-STIFFNESS = Quantity("k", 800, 10, 20000, "N/mm", "of a spring of the train")
-DAMPING = Quantity("c", 100, 0, 1000, "N s/m", "of a spring of the train", at_least=0)
-MASS = Quantity("m", 0.5, 0.01, 10, "kg", "between two springs of the train")
+STIFFNESS = Quantity("k", 800, 10, 20000, "N/mm", "of a spring of the train", name="train stiffness")
+DAMPING = Quantity("c", 100, 0, 1000, "N s/m", "of a spring of the train", at_least=0, name="train damping")
+MASS = Quantity("m", 0.5, 0.01, 10, "kg", "between two springs of the train", name="train mass")
 
 
 @dataclass(frozen=True)

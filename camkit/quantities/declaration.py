@@ -298,14 +298,14 @@ def row(declared: Callable[[int], tuple[str, Quantity]], **default: Any) -> Any:
 
 
 def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quantity]]:
-    """For a `row` whose numbers are alike: ``c0``, ``c1`` and so on.
+    """For a `row` whose numbers are alike: ``c0``, ``c1`` and so on; with a name, that and its symbol count from 1.
 
     >>> numbered("c", Quantity("c", 0, -1, 1, "", "shapes the law", above=None))(1)[1].symbol
     'c_1'
     """
-    letter, called = declared.symbol, declared.name
+    letter, called, k = declared.symbol, declared.name, bool(declared.name)
     return cache(
-        lambda i: (f"{name}{i}", replace(declared, symbol=f"{letter}_{i}", name=called and f"{called} {i + 1}"))
+        lambda i: (f"{name}{i}", replace(declared, symbol=f"{letter}_{i + k}", name=called and f"{called} {i + 1}"))
     )
 
 
