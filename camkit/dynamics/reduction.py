@@ -12,7 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from ..quantities.kinds import a_number, listed, refuse_arguments, refuse_kinds, shown
+from ..quantities.markup import table
 from ..quantities.types import Value
 
 
@@ -78,6 +81,15 @@ class Reduced(NamedTuple):
     """``1 / k = sum 1 / (k_i i^2)``, N/m, or N m/rad of an arm; ``inf`` where every part is rigid."""
     rows: tuple[tuple[str, Value, Value], ...]
     """Of each part its name, its mass and its share of the compliance."""
+
+    def _repr_html_(self) -> str:
+        head = ("part", "mass at the follower [kg, kg m²]", "share of what gives [%]")
+        rows = [(name, _cell(mass), _cell(100 * share)) for name, mass, share in self.rows]
+        return table(head, rows, f"together {_cell(self.mass)}, {_cell(self.stiffness)} N/m or N m/rad")
+
+
+def _cell(value: Value) -> str:
+    return shown(value) if np.ndim(value) else f"{value:.4g}"
 
 
 def reduced(parts: Sequence[Part]) -> Reduced:

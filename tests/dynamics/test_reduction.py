@@ -28,6 +28,12 @@ def test_kinetic_energy_and_deflection_are_those_of_the_parts():
     assert_allclose([share for *_, share in found.rows], expected, rtol=1e-12)
 
 
+def test_the_table_of_parts_escapes_their_names():
+    text = reduced([Part("<b>rod</b>", 0.05, 8e6), spring_part(0.06)])._repr_html_()
+    assert "<td>&lt;b&gt;rod&lt;/b&gt;</td><td>0.05</td><td>100</td>" in text
+    assert "together 0.07, 8e+06 N/m" in text
+
+
 def test_rigid_parts_have_no_end_of_stiffness():
     assert reduced([Part("slide", 2.0)]).stiffness == np.inf
 
