@@ -10,6 +10,7 @@ Source: Norton, Cam Design and Manufacturing Handbook (dynamics of cam systems);
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -34,16 +35,20 @@ def spring_choice() -> Any:
     return choice("S", SPRINGS[0], SPRINGS, "return spring; its rate is the load's")
 
 
-class Train(Design):
+class Train(Design, ABC):
     """What every elastic train shares: how it follows a cam; one mass behind one spring, unless there are more."""
 
-    stiffness: Value | tuple[Value, ...]
     damping: Value | tuple[Value, ...]
     masses: tuple[Value, ...] = ()
     """Between the springs, kg or kg m^2; what is left of the load's mass is behind the last spring."""
     ground_damping: Value
     cam_side_mass: Value
     spring: MasslessSpring | HelicalSpring
+
+    @property
+    @abstractmethod
+    def stiffness(self) -> Value | tuple[Value, ...]:
+        """Of each spring, N/m, of an arm N m/rad."""
 
     @property
     def springs(self) -> Sequence[tuple[Value, Value]]:
@@ -133,9 +138,9 @@ class TrainChain(Train):
     springs and one mass less.
     """
 
-    stiffness: tuple[Value, ...] = row(numbered("stiffness", STIFFNESS), default=(2e6, 1.2e6))
-    damping: tuple[Value, ...] = row(numbered("damping", DAMPING), default=(60.0, 50.0))
-    masses: tuple[Value, ...] = row(numbered("mass", MASS), default=(0.1,))
+    stiffness: tuple[Value, ...] = row(numbered("stiffness", STIFFNESS, 1), default=(2e6, 1.2e6))
+    damping: tuple[Value, ...] = row(numbered("damping", DAMPING, 1), default=(60.0, 50.0))
+    masses: tuple[Value, ...] = row(numbered("mass", MASS, 1), default=(0.1,))
     ground_damping: float = quantity(
         "c_s", 0, 0, 200, "N s/m", "between load and frame", at_least=0, name="damping to the frame"
     )

@@ -86,9 +86,9 @@ class Driveline(Design):
     joints.
     """
 
-    angles: tuple[Value, ...] = row(numbered("angle", ANGLE), default=(10 * deg, 8 * deg, 6 * deg))
-    phases: tuple[Value, ...] = row(numbered("phase", PHASE), default=())
-    planes: tuple[Value, ...] = row(numbered("plane", PLANE), default=())
+    angles: tuple[Value, ...] = row(numbered("angle", ANGLE, 1), default=(10 * deg, 8 * deg, 6 * deg))
+    phases: tuple[Value, ...] = row(numbered("phase", PHASE, 1), default=())
+    planes: tuple[Value, ...] = row(numbered("plane", PLANE, 1), default=())
     forks: int = choice("F", 0, FORKS, "forks of the shafts between the joints")
     speed: float = quantity("n", 500, 0, 3000, "rpm", "input shaft", at_least=0)
     torque: float = quantity("T", 100, 0, 1000, "N m", "in the input shaft", above=None)

@@ -297,15 +297,15 @@ def row(declared: Callable[[int], tuple[str, Quantity]], **default: Any) -> Any:
     return field(metadata={"row": declared}, **default)
 
 
-def numbered(name: str, declared: Quantity) -> Callable[[int], tuple[str, Quantity]]:
-    """For a `row` whose numbers are alike: ``c0``, ``c1`` and so on; with a name, that and its symbol count from 1.
+def numbered(name: str, declared: Quantity, first: int = 0) -> Callable[[int], tuple[str, Quantity]]:
+    """For a `row` whose numbers are alike: ``c0``, ``c1`` and so on; symbols count from ``first``.
 
     >>> numbered("c", Quantity("c", 0, -1, 1, "", "shapes the law", above=None))(1)[1].symbol
     'c_1'
     """
-    letter, called, k = declared.symbol, declared.name, bool(declared.name)
+    letter, called = declared.symbol, declared.name
     return cache(
-        lambda i: (f"{name}{i}", replace(declared, symbol=f"{letter}_{i + k}", name=called and f"{called} {i + 1}"))
+        lambda i: (f"{name}{i}", replace(declared, symbol=f"{letter}_{i + first}", name=called and f"{called} {i + 1}"))
     )
 
 
