@@ -5,7 +5,7 @@ by.  A `HelicalSpring` says what that spring is made of; `fitted` gives a cam th
 agree, and a train's ``spring`` adds how its coils surge.
 
 Source: Shigley, Mechanical Engineering Design (helical compression springs: clash allowance 15 %, index 4 to 12,
-surge at 15 to 20 times the frequency of the machine, buckling, Zimmerli's endurance strength).
+surge at 15 to 20 times the frequency of the machine, buckling, Zimmerli's endurance strength), cited from memory.
 """
 
 from __future__ import annotations
