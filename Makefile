@@ -32,7 +32,15 @@ UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/t
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
 
-.PHONY: help lab app test lint bench notebooks constraints clean
+# What needs large tools is tested apart, in tests/tools/<tool>, each in a small environment of its own; NEEDS_<tool> is
+# what is installed for it.
+TOOLS := $(notdir $(wildcard tests/tools/*))
+NEEDS_step := .[step]
+NEEDS_print := .[print]
+NEEDS_report := .[report]
+NEEDS_gcode := .
+
+.PHONY: help lab app test test-tools lint bench notebooks constraints clean
 
 help:
 	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
@@ -40,6 +48,7 @@ help:
 	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila);"
 	@echo "                for this machine alone unless HOST=... names another address to listen on"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
+	@echo "make test-tools run the checks that need large tools: solids, G-code, reports (each in .tools/<tool>)"
 	@echo "make lint       run the quick checks only: style, types, imports"
 	@echo "make bench      measure speed"
 	@echo "make notebooks  run every notebook again and store its outputs"
@@ -69,6 +78,19 @@ test: lint
 	$(NOTEBOOKS) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
 	$(PYTEST) $(IN_ORDER) -m browser tests/browser
+
+# Solids, G-code and reports, read by the programs that a workshop reads them with.
+test-tools: $(TOOLS:%=.tools/%/.ready)
+	@for tool in $(TOOLS); do \
+	    echo "== files for the workshop: $$tool (pytest in .tools/$$tool)"; \
+	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider tests/tools/$$tool || exit 1; \
+	done
+
+.tools/%/.ready: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "Installing what the checks of $* need into .tools/$*; the first time takes a minute or two."
+	$(BIN)/python -m venv .tools/$*
+	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '$(NEEDS_$*)' pytest
+	@touch $@
 
 lint: $(VENV)/.test
 	@echo "== errors and habits (ruff check)"

@@ -8,12 +8,16 @@ from .motions import read_motion
 from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
+from .workshop import Blank, TitleBlock, Written
 
 __all__ = [
+    "Blank",
     "Decision",
     "Read",
     "Session",
     "TableQuestion",
+    "TitleBlock",
+    "Written",
     "electronic_cam_csv",
     "from_json",
     "motion_csv",

@@ -1,0 +1,74 @@
+"""What is exported: the whole of one cam, or both cams of a pair, given as a design or as its analysis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ...quantities import words
+from ...quantities.kinds import columns, shown
+
+
+@dataclass(frozen=True)
+class Subject:
+    """One cam that is to be made: its name among its machine's (empty if it is the only one), design and analysis."""
+
+    name: str
+    design: Any
+    """The whole machine."""
+    analysis: Any
+    """Of this cam, all of it."""
+
+    @property
+    def kind(self) -> str:
+        """The name of the design's class."""
+        return type(self.design).__name__
+
+
+def subjects(given: Any) -> tuple[Subject, ...]:
+    """The cams of a design, or of an analysis of it; ``ValueError`` in a sentence for what has no profile.
+
+    >>> from camkit import TranslatingRollerCam, UniversalJointShaft
+    >>> [subject.kind for subject in subjects(TranslatingRollerCam())]
+    ['TranslatingRollerCam']
+    >>> subjects(UniversalJointShaft())
+    Traceback (most recent call last):
+        ...
+    ValueError: UniversalJointShaft has no cam profile; tables, a report and its JSON file can be written of it
+    """
+    design, analysis = design_of(given), analysis_of(given)
+    if not hasattr(analysis, "profile"):
+        parts = {name: part for name, part in getattr(analysis, "curves", {}).items() if hasattr(part, "profile")}
+        if not parts:
+            kind = type(design).__name__
+            raise ValueError(f"{kind} has no cam profile; tables, a report and its JSON file can be written of it")
+        return tuple(Subject(f"{words(name)} cam", design, part) for name, part in parts.items())
+    analysis = getattr(analysis, "whole", analysis)
+    return (Subject("", design, analysis),)
+
+
+def analysis_of(given: Any) -> Any:
+    """The analysis of one design, given itself, as the design, or as the panel that shows it."""
+    design = design_of(given)
+    if columns(design):
+        raise ValueError(f"given is {shown(design)}, a population; one design can be exported")
+    if given is design:
+        return design.analyse()
+    return getattr(given, "analysis", given)
+
+
+def design_of(given: Any) -> Any:
+    """The design of an analysis, or of a panel; a design as it is."""
+    if isinstance(given, type):
+        raise ValueError(f"given is {shown(given)}; one design or its analysis can be exported")
+    if hasattr(given, "analyse"):
+        return given
+    held = (
+        (getattr(given, "machine", None), getattr(given, "design", None), *vars(given).values())
+        if hasattr(given, "__dict__")
+        else ()
+    )
+    for part in held:
+        if hasattr(part, "analyse") and not isinstance(part, type):
+            return part
+    raise ValueError(f"given is {shown(given)}; a design or its analysis can be exported")

@@ -1,0 +1,66 @@
+"""What an export is: bytes, what is in them, and how far they lie from the exact design when they are read back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ...quantities.applied import a_path
+from ...search.checkpoint import remove_parts, write_whole
+from ...units import inch, mm, um
+
+LENGTHS = {"mm": mm, "in": inch}
+"""The units in which a workshop works, and what each is worth, m."""
+
+
+@dataclass(frozen=True)
+class Made:
+    """A file that is not on a disk yet."""
+
+    data: bytes = field(repr=False)
+    what: str
+    """What is in it, in a few words: ``"96 arcs on CAM"``."""
+    deviation: float = np.nan
+    """The largest distance (m) from the exact design, found on reading the file back; ``nan``: it has no geometry."""
+    remarks: tuple[str, ...] = ()
+    """What whoever uses it should know, in sentences."""
+
+    def __str__(self) -> str:
+        away = "" if np.isnan(self.deviation) else f"; read back, at most {self.deviation / um:.2g} um off"
+        return f"{self.what}{away}"
+
+
+@dataclass(frozen=True)
+class Written:
+    """What was written: its path, what is in it, the largest deviation (m) found on reading it back, and remarks."""
+
+    path: Path
+    what: str
+    deviation: float = np.nan
+    remarks: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        said = f"{self.path.name}: {Made(b'', self.what, self.deviation)}"
+        return "\n".join((said, *self.remarks))
+
+
+def written(made: Made, path: str | Path) -> Written:
+    """Write what was made; a file that is there stays until the new one is whole."""
+    path = a_path(path)
+    remove_parts(path)
+    write_whole(path, made.data)
+    return Written(path, made.what, made.deviation, made.remarks)
+
+
+def length_unit(unit: object) -> str:
+    """``"mm"`` or ``"in"``; ``ValueError`` in a sentence for any other.
+
+    >>> length_unit("inch")
+    'in'
+    """
+    name = "in" if unit == "inch" else unit
+    if not isinstance(name, str) or name not in LENGTHS:
+        raise ValueError(f"the unit is {unit!r:.40}; a workshop's files are in mm or in inches: 'mm', 'in'")
+    return name
