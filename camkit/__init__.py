@@ -21,7 +21,7 @@ from .cam import (
     motion_from_outline,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
-from .files import Decision, Session, profile_csv, profile_dxf, read, read_motion, write
+from .files import Decision, Session, profile_csv, profile_dxf, read, read_motion, to_workshop, write
 from .linkage import RSSR
 from .machines import (
     DoorHandleCam,
@@ -164,6 +164,7 @@ __all__ = [
     "rpm",
     "rssr_study",
     "shaft_study",
+    "to_workshop",
     "topsis",
     "um",
     "valve_study",

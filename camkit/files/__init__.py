@@ -8,7 +8,7 @@ from .motions import read_motion
 from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
-from .workshop import Blank, TitleBlock, Written
+from .workshop import Blank, TitleBlock, Written, faults, to_workshop
 
 __all__ = [
     "Blank",
@@ -19,6 +19,7 @@ __all__ = [
     "TitleBlock",
     "Written",
     "electronic_cam_csv",
+    "faults",
     "from_json",
     "motion_csv",
     "profile_csv",
@@ -29,5 +30,6 @@ __all__ = [
     "read_outline",
     "table_csv",
     "to_json",
+    "to_workshop",
     "write",
 ]

@@ -1,0 +1,101 @@
+"""All that can be written of a design: one list, which the button, the menu of a page and the command line read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...quantities import Analysable
+from ...quantities.kinds import one_number
+from ...study.study import Study
+from ...units import mm
+from .blank import Blank
+from .faults import has_profile
+from .subject import analysis_of, design_of
+from .title import TitleBlock
+from .written import Made, length_unit
+
+
+@dataclass(frozen=True)
+class Order:
+    """What is to be made, and how: a design, an analysis or a panel, with what its sheets are to say."""
+
+    cam: object
+    unit: str = "mm"
+    """``"mm"`` or ``"in"``."""
+    title: TitleBlock = TitleBlock()
+    blank: Blank = Blank()
+    tool_radius: float = 5 * mm
+    study: Study | None = None
+    tolerances: Mapping[str, object] | None = None
+    """Half widths by path, SI."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "unit", length_unit(self.unit))
+        one_number(self.tool_radius, "the radius of the tool", "lie above 0 and be finite", lambda r: 0 < r < np.inf)
+
+    @property
+    def design(self) -> Analysable:
+        """The whole of it."""
+        return design_of(self.cam)
+
+    @cached_property
+    def analysis(self) -> object:
+        """All of its analysis."""
+        return analysis_of(self.cam)
+
+    @property
+    def kind(self) -> str:
+        """The name of the design's class."""
+        return type(self.design).__name__
+
+
+class Export(NamedTuple):
+    """One kind of file."""
+
+    key: str
+    """By which a page and the command line ask for it."""
+    ending: str
+    """Of its name, behind the kind of the design."""
+    words: str
+    """What it is called."""
+    use: str
+    """Who takes it, and what for."""
+    make: Callable[[Order], Made]
+    of: Callable[[Order], bool] = lambda order: True
+    """Whether there can be one."""
+
+
+def _cam(order: Order) -> bool:
+    return has_profile(order.analysis)
+
+
+def _json(order: Order) -> Made:
+    from ..designs import to_json
+
+    return Made(to_json(order.design).encode(), "the design, all of its numbers with units")
+
+
+def _study(order: Order) -> Made:
+    from ..designs import to_json
+    from ..sessions import Session
+
+    assert order.study is not None
+    session = Session(order.study.around(order.design), order.design)
+    return Made(to_json(session).encode(), "the design with its limits, objectives and what may change")
+
+
+EXPORTS = (
+    Export("json", ".json", "Design", "for camkit: opens again in a notebook, a page or 'camkit check'", _json),
+    Export("study", "-study.json", "Study", "for camkit: limits and objectives", _study, lambda o: o.study is not None),
+)
+"""In the order in which they are offered."""
+
+
+def exports_of(order: Order) -> tuple[Export, ...]:
+    """What there can be of a design."""
+    return tuple(export for export in EXPORTS if export.of(order))

@@ -1,0 +1,111 @@
+"""One button, to the workshop: a zip with every file that can be made of a design, and a text that says what for."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...quantities.kinds import refuse_arguments
+from ...study.study import Study
+from ...units import mm
+from .blank import Blank
+from .exports import Export, Order, exports_of
+from .faults import YIELD, faults
+from .title import TitleBlock
+from .written import Made, Written, written
+
+README = "README.txt"
+EARLIEST = (1980, 1, 1, 0, 0, 0)
+"""The time of every file in a zip, so that a design gives the same zip again."""
+FRAME = "The cam's axis is the origin; angle 0 of the cam is the x axis of the drawing; angles are in degrees."
+
+
+def to_workshop(
+    cam: object,
+    path: str | Path,
+    *,
+    study: Study | None = None,
+    tolerances: Mapping[str, object] | None = None,
+    least_yield: float = YIELD,
+    unit: str = "mm",
+    title: TitleBlock = TitleBlock(),
+    blank: Blank = Blank(),
+    tool_radius: float = 5 * mm,
+    insist: bool = False,
+) -> Written:
+    """Write a zip with all that can be made of a design, an analysis or a panel, and a README.txt that says what for.
+
+    Each file is read back; the largest deviation (m) of all is returned.  What needs a library that is not installed is
+    named with what to install.  A design with `faults` is refused in a sentence; with ``insist`` it is written, and
+    every sheet says what is wrong.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> from camkit import DoorHandleCam
+    >>> with TemporaryDirectory() as folder:
+    ...     to_workshop(DoorHandleCam(), f"{folder}/cam.zip")
+    Traceback (most recent call last):
+        ...
+    ValueError: it is not sent to the workshop: relief groove undercut at 20.6 to 26.1 deg: roller 5 mm, concave \
+radius 2.67 mm; insist=True writes it nevertheless, marked FAULTY on every sheet
+    """
+    refuse_arguments(to_workshop, locals())
+    order = Order(cam, unit, title, blank, tool_radius, study, tolerances)
+    return written(package(order, least_yield, insist), path)
+
+
+def package(order: Order, least_yield: float = YIELD, insist: bool = False) -> Made:
+    """The zip of an order, with the largest deviation of all that is in it."""
+    found = faults(order.cam, order.study, order.tolerances, least_yield, order.blank)
+    if found and not insist:
+        raise ValueError(
+            f"it is not sent to the workshop: {'; '.join(found)}; insist=True writes it nevertheless, marked FAULTY on "
+            "every sheet"
+        )
+    order = replace(order, title=replace(order.title, faults=(*order.title.faults, *found)))
+    made, lacking = _made(order)
+    files = {f"{order.kind}{export.ending}": each.data for export, each in made}
+    away = [each.deviation for _, each in made if np.isfinite(each.deviation)]
+    data = _zip({README: _readme(order, made, lacking).encode(), **files})
+    return Made(data, f"{len(files)} files and {README}", max(away, default=np.nan), (*found, *lacking))
+
+
+def _made(order: Order) -> tuple[list[tuple[Export, Made]], list[str]]:
+    """What could be made of an order, and why the rest could not, in sentences."""
+    made, lacking = [], []
+    for export in exports_of(order):
+        try:
+            made.append((export, export.make(order)))
+        except (ValueError, ModuleNotFoundError) as refusal:
+            lacking.append(f"{export.words} ({export.ending}): {refusal}")
+    return made, lacking
+
+
+def _readme(order: Order, made: Sequence[tuple[Export, Made]], lacking: Sequence[str]) -> str:
+    """What each file is for, and how far it is off."""
+    lines = [*map(_one_line, order.title.lines(order.kind, order.unit)), FRAME, "", "FILES"]
+    for export, each in made:
+        told = (f"{export.words}, {export.use}", str(each), *each.remarks)
+        lines += ["", f"{order.kind}{export.ending}", *(f"  {_one_line(line)}" for line in told)]
+    if lacking:
+        lines += ["", "NOT MADE", "", *(f"  {_one_line(line)}" for line in lacking)]
+    return "\n".join(lines) + "\n"
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _zip(files: Mapping[str, bytes]) -> bytes:
+    """A zip that is the same for the same files."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, data in files.items():
+            about = zipfile.ZipInfo(name, EARLIEST)
+            about.compress_type, about.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+            archive.writestr(about, data)
+    return out.getvalue()

@@ -1,0 +1,105 @@
+"""One zip with all that a workshop takes, the same for the same design; a faulty one only if somebody insists."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from camkit import DoorHandleCam, TranslatingRollerCam, UniversalJointShaft, to_workshop
+from camkit.cam import ConjugatePair
+from camkit.files import TitleBlock, from_json
+from camkit.files.workshop.exports import EXPORTS, Order, exports_of
+from camkit.files.workshop.package import README, package
+
+DATED = TitleBlock(date="2026-11-30")
+HOSTILE = TitleBlock(
+    title="Кулачок <script>alert(1)</script>", number="=1+1", author="王小明\nFAULTY: no", date="2026-11-30"
+)
+
+
+def opened(data):
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert archive.testzip() is None
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+@pytest.fixture(scope="module")
+def roller():
+    return package(Order(TranslatingRollerCam(), title=DATED))
+
+
+def test_a_zip_is_written_with_what_it_says(tmp_path, roller):
+    done = to_workshop(TranslatingRollerCam(), tmp_path / "cam.zip", title=DATED)
+    files = opened(done.path.read_bytes())
+    assert done.what == roller.what == f"{len(files) - 1} files and README.txt"
+    assert not np.isnan(done.deviation) or done.deviation is np.nan
+    assert list(tmp_path.iterdir()) == [done.path]
+
+
+def test_every_file_is_named_in_the_text_and_the_text_names_no_other(roller):
+    files = opened(roller.data)
+    text = files.pop(README).decode()
+    named = {line for line in text.splitlines() if line.startswith("TranslatingRollerCam")}
+    assert named == set(files)
+    for export in EXPORTS:
+        if f"TranslatingRollerCam{export.ending}" in files:
+            assert export.use in " ".join(text.split())
+
+
+def test_the_design_comes_back(roller):
+    files = opened(roller.data)
+    assert from_json(files["TranslatingRollerCam.json"]) == TranslatingRollerCam()
+
+
+def test_the_same_design_gives_the_same_zip(roller):
+    assert package(Order(TranslatingRollerCam(), title=DATED)).data == roller.data
+
+
+def test_a_faulty_design_is_refused_and_marked_if_somebody_insists(tmp_path):
+    with pytest.raises(ValueError, match=r"undercut .*; insist=True writes it nevertheless, marked FAULTY"):
+        to_workshop(DoorHandleCam(), tmp_path / "cam.zip", title=DATED)
+    assert not list(tmp_path.iterdir())
+    done = to_workshop(DoorHandleCam(), tmp_path / "cam.zip", title=DATED, insist=True)
+    assert "undercut" in done.remarks[0]
+    assert "FAULTY: relief groove undercut" in opened(done.path.read_bytes())[README].decode()
+
+
+def test_a_pair_and_a_shaft_get_what_they_have():
+    for design in (ConjugatePair(), UniversalJointShaft()):
+        made = package(Order(design, title=DATED))
+        assert {f"{type(design).__name__}.json", README} <= set(opened(made.data))
+
+
+def test_names_of_a_title_stay_text():
+    text = opened(package(Order(TranslatingRollerCam(), title=HOSTILE)).data)[README].decode()
+    assert "Кулачок <script>" in text
+    assert "王小明" in text
+    assert not [line for line in text.splitlines() if line.startswith("FAULTY")]
+
+
+def test_the_list_of_files_has_each_key_and_ending_once():
+    assert len({export.key for export in EXPORTS}) == len(EXPORTS) == len({export.ending for export in EXPORTS})
+    assert {export.key for export in exports_of(Order(UniversalJointShaft()))} >= {"json"}
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"unit": "furlong"}, "'mm', 'in'"),
+        ({"tool_radius": 0.0}, "the radius of the tool is 0"),
+        ({"tool_radius": float("nan")}, "tool_radius"),
+        ({"title": "a cam"}, "the argument title"),
+        ({"insist": "yes"}, "the argument insist"),
+        ({"least_yield": None}, "the argument least_yield"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_sentence(tmp_path, given, said):
+    with pytest.raises(ValueError, match=said):
+        to_workshop(TranslatingRollerCam(), tmp_path / "cam.zip", **given)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_schema_of_the_design_in_the_zip_is_that_of_designs(roller):
+    assert json.loads(opened(roller.data)["TranslatingRollerCam.json"])["schema"] == "camkit/1"
