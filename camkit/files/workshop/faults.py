@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,6 +21,19 @@ YIELD = 0.99
 """Share of the parts that has to keep every limit, where nobody says another."""
 MET = 1e-9
 """So near to each other (m) the ends of a closed curve meet."""
+
+
+class Verdict(NamedTuple):
+    """What becomes of a limit: a measure, its value (SI), ``"at most 45 deg"``, and whether that is kept."""
+
+    measure: Measure
+    value: float
+    bound: str
+    kept: bool
+
+    def __str__(self) -> str:
+        name, known = self.measure.name, np.isfinite(self.value)
+        return f"the {name} is {self.measure.text(self.value)}" if known else f"there is no {name}"
 
 
 def faults(
@@ -50,7 +64,7 @@ def faults(
     told += _reached(parts, blank) if blank else ()
     if study is not None:
         study = study.around(design)
-        told += _missed(study.nominal)
+        told += (f"{each}; it must be {each.bound}" for each in verdicts(study.nominal) if not each.kept)
         told += _yield(study, tolerances, least_yield)
     return tuple(told)
 
@@ -104,18 +118,13 @@ def _reached(parts: Iterable[Subject], blank: Blank) -> Iterator[str]:
             )
 
 
-def _missed(study: Study) -> Iterator[str]:
-    """The limits that the start of a study misses."""
+def verdicts(study: Study) -> Iterator[Verdict]:
+    """What the start of a study makes of each limit."""
     analysis = study.analysis_of(study.start)
     for measure, limit, sense in study.limits:
-        value = measure.one(analysis)
-        if not keeps(value, limit, sense):
-            bound = "at most" if sense > 0 else "at least"
-            yield f"{_valued(measure, value)}; it must be {bound} {measure.text(limit)}"
-
-
-def _valued(measure: Measure, value: float) -> str:
-    return f"the {measure.name} is {measure.text(value)}" if np.isfinite(value) else f"there is no {measure.name}"
+        value, sign = measure.one(analysis), measure.sign
+        bound = f"at {'most' if sign * sense > 0 else 'least'} {measure.text(sign * limit)}"
+        yield Verdict(measure if sign > 0 else -measure, sign * value, bound, bool(keeps(value, limit, sense)))
 
 
 def _yield(study: Study, tolerances: Mapping[str, object] | None, least: float) -> Iterator[str]:
