@@ -77,20 +77,25 @@ class Flanks:
         return bool(clear.mean() > 0.5)
 
     @cached_property
-    def _left(self) -> list[Arc]:
+    def left_arcs(self) -> list[Arc]:
         """The arcs that the tool leaves, without single points that it covers."""
         left = [arc for arc in self._arcs if self._is_left(arc)]
         return [arc._replace(inner=arc.inner[self._clear[arc.curve][arc.inner]]) for arc in left]
 
     @cached_property
+    def lost_arcs(self) -> list[Arc]:
+        """The arcs that it cuts away."""
+        return [arc for arc in self._arcs if not self._is_left(arc)]
+
+    @cached_property
     def left(self) -> tuple[Piece, ...]:
         """What is left of the flanks."""
-        return tuple(self._pieces(self._left))
+        return tuple(self._pieces(self.left_arcs))
 
     @cached_property
     def lost(self) -> tuple[Piece, ...]:
         """The stretches of the theory that the tool cuts away."""
-        return tuple(self._pieces([arc for arc in self._arcs if not self._is_left(arc)]))
+        return tuple(self._pieces(self.lost_arcs))
 
     def _pieces(self, given: list[Arc]) -> Iterator[Piece]:
         """Arcs of one flank that begin where another ends, joined."""
@@ -116,7 +121,7 @@ class Flanks:
         """Which points of a flank lie on arcs that are left, and are clear."""
         flank = self.envelope[i]
         kept = np.zeros(len(flank.rows), dtype=bool)
-        for arc in (arc for arc in self._left if arc.curve == i):
+        for arc in (arc for arc in self.left_arcs if arc.curve == i):
             inside = np.arange(int(np.ceil(arc.start.place)), int(np.floor(arc.end.place)) + 1)
             kept[inside % flank.segments if flank.closed else inside] = True
         if flank.closed:
@@ -126,7 +131,7 @@ class Flanks:
     def _resting_points(self, i: int, kept: np.ndarray) -> np.ndarray:
         """For each point of a flank that is not kept the nearest along the flank that is, or the corner before it."""
         flank, n = self.envelope[i], self.envelope[i].segments
-        corners = [node for arc in self._left if arc.curve == i for node in (arc.start, arc.end)]
+        corners = [node for arc in self.left_arcs if arc.curve == i for node in (arc.start, arc.end)]
         places = np.append([node.place % n if flank.closed else node.place for node in corners], np.flatnonzero(kept))
         if not len(places):
             return np.full((2, int((~kept).sum())), np.nan)
