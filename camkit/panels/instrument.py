@@ -272,6 +272,8 @@ class Instrument(Made, Files, Displayed, anywidget.AnyWidget):
                 pull(self, *message["seek"])
             elif "study" in message:
                 self.open_study()
+            elif "workshop" in message:
+                self.open_workshop()
             elif "compute" in message:
                 self._compute(message)
         except Exception as error:  # a page must always be answered

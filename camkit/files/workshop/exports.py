@@ -89,9 +89,30 @@ def _study(order: Order) -> Made:
     return Made(to_json(session).encode(), "the design with its limits, objectives and what may change")
 
 
+def _dxf(order: Order) -> Made:
+    from ..profiles import profile_dxf
+
+    return Made(profile_dxf(order.analysis).encode(), "the profile")
+
+
+def _csv(order: Order) -> Made:
+    from ..profiles import profile_csv
+
+    return Made(profile_csv(order.analysis).encode(), "the profile, a row for each cam angle")
+
+
 EXPORTS = (
-    Export("json", ".json", "Design", "for camkit: opens again in a notebook, a page or 'camkit check'", _json),
-    Export("study", "-study.json", "Study", "for camkit: limits and objectives", _study, lambda o: o.study is not None),
+    Export("json", ".json", "Design (JSON)", "for camkit: opens again in a notebook, a page or 'camkit check'", _json),
+    Export(
+        "study",
+        "-study.json",
+        "Study (JSON)",
+        "for camkit: limits and objectives",
+        _study,
+        lambda o: o.study is not None,
+    ),
+    Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
+    Export("csv", ".csv", "Profile (CSV)", "for spreadsheets: points of the profile", _csv, _cam),
 )
 """In the order in which they are offered."""
 

@@ -55,12 +55,11 @@ radius 2.67 mm; insist=True writes it nevertheless, marked FAULTY on every sheet
     """
     refuse_arguments(to_workshop, locals())
     order = Order(cam, unit, title, blank, tool_radius, study, tolerances)
-    return written(package(order, least_yield, insist), path)
+    return written(package(order, faults(cam, study, tolerances, least_yield, blank), insist), path)
 
 
-def package(order: Order, least_yield: float = YIELD, insist: bool = False) -> Made:
-    """The zip of an order, with the largest deviation of all that is in it."""
-    found = faults(order.cam, order.study, order.tolerances, least_yield, order.blank)
+def package(order: Order, found: Sequence[str] = (), insist: bool = False) -> Made:
+    """The zip of an order with the faults that were found, and the largest deviation of all that is in it."""
     if found and not insist:
         raise ValueError(
             f"it is not sent to the workshop: {'; '.join(found)}; insist=True writes it nevertheless, marked FAULTY on "

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
-from ...files import designs, profiles
+from ...files import designs, faults
+from ...files.workshop.exports import Export, Order, exports_of
+from ...files.workshop.written import Made
 from ...quantities.kinds import shown
 
 if TYPE_CHECKING:
@@ -25,35 +27,53 @@ class Saved(Protocol):
         """The views of the design."""
 
 
-def _drawn(app: Saved, kind: str) -> bytes:
-    from ...render.still import saved
-
-    return saved(app.figure(), kind)
+def _page(order: Order) -> Made:
+    return Made(_panel(order).html().encode(), "the page, which computes by itself")
 
 
-FILES: dict[str, Callable[[Saved], bytes]] = {
-    "json": lambda app: designs.to_json(app.design).encode(),
-    "html": lambda app: app.html().encode(),
-    "svg": lambda app: _drawn(app, "svg"),
-    "pdf": lambda app: _drawn(app, "pdf"),
-    "csv": lambda app: profiles.profile_csv(app.analysis).encode(),
-    "dxf": lambda app: profiles.profile_dxf(app.analysis).encode(),
-}
-"""What a page can save of a design, by the ending of the file's name."""
-OF_PROFILES = ("csv", "dxf")
-"""Of these, what only a design with a profile has."""
+def _picture(kind: str) -> Export:
+    def drawn(order: Order) -> Made:
+        from ...render.still import saved
+
+        return Made(saved(_panel(order).figure(), kind), "the pictures of the page")
+
+    return Export(f"picture-{kind}", f"-picture.{kind}", f"Picture ({kind.upper()})", "for a text or a talk", drawn)
 
 
-def files_of(analysis: object) -> list[str]:
-    """What can be saved of a design with this analysis."""
-    return [kind for kind in FILES if kind not in OF_PROFILES or hasattr(analysis, "profile")]
+def _panel(order: Order) -> Saved:
+    return order.cam  # type: ignore[return-value]
 
 
-def file_of(app: Saved, kind: str) -> bytes:
-    """A file of what is shown; ``ValueError`` for a kind that there is not."""
-    if kind not in (known := files_of(app.analysis)):
+PAGE = (
+    Export("html", ".html", "Living page (HTML)", "for colleagues: it computes without Python", _page),
+    _picture("svg"),
+    _picture("pdf"),
+)
+"""What only a page can save, beside the files for the workshop."""
+
+
+def files_of(app: Saved) -> list[tuple[str, str]]:
+    """What can be saved of what is shown: by what it is asked for, and what it is called."""
+    return [(each.key, each.words) for each in _exports(Order(app))]
+
+
+def file_of(app: Saved, kind: str, order: Order | None = None) -> tuple[str, bytes]:
+    """A file of what is shown, with its name; a fault of the design is marked in it.
+
+    ``ValueError`` for a kind that there is not.
+    """
+    order = order or Order(app)
+    known = {each.key: each for each in _exports(order)}
+    if kind not in known:
         raise ValueError(f"{shown(kind)} is no kind of file here; there are {', '.join(known)}")
-    return FILES[kind](app)
+    title = replace(order.title, faults=faults(app.design, blank=order.blank))
+    made = known[kind].make(replace(order, title=title))
+    return f"{order.kind}{known[kind].ending}", made.data
+
+
+def _exports(order: Order) -> tuple[Export, ...]:
+    first, *others = exports_of(order)
+    return (first, *PAGE, *others)
 
 
 def remarked(found: designs.Read) -> str:

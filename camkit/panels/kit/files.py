@@ -39,7 +39,7 @@ class Files(w.DOMWidget):
         """What the page saves; of what it opens the most bytes, and what motions are called that a table can give."""
         motions = list(map(words, motions_in(self.design)))
         readable = TABLES + DRAWINGS * takes_outline(self.design)
-        return {"files": files_of(self.analysis), "most": MOST_BYTES + 1, "tables": motions, "readable": readable}
+        return {"files": files_of(self), "most": MOST_BYTES + 1, "tables": motions, "readable": readable}
 
     def open_file(self, file: bytes, name: str = "") -> None:
         """Show what a file holds: a saved design, or a motion or an outline for this one (see `table_panel`)."""
@@ -81,7 +81,17 @@ class Files(w.DOMWidget):
 
     def send_file(self, kind: str) -> None:
         """Give the page a file of what it shows."""
-        self.send({"file": f"{type(self.design).__name__}.{kind}"}, [file_of(self, kind)])
+        name, data = file_of(self, kind)
+        self.send({"file": name}, [data])
+
+    def open_workshop(self) -> None:
+        """Open the tab that sends the design to the workshop."""
+        from ..workshop import TITLE, WorkshopPanel
+
+        if not any(tab["title"] == TITLE for tab in self.tabs):
+            WorkshopPanel(self)
+        self.opened = ""  # it may have been left since
+        self.opened = TITLE
 
     def open_study(self) -> None:
         """Open the tab in which a study is made."""

@@ -180,6 +180,8 @@ class Typed(Input):
     kind = "typed"
     value = traitlets.Unicode("").tag(page=True)
     placeholder = traitlets.Unicode("").tag(page=True)
+    named = traitlets.Bool(False).tag(page=True)
+    """Whether its description stands before it, to be seen."""
 
 
 class Span(Input):

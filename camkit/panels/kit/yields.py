@@ -9,6 +9,7 @@ import ipywidgets as w
 import numpy as np
 import traitlets
 
+from ...files.workshop.faults import YIELD
 from ...quantities import Measure, quantities_of, value_of
 from ...study.failures import failures, tolerance_texts
 from ...study.robust import RobustStudy
@@ -19,8 +20,6 @@ from .changes import numbers_of
 from .latest_only import Debounced, LatestOnly
 from .sheet import reason
 
-YIELD = 0.99
-"""What a verdict calls enough."""
 QUIET = 0.3
 """Seconds after the last change until exact parts are judged."""
 NO_TOLERANCES = "the design has no size with a general tolerance; give tolerances to the instrument"
@@ -68,9 +67,18 @@ class Made(w.DOMWidget):
             found[path] = float(max(-low[0], high[0]))
         return found
 
+    @property
+    def judged(self) -> Study | None:
+        """What is shown with its limits, made within the tolerances that were given; ``None``: nothing is limited."""
+        if not any(self.limits.values()):
+            return None
+        return self._study(self.design, self.tolerances) if self.tolerances else self._limited(self.design)
+
+    def _limited(self, design: Any) -> Study:
+        return Study(design, list(quantities_of(design))[:1], (NOTHING,), **self.limits)
+
     def _study(self, design: Any, tolerances: Mapping[Any, Any]) -> RobustStudy:
-        first = list(quantities_of(design))[:1]
-        return Study(design, first, (NOTHING,), **self.limits).under(tolerances, YIELD)
+        return self._limited(design).under(tolerances, YIELD)
 
     @traitlets.validate("tolerances")
     def _possible_tolerances(self, proposal: Mapping[str, Any]) -> Any:

@@ -2,10 +2,7 @@
 import { make } from "./controls.js";
 import { openerOf } from "./drop.js";
 
-/** @type {Record<string, string>} */
-const FILES = {
-  json: "Design (JSON)", html: "Living page (HTML)", svg: "Picture (SVG)", pdf: "Picture (PDF)", csv: "Profile (CSV)", dxf: "Profile (DXF)",
-};
+const WORKSHOP = "workshop";
 
 /** @param {string} words @param {string} title @param {() => void} act */
 export const button = (words, title, act) =>
@@ -15,8 +12,9 @@ export const button = (words, title, act) =>
  * @param {import("./panel.js").Host | null} host */
 export function filesOf(structure, host) {
   if (!host) return [];
-  const save = make("select", { "aria-label": "Export", "data-asks": true, onchange: () => { if (save.value) host.file(save.value); save.value = ""; } },
-    make("option", { value: "" }, "Export"), ...structure.files.map((/** @type {string} */ kind) => make("option", { value: kind }, FILES[kind])));
+  const act = (/** @type {string} */ kind) => { if (kind === WORKSHOP) host.workshop(); else if (kind) host.file(kind); };
+  const save = make("select", { "aria-label": "Export", "data-asks": true, onchange: () => { act(save.value); save.value = ""; } },
+    ...[["", "Export"], [WORKSHOP, "To the workshop: all files in a zip \u2026"], ...structure.files].map(([kind, words]) => make("option", { value: kind }, words)));
   return [...openerOf(structure, host), save];
 }
 

@@ -32,7 +32,7 @@ const KEYS = "Arrow keys move it, + and - bring it nearer, 0 shows all of it";
  * @typedef {import("./engine.js").Engine} Engine
  * @typedef {{changed(values: number[], measures: (number | null)[]): void, choose(path: string, option: string): void,
  *   back(step: import("./history.js").Step): void, pin(step: import("./history.js").Step, at: number[]): void,
- *   seek(name: string, value: number): void, convert(name: string): void, reset(): void, file(kind: string): void, open(file: File): void, name(asked: Record<string, any>): void, study(): void}} Host what
+ *   seek(name: string, value: number): void, convert(name: string): void, reset(): void, file(kind: string): void, open(file: File): void, name(asked: Record<string, any>): void, study(): void, workshop(): void}} Host what
  *   stands behind the page, if anything does
  */
 

@@ -158,16 +158,18 @@ export const PARTS = {
     } };
   },
 
-  typed(_, { say }) {
-    const box = make("input", { type: "text", autocomplete: "off", size: 8 });
+  typed({ named: titled }, { say }) {
+    const box = make("input", { type: "text", autocomplete: "off", size: 8 }), boxed = make("span", { class: "camkit-box" }, box);
     let told = "";
     const take = () => { if (box.value !== told) say({ value: (told = box.value) }); };
     box.addEventListener("change", take);
     box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => { if (event.key === "Enter") take(); });
-    return { element: make("span", { class: "camkit-box" }, box), show({ value, placeholder, description, tooltip, disabled }) {
+    const element = titled ? named("", boxed) : boxed;
+    return { element, show({ value, placeholder, description, tooltip, disabled }) {
       Object.assign(box, { value, defaultValue: value, placeholder, title: tooltip, disabled });
       told = value;
       box.setAttribute("aria-label", description);
+      if (titled) element.firstElementChild.textContent = description;
     } };
   },
 

@@ -38,10 +38,10 @@ export class Sheet {
     this.resized.observe(root);
     this.heard = {
       "change:body": () => this.show(),
-      "msg:custom": (/** @type {any} */ message) => {
-        if ((message.text ?? message.copy) === undefined || !this.spoke) return; // another view of the sheet asked for it
+      "msg:custom": (/** @type {any} */ message, /** @type {DataView[]} */ [data] = []) => {
+        if ((message.name ?? message.copy) === undefined || !this.spoke) return; // another view of the sheet asked for it
         this.spoke = false;
-        if (message.copy === undefined) download(message.name, new Blob([message.text], { type: message.mime }));
+        if (message.copy === undefined) download(message.name, new Blob([data ?? message.text], { type: message.mime }));
         else void copy(message.copy);
       },
       "comm_live_update": () => this._gone(), // it happens once more after the beginning: at the end

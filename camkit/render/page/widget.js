@@ -69,6 +69,7 @@ async function view({ model, el }) {
     open: async (/** @type {File} */ file) => ask({ open: file.name }, [await file.slice(0, panel.structure.most).arrayBuffer()]),
     name: (/** @type {any} */ asked) => ask({ session: asked }),
     study: () => ask({ study: true }),
+    workshop: () => ask({ workshop: true }),
   };
   /** Before somebody can run a cell: what is shown, though a kernel that is at work on an earlier value is told no newer
    * one till it is done. @param {any} event */

@@ -1,0 +1,155 @@
+"""The tab *Workshop* of an instrument: what its files are to say, and one button that gives all of them in a zip."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..files import Blank, TitleBlock, faults
+from ..files.workshop.exports import Order, exports_of
+from ..files.workshop.faults import has_profile
+from ..files.workshop.package import package
+from ..quantities import Quantity, choices_of, quantities_of, value_of
+from ..quantities.kinds import refuse_arguments
+from ..study.study import Study
+from ..units import mm
+from .instrument import Instrument
+from .kit.inputs import Check, Input, Menu, Number, Typed
+from .kit.latest_only import Debounced, LatestOnly
+from .kit.parts import Banner, Button, Group, Table, Words, bold, row
+from .kit.sheet import IMPOSSIBLE, Sheet, reason
+
+TITLE = "Workshop"
+QUIET = 0.3
+"""Seconds after the last move until the design is judged."""
+UNITS = (("mm", "mm"), ("inch", "in"))
+TOOL = Quantity("r_c", 5, 0.1, 200, "mm", "of the cutter or the grinding wheel")
+SAID = ("title", "number", "author", "material", "date")
+"""What stands in the title block."""
+BLANK = "What the cam is cut from, and the tool:"
+SOUND = "Nothing is wrong with it."
+INSIST = "Make it nevertheless: every sheet is marked FAULTY"
+HEADS = ("file", "what it is for")
+
+
+class WorkshopPanel(Sheet):
+    """A form around the design of an `Instrument`; ``order`` is what it asks for.
+
+    What is wrong with the design stands above it.  A faulty design gives no file unless somebody insists, nor does
+    what cannot be a blank.
+    """
+
+    def __init__(self, explorer: Instrument) -> None:
+        refuse_arguments(WorkshopPanel.__init__, locals())
+        self.explorer, self.blank = explorer, Blank()
+        self.banner, self.verdict, self.status = Banner(), Words(role="status"), Words(look="status", role="status")
+        self.unit = Menu(UNITS, "unit", tooltip="of all lengths in the files")
+        self.sizes = {name: self._number(name, q) for name, q in quantities_of(self.blank).items()}
+        (self._choice, key), *_ = choices_of(self.blank).items()
+        self.key = Menu(list(key.named.items()), "keyway", value=self.blank.key, tooltip=key.meaning)
+        self.key.observe(lambda _: self._moved(), "value")
+        self.tool = Number("tool radius", TOOL, TOOL.default * mm, refused=self.banner.show_message)
+        empty = {"title": explorer.structure["name"], "date": "today"}
+        self.title: dict[str, Input] = {
+            name: Typed(description=name, named=True, placeholder=empty.get(name, "")) for name in SAID
+        }
+        self.insist = Check(description=INSIST, visible=False)
+        self.insist.observe(lambda _: self._show_button(), "value")
+        self.button = Button("To the workshop", self.make, primary=True, tooltip="all files in one zip")
+        self.files, self.lacking = Table(), Words(look="hint")
+        self._judged = Debounced(self._judge, QUIET)
+        self._wrong: tuple[str, ...] = ()
+        self._possible = True
+        self._worker = LatestOnly(lambda task: self._make(*task))
+        super().__init__(*self._body(), heading="To the workshop")
+        self._judge()
+        explorer.on_change(lambda _: self._judged.ask())
+        explorer.add_tab(TITLE, self)
+
+    def _number(self, name: str, declared: Quantity) -> Number:
+        return Number(name, declared, value_of(self.blank, name), self._moved, self.banner.show_message)
+
+    def _body(self) -> tuple[Group, ...]:
+        cam = has_profile(self.explorer.analysis)
+        said = Group(self.banner, self.verdict, self.insist, row(self.button, self.status), look="stays")
+        sheets = row(*self.title.values(), self.unit, look="sheets")
+        sizes = Group(*self.sizes.values(), self.tool, look="grid")
+        blank = Group(row(Words(value=[BLANK], look="hint"), self.key), sizes, visible=cam)
+        return said, sheets, blank, Group(self.lacking, self.files)
+
+    # ------------------------------------------------------------ what is asked for
+
+    @property
+    def order(self) -> Order:
+        """What is to be made of the design in the sliders, as the form says."""
+        title = TitleBlock(**{name: box.value for name, box in self.title.items()})
+        return Order(
+            self.explorer.design, str(self.unit.value), title, self.blank, self.tool.value, tolerances=self._halves
+        )
+
+    @property
+    def _halves(self) -> dict[str, object] | None:
+        return dict(self.explorer.half_widths) if self.explorer.tolerances else None
+
+    def _moved(self) -> None:
+        """Another blank, if there can be one; else the last one stays."""
+        given = {name: box.value for name, box in self.sizes.items()} | {self._choice: self.key.value}
+        why = ""
+        try:
+            self.blank = Blank().replace(**given)
+        except IMPOSSIBLE as refusal:
+            why = f"There is no such blank: {reason(refusal)}."
+        self._possible = not why
+        self.banner.show_message(why)
+        self._judge()
+
+    def _judge(self) -> None:
+        """Say what is wrong with the design, but for its yield, which takes longer; and which files there can be."""
+        self.status.say()
+        study = self.explorer.judged
+        self._put_faults(faults(self.explorer.design, study and study.nominal, blank=self.blank))
+        self.files.put(HEADS, [(f"{o.kind}{e.ending}", e.use) for o in (self.order,) for e in exports_of(o)])
+
+    def _put_faults(self, wrong: tuple[str, ...]) -> None:
+        with self.held():
+            self._wrong = wrong
+            self.verdict.say(*([bold("Faulty: "), f"{fault}."] for fault in wrong) if wrong else (SOUND,))
+            self.insist.visible = bool(wrong)
+            self._show_button()
+
+    def _show_button(self) -> None:
+        self.button.disabled = not self._possible or (bool(self._wrong) and not self.insist.value)
+
+    # ------------------------------------------------------------ the files
+
+    def make(self) -> None:
+        """Give the page the zip as soon as it is made."""
+        self._judged.settle()
+        self.banner.show_message("")
+        self.lacking.say()
+        self.status.say("The files are made and read back ...")
+        self._worker.ask((self.order, self.explorer.judged, self.insist.value))
+
+    def settle(self) -> None:
+        """Wait until the design is judged and the zip that was asked for is made."""
+        self._judged.settle()
+        self._worker.wait()
+
+    def _make(self, order: Order, study: Study | None, insist: bool) -> None:
+        try:
+            wrong = faults(order.cam, study, blank=order.blank)
+            if wrong and not insist:
+                self._put_faults(wrong)
+                self._say("")
+                return
+            made = package(order, wrong, insist)
+        except Exception as error:  # of a mechanism of somebody's own: the page stays alive
+            self._say("", f"Nothing is made: {reason(error)}.")
+            return
+        self._say(f"{made}.", lacking=made.remarks[len(wrong) :])
+        self.send({"name": f"{order.kind}.zip", "mime": "application/zip"}, [made.data])
+
+    def _say(self, status: str, refusal: str = "", lacking: Sequence[str] = ()) -> None:
+        with self.held():
+            self.status.say(status)
+            self.banner.show_message(refusal)
+            self.lacking.say(*(f"Not made: {sentence}" for sentence in lacking))
