@@ -83,7 +83,7 @@ test: lint
 test-tools: $(TOOLS:%=.tools/%/.ready)
 	@for tool in $(TOOLS); do \
 	    echo "== files for the workshop: $$tool (pytest in .tools/$$tool)"; \
-	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider tests/tools/$$tool || exit 1; \
+	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider tests/tools/$$tool/test_*.py || exit 1; \
 	done
 
 .tools/%/.ready: pyproject.toml constraints.txt | $(BIN)/python

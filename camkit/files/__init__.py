@@ -8,7 +8,7 @@ from .motions import read_motion
 from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
 from .sessions import Session
-from .workshop import Blank, TitleBlock, Written, faults, to_workshop
+from .workshop import Blank, TitleBlock, Written, faults, to_workshop, write_report
 
 __all__ = [
     "Blank",
@@ -32,4 +32,5 @@ __all__ = [
     "to_json",
     "to_workshop",
     "write",
+    "write_report",
 ]

@@ -6,7 +6,8 @@ Each is read back after it was written, and says how far it lies from the exact 
 from .blank import Blank
 from .faults import faults
 from .package import to_workshop
+from .report import write_report
 from .title import TitleBlock
 from .written import Written
 
-__all__ = ["Blank", "TitleBlock", "Written", "faults", "to_workshop"]
+__all__ = ["Blank", "TitleBlock", "Written", "faults", "to_workshop", "write_report"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -101,6 +101,13 @@ def _csv(order: Order) -> Made:
     return Made(profile_csv(order.analysis).encode(), "the profile, a row for each cam angle")
 
 
+def _report(order: Order, ending: str) -> Made:
+    from .report import report
+
+    within = order.tolerances if order.study is not None else None  # without limits every part is good
+    return report(order.cam, ending, order.title, order.study, within, order.unit)
+
+
 EXPORTS = (
     Export("json", ".json", "Design (JSON)", "for camkit: opens again in a notebook, a page or 'camkit check'", _json),
     Export(
@@ -113,6 +120,10 @@ EXPORTS = (
     ),
     Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
     Export("csv", ".csv", "Profile (CSV)", "for spreadsheets: points of the profile", _csv, _cam),
+    Export(
+        "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
+    ),
+    Export("page", "-report.html", "Report (HTML)", "for colleagues, in a browser", partial(_report, ending=".html")),
 )
 """In the order in which they are offered."""
 
