@@ -81,6 +81,13 @@ def test_names_of_a_title_stay_text():
     assert not [line for line in text.splitlines() if line.startswith("FAULTY")]
 
 
+@pytest.mark.parametrize(("rotation", "said"), [(1, "turns counter-clockwise."), (-1, "turns clockwise.")])
+def test_the_text_says_which_way_the_cam_turns(rotation, said):
+    text = opened(package(Order(TranslatingRollerCam(rotation=rotation), title=DATED)).data)[README].decode()
+    assert said in text
+    assert "turns" not in opened(package(Order(UniversalJointShaft(), title=DATED)).data)[README].decode()
+
+
 def test_the_list_of_files_has_each_key_and_ending_once():
     assert len({export.key for export in EXPORTS}) == len(EXPORTS) == len({export.ending for export in EXPORTS})
     assert {export.key for export in exports_of(Order(UniversalJointShaft()))} >= {"json"}

@@ -15,14 +15,16 @@ from ...study.study import Study
 from ...units import mm
 from .blank import Blank
 from .exports import Export, Order, exports_of
-from .faults import YIELD, faults
+from .faults import YIELD, faults, has_profile
+from .subject import subjects
 from .title import TitleBlock
 from .written import Made, Written, written
 
 README = "README.txt"
 EARLIEST = (1980, 1, 1, 0, 0, 0)
 """The time of every file in a zip, so that a design gives the same zip again."""
-FRAME = "The cam's axis is the origin; angle 0 of the cam is the x axis of the drawing; angles are in degrees."
+FRAME = "The cam's axis is the origin, angle 0 of the cam the x axis; angles are in degrees. The cam turns {}."
+UNROLLED = "Drawings are of the drum unrolled at its mean radius; angles are in degrees. The drum turns {}."
 
 
 def to_workshop(
@@ -86,13 +88,22 @@ def _made(order: Order) -> tuple[list[tuple[Export, Made]], list[str]]:
 
 def _readme(order: Order, made: Sequence[tuple[Export, Made]], lacking: Sequence[str]) -> str:
     """What each file is for, and how far it is off."""
-    lines = [*map(_one_line, order.title.lines(order.kind, order.unit)), FRAME, "", "FILES"]
+    lines = [*map(_one_line, order.title.lines(order.kind, order.unit)), *_frame(order), "", "FILES"]
     for export, each in made:
         told = (f"{export.words}, {export.use}", str(each), *each.remarks)
         lines += ["", f"{order.kind}{export.ending}", *(f"  {_one_line(line)}" for line in told)]
     if lacking:
         lines += ["", "NOT MADE", "", *(f"  {_one_line(line)}" for line in lacking)]
     return "\n".join(lines) + "\n"
+
+
+def _frame(order: Order) -> list[str]:
+    """Where the drawings of a cam stand, and which way it turns."""
+    if not has_profile(order.analysis):
+        return []
+    first, *_ = (one.analysis for one in subjects(order.design))
+    way = "clockwise" if first.turn[-1] < first.turn[0] else "counter-clockwise"
+    return [(UNROLLED if hasattr(first, "period") else FRAME).format(way)]
 
 
 def _one_line(text: str) -> str:
