@@ -56,6 +56,7 @@ class WorkshopPanel(Sheet):
         self.insist.observe(lambda _: self._show_button(), "value")
         self.button = Button("To the workshop", self.make, primary=True, tooltip="all files in one zip")
         self.files, self.lacking = Table(), Words(look="hint")
+        self.fold = Group(self.files, look="fold")
         self._judged = Debounced(self._judge, QUIET)
         self._wrong: tuple[str, ...] = ()
         self._possible = True
@@ -74,7 +75,7 @@ class WorkshopPanel(Sheet):
         sheets = row(*self.title.values(), self.unit, look="sheets")
         sizes = Group(*self.sizes.values(), self.tool, look="grid")
         blank = Group(row(Words(value=[BLANK], look="hint"), self.key), sizes, visible=cam)
-        return said, sheets, blank, Group(self.lacking, self.files)
+        return said, sheets, blank, Group(self.lacking, self.fold)
 
     # ------------------------------------------------------------ what is asked for
 
@@ -107,7 +108,10 @@ class WorkshopPanel(Sheet):
         self.status.say()
         study = self.explorer.judged
         self._put_faults(faults(self.explorer.design, study and study.nominal, blank=self.blank))
-        self.files.put(HEADS, [(f"{o.kind}{e.ending}", e.use) for o in (self.order,) for e in exports_of(o)])
+        rows = [(f"{self.order.kind}{each.ending}", each.use) for each in exports_of(self.order)]
+        with self.held():
+            self.files.put(HEADS, rows)
+            self.fold.description = f"The files in the zip ({len(rows)})"
 
     def _put_faults(self, wrong: tuple[str, ...]) -> None:
         with self.held():

@@ -30,6 +30,7 @@ from camkit import (
 from camkit.panels.kit.inputs import Amount, Whole
 from camkit.panels.kit.parts import Button
 from camkit.panels.kit.sheet import Sheet
+from camkit.panels.workshop import WorkshopPanel
 from camkit.search import front_of
 from camkit.study import AnalysisCurve
 
@@ -90,6 +91,10 @@ def editor():
     return edit_program(MotionProgram((*moves, Dwell(120 * deg))))
 
 
+def workshop():
+    return WorkshopPanel(instrument())
+
+
 def opened(browser, sheet, width, height):
     """A page of a sheet alone, without a kernel."""
     page = browser.new_page(viewport={"width": width, "height": height})
@@ -103,7 +108,7 @@ def opened(browser, sheet, width, height):
     return page
 
 
-@pytest.mark.parametrize("make", [decision, tray, tolerances, editor])
+@pytest.mark.parametrize("make", [decision, tray, tolerances, editor, workshop])
 def test_a_sheet_fits_into_a_laptops_notebook(browser, make, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     sheet = make()

@@ -53,6 +53,7 @@ def test_it_opens_once_and_is_seen_again(app):
     assert opened(app) is form
     assert app.opened == TITLE
     assert [tab["title"] for tab in app.tabs] == [TITLE]
+    assert SOUND in app.html()  # a page without a kernel shows what was said
 
 
 def test_a_sound_design_gives_its_zip(app, form):
