@@ -7,6 +7,7 @@ from .motion_tables import electronic_cam_csv, motion_csv
 from .motions import read_motion
 from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
+from .schema import json_schema
 from .sessions import Session
 from .workshop import Blank, TitleBlock, Written, faults, to_workshop, write_report
 
@@ -21,6 +22,7 @@ __all__ = [
     "electronic_cam_csv",
     "faults",
     "from_json",
+    "json_schema",
     "motion_csv",
     "profile_csv",
     "profile_dxf",
