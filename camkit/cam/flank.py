@@ -70,11 +70,7 @@ class Flanks:
         return whole(self.envelope) if all(clear.all() for clear in self._clear) else arcs(self.envelope)
 
     def _is_left(self, arc: Arc) -> bool:
-        """Whether the tool leaves an arc: most of its points are clear, or its middle if it has none."""
-        clear = self._clear[arc.curve][arc.inner]
-        if not len(clear):
-            clear = self.tool.depth((arc.start.point + arc.end.point)[:, None] / 2) <= BETWEEN
-        return bool(clear.mean() > 0.5)
+        return is_left(arc, self._clear[arc.curve], self.tool)
 
     @cached_property
     def left_arcs(self) -> list[Arc]:
@@ -156,11 +152,19 @@ class Flanks:
         closed, found = {flank.name: flank.closed for flank in self.envelope}, []
         for flank, rows in self.cut_away.items():
             left = [piece.points for piece in self.left if piece.flank == flank]
-            for run in _runs(rows, closed[flank]):
+            for run in runs(rows, closed[flank]):
                 gaps = self.tool.gaps(run, np.concatenate(left, axis=1)) if left else np.array([np.inf])
                 first, last = self.cam_angle[run[[0, -1]]]
                 found.append(Cut(flank, float(first), float(last), float(gaps.max())))
         return tuple(found)
+
+
+def is_left(arc: Arc, clear: np.ndarray, tool: Roller | Face) -> bool:
+    """Whether the tool leaves an arc: most points of its curve on it are ``clear``, or its middle if it has none."""
+    inner = clear[arc.inner]
+    if not len(inner):
+        inner = tool.depth((arc.start.point + arc.end.point)[:, None] / 2) <= BETWEEN
+    return bool(inner.mean() > 0.5)
 
 
 def flanks(analysis: Any) -> Flanks:
@@ -187,7 +191,7 @@ def flanks(analysis: Any) -> Flanks:
     return Flanks(theory, angle, Roller(centres, radius), roller_envelope(theory, pitch, radius, period))
 
 
-def _runs(where: np.ndarray, closed: bool) -> list[np.ndarray]:
+def runs(where: np.ndarray, closed: bool) -> list[np.ndarray]:
     """Runs of numbers at which something is so; on a closed curve one may go on beyond the end."""
     numbers = np.flatnonzero(where)
     if not len(numbers):

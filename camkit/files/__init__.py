@@ -9,15 +9,28 @@ from .outlines import read_outline
 from .profiles import profile_csv, profile_dxf, table_csv
 from .schema import json_schema
 from .sessions import Session
-from .workshop import Blank, TitleBlock, Written, faults, to_workshop, write_report
+from .workshop import (
+    Blank,
+    Milling,
+    TitleBlock,
+    ToolPath,
+    Written,
+    faults,
+    to_workshop,
+    tool_path,
+    write_gcode,
+    write_report,
+)
 
 __all__ = [
     "Blank",
     "Decision",
+    "Milling",
     "Read",
     "Session",
     "TableQuestion",
     "TitleBlock",
+    "ToolPath",
     "Written",
     "electronic_cam_csv",
     "faults",
@@ -33,6 +46,8 @@ __all__ = [
     "table_csv",
     "to_json",
     "to_workshop",
+    "tool_path",
     "write",
+    "write_gcode",
     "write_report",
 ]

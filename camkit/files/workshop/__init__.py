@@ -5,9 +5,23 @@ Each is read back after it was written, and says how far it lies from the exact 
 
 from .blank import Blank
 from .faults import faults
+from .gcode import write_gcode
+from .milling import Milling
 from .package import to_workshop
 from .report import write_report
 from .title import TitleBlock
+from .toolpath import ToolPath, tool_path
 from .written import Written
 
-__all__ = ["Blank", "TitleBlock", "Written", "faults", "to_workshop", "write_report"]
+__all__ = [
+    "Blank",
+    "Milling",
+    "TitleBlock",
+    "ToolPath",
+    "Written",
+    "faults",
+    "to_workshop",
+    "tool_path",
+    "write_gcode",
+    "write_report",
+]

@@ -15,7 +15,7 @@ from ...study.study import Study
 from ...units import mm
 from .blank import Blank
 from .faults import has_profile
-from .subject import analysis_of, design_of
+from .subject import analysis_of, design_of, subjects
 from .title import TitleBlock
 from .written import Made, length_unit
 
@@ -101,6 +101,19 @@ def _csv(order: Order) -> Made:
     return Made(profile_csv(order.analysis).encode(), "the profile, a row for each cam angle")
 
 
+def _flat(order: Order) -> bool:
+    return _cam(order) and not any(hasattr(subject.analysis, "period") for subject in subjects(order.cam))
+
+
+def _gcode(order: Order) -> Made:
+    """With a cutter of the roller's radius where the order's is too large for a groove."""
+    from .gcode import gcode
+
+    grooves = [s.analysis for s in subjects(order.cam) if np.isfinite(s.analysis.outer_profile).all()]
+    radius = min([order.tool_radius, *(float(np.ravel(each.cam.roller_radius)[0]) for each in grooves)])
+    return gcode(order.cam, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
+
+
 def _report(order: Order, ending: str) -> Made:
     from .report import report
 
@@ -120,6 +133,7 @@ EXPORTS = (
     ),
     Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
     Export("csv", ".csv", "Profile (CSV)", "for spreadsheets: points of the profile", _csv, _cam),
+    Export("nc", ".ngc", "Tool path (G-code)", "for a milling machine: LinuxCNC, arcs, feeds to be set", _gcode, _flat),
     Export(
         "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
     ),
