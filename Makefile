@@ -36,7 +36,7 @@ NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.
 # what is installed for it.
 TOOLS := $(notdir $(wildcard tests/tools/*))
 NEEDS_step := .[step]
-NEEDS_print := .[print]
+NEEDS_print := .[print] lib3mf
 NEEDS_report := .[report]
 NEEDS_gcode := .
 
@@ -89,7 +89,7 @@ test-tools: $(TOOLS:%=.tools/%/.ready)
 .tools/%/.ready: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "Installing what the checks of $* need into .tools/$*; the first time takes a minute or two."
 	$(BIN)/python -m venv .tools/$*
-	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '$(NEEDS_$*)' pytest
+	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt pytest -e $(NEEDS_$*)
 	@touch $@
 
 lint: $(VENV)/.test
@@ -116,10 +116,12 @@ notebooks: $(VENV)/.test
 	    notebooks/*.ipynb
 	$(BIN)/python .jupyter/cards.py notebooks
 
-# After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out.
-constraints: $(VENV)/.test
-	$(BIN)/python -m pip freeze --exclude-editable --exclude camkit | LC_ALL=C sort -f > constraints.txt
-	touch $(VENV)/.lab $(VENV)/.app $(VENV)/.test
+# After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out, and what only the
+# environments of the tools have.  The first line of a package, that of .venv, is the one that is kept.
+constraints: $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
+	for bin in $(BIN) $(TOOLS:%=.tools/%/bin); do $$bin/python -m pip freeze --exclude-editable --exclude camkit; done \
+	    | LC_ALL=C sort -f -s -u -t= -k1,1 | LC_ALL=C sort -f > constraints.txt
+	touch $(VENV)/.lab $(VENV)/.app $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
 
 clean:
 	rm -rf build dist .browser .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

@@ -38,6 +38,9 @@ class Blank(Design):
     hub_diameter: float = quantity("D_h", 0, 0, 200, "mm", "of the hub; 0: none", at_least=0)
     hub_length: float = quantity("l_h", 10, 0, 100, "mm", "of the hub beyond the cam", at_least=0)
     groove_depth: float = quantity("t_g", 6, 1, 60, "mm", "of the follower's groove, if there is one")
+    outer_diameter: float = quantity(
+        "D", 0, 0, 500, "mm", "of a cam with a groove; 0: a wall as thick as the groove is deep", at_least=0
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
