@@ -9,10 +9,6 @@ SIZES = {"step": " (about 380 MB)"}
 """What an extra takes on the disk, where that is worth a word."""
 
 
-SIZES = {"step": " (about 380 MB)"}
-"""What an extra takes on the disk, where that is worth a word."""
-
-
 @contextmanager
 def extra(what: str, name: str = "lab") -> Iterator[None]:
     """A context that imports libraries of the extra ``name`` for ``what``.

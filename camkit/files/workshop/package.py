@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -18,11 +16,9 @@ from .exports import Export, Order, exports_of
 from .faults import YIELD, faults, has_profile
 from .subject import subjects
 from .title import TitleBlock
-from .written import Made, Written, written
+from .written import Made, Written, written, zipped
 
 README = "README.txt"
-EARLIEST = (1980, 1, 1, 0, 0, 0)
-"""The time of every file in a zip, so that a design gives the same zip again."""
 FRAME = "The cam's axis is the origin, angle 0 of the cam the x axis; angles are in degrees. The cam turns {}."
 UNROLLED = "Drawings are of the drum unrolled at its mean radius; angles are in degrees. The drum turns {}."
 
@@ -71,7 +67,7 @@ def package(order: Order, found: Sequence[str] = (), insist: bool = False) -> Ma
     made, lacking = _made(order)
     files = {f"{order.kind}{export.ending}": each.data for export, each in made}
     away = [each.deviation for _, each in made if np.isfinite(each.deviation)]
-    data = _zip({README: _readme(order, made, lacking).encode(), **files})
+    data = zipped({README: _readme(order, made, lacking).encode(), **files})
     return Made(data, f"{len(files)} files and {README}", max(away, default=np.nan), (*found, *lacking))
 
 
@@ -108,14 +104,3 @@ def _frame(order: Order) -> list[str]:
 
 def _one_line(text: str) -> str:
     return " ".join(text.split())
-
-
-def _zip(files: Mapping[str, bytes]) -> bytes:
-    """A zip that is the same for the same files."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as archive:
-        for name, data in files.items():
-            about = zipfile.ZipInfo(name, EARLIEST)
-            about.compress_type, about.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
-            archive.writestr(about, data)
-    return out.getvalue()

@@ -38,6 +38,10 @@ class TitleBlock:
         """The title, or the ``kind`` of the design (the name of its class) in words."""
         return self.title or _PARTS.sub(" ", kind).capitalize()
 
+    def marked(self, kind: str) -> str:
+        """The name, which says so where the design is faulty."""
+        return f"FAULTY: {self.name(kind)}" if self.faults else self.name(kind)
+
     @property
     def day(self) -> str:
         """The date, as it stands or today's."""

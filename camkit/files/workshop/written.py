@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,6 +16,8 @@ from ...units import inch, mm, um
 
 LENGTHS = {"mm": mm, "in": inch}
 """The units in which a workshop works, and what each is worth, m."""
+EARLIEST = (1980, 1, 1, 0, 0, 0)
+"""The time of every file in a zip, so that a design gives the same zip again."""
 
 
 @dataclass(frozen=True)
@@ -64,3 +69,14 @@ def length_unit(unit: object) -> str:
     if not isinstance(name, str) or name not in LENGTHS:
         raise ValueError(f"the unit is {unit!r:.40}; a workshop's files are in mm or in inches: 'mm', 'in'")
     return name
+
+
+def zipped(files: Mapping[str, bytes | str]) -> bytes:
+    """A zip that is the same for the same files, by their names."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, data in files.items():
+            about = zipfile.ZipInfo(name, EARLIEST)
+            about.compress_type, about.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+            archive.writestr(about, data)
+    return out.getvalue()
