@@ -18,8 +18,11 @@ from .workshop import (
     faults,
     to_workshop,
     tool_path,
+    write_3mf,
     write_gcode,
     write_report,
+    write_step,
+    write_stl,
 )
 
 __all__ = [
@@ -48,6 +51,9 @@ __all__ = [
     "to_workshop",
     "tool_path",
     "write",
+    "write_3mf",
     "write_gcode",
     "write_report",
+    "write_step",
+    "write_stl",
 ]

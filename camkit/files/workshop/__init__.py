@@ -8,7 +8,9 @@ from .faults import faults
 from .gcode import write_gcode
 from .milling import Milling
 from .package import to_workshop
+from .printing import write_3mf, write_stl
 from .report import write_report
+from .solid import write_step
 from .title import TitleBlock
 from .toolpath import ToolPath, tool_path
 from .written import Written
@@ -22,6 +24,9 @@ __all__ = [
     "faults",
     "to_workshop",
     "tool_path",
+    "write_3mf",
     "write_gcode",
     "write_report",
+    "write_step",
+    "write_stl",
 ]

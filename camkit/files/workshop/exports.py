@@ -114,6 +114,24 @@ def _gcode(order: Order) -> Made:
     return gcode(order.cam, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
 
 
+def _step(order: Order) -> Made:
+    from .solid import step
+
+    return step(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+
+
+def _stl(order: Order) -> Made:
+    from .printing import stl
+
+    return stl(order.cam, title=order.title, blank=order.blank)
+
+
+def _3mf(order: Order) -> Made:
+    from .printing import three_mf
+
+    return three_mf(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+
+
 def _report(order: Order, ending: str) -> Made:
     from .report import report
 
@@ -134,6 +152,11 @@ EXPORTS = (
     Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
     Export("csv", ".csv", "Profile (CSV)", "for spreadsheets: points of the profile", _csv, _cam),
     Export("nc", ".ngc", "Tool path (G-code)", "for a milling machine: LinuxCNC, arcs, feeds to be set", _gcode, _flat),
+    Export(
+        "step", ".step", "Solid (STEP)", "for CAD, CAM and inspection: the cam with bore, keyway and hub", _step, _flat
+    ),
+    Export("stl", ".stl", "Mesh (STL)", "for 3D printing, in mm", _stl, _cam),
+    Export("3mf", ".3mf", "Mesh (3MF)", "for 3D printing, with its unit and title", _3mf, _cam),
     Export(
         "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
     ),
