@@ -6,7 +6,6 @@ from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...quantities.types import Array
 from ...units import mm
@@ -85,6 +84,8 @@ def chords(path: ArcPath, tolerance: float) -> Array:
 
 def off(body: Mesh, points: Array) -> Array:
     """How far points ``(n, 3)`` are from the surface of a mesh, m, nearest to triangles whose middle is near."""
+    from scipy.spatial import cKDTree
+
     corners = body.points[body.triangles]
     _, near = cKDTree(corners.mean(1)).query(points, k=min(NEAR, len(corners)))
     return _from_triangles(points[:, None], *np.moveaxis(corners[near], 2, 0)).min(1)
