@@ -6,7 +6,7 @@ one that reads what it has just written adds up.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from math import prod
 from typing import Any, NamedTuple
@@ -55,15 +55,17 @@ class Loops:
     """The loops of a program in order, and its constants, which stand on the heap first; its inputs come next.
 
     So many of the inputs are steady; what depends on none that moves need not be done again while they stay.
+    Of a part of a program ``made`` says which calls are given, as inputs are, and which follow from them.
     """
 
-    def __init__(self, program: Program, steady: int) -> None:
+    def __init__(self, program: Program, steady: int, made: tuple[Sequence[int], Sequence[int]] | None = None) -> None:
+        given, needed = made or (range(len(program.inputs)), program.needed)
         self.loops = list[Loop]()
         self._size, self._constants, self._known = 0, list[np.ndarray](), dict[Any, Place]()
-        self._at = {k: self._new(program.calls[k].shape) for k in range(len(program.inputs))}
+        self._at = {k: self._new(program.calls[k].shape) for k in given}
         self.inputs = self._size
         moving = set(range(steady, len(program.inputs)))
-        for k in program.needed:
+        for k in needed:
             self._moving = not moving.isdisjoint(numbers_in(program.calls[k].arguments))
             moving |= {k} if self._moving else set()
             self._at[k] = self._lowered(program.calls[k])

@@ -81,7 +81,7 @@ class Recording:
         if function in BY:
             return _written(function, arguments, named)
         _check(function, arguments, named)
-        key = (function, *map(_key, arguments), repr(named))
+        key = (function, *map(key_of, arguments), repr(named))
         if key not in self._known:
             self._known[key] = Recorded(self, function, arguments, named)
         return self._known[key]
@@ -96,17 +96,17 @@ def _check(function: Callable[..., Any], arguments: tuple[Any, ...], named: dict
     """Raise `CannotRecord` unless it is known what the function is elsewhere."""
     if function in EACH:
         if named or len(arguments) != operands(EACH[function]):
-            raise cannot(f"{_name_of(function)} cannot be recorded with these arguments")
+            raise cannot(f"{name_of(function)} cannot be recorded with these arguments")
         if function in OF_NO_WHOLE and arguments[0].dtype.kind in "iu":
-            raise cannot(f"{_name_of(function)} of whole numbers cannot be recorded")
+            raise cannot(f"{name_of(function)} of whole numbers cannot be recorded")
     elif function in FOLDS or function in ALONG:
         if named.keys() - {"axis", "keepdims"}:
-            raise cannot(f"{_name_of(function)} can be recorded with axis and keepdims alone")
+            raise cannot(f"{name_of(function)} can be recorded with axis and keepdims alone")
     elif function not in MOVES:
-        raise cannot(f"{_name_of(function)} cannot be recorded; it is not in the table of operations")
+        raise cannot(f"{name_of(function)} cannot be recorded; it is not in the table of operations")
 
 
-def _name_of(function: object) -> str:
+def name_of(function: object) -> str:
     owner = getattr(function, "__self__", None)
     return f"{owner.__name__ + '.' if isinstance(owner, np.ufunc) else ''}{getattr(function, '__name__', function)}"
 
@@ -115,15 +115,15 @@ def _written(function: Any, arguments: tuple[object, ...], named: dict[str, obje
     try:
         return BY[function](*arguments, **named)
     except TypeError as unfit:
-        raise cannot(f"{_name_of(function)} cannot be recorded with these arguments: {unfit}") from None
+        raise cannot(f"{name_of(function)} cannot be recorded with these arguments: {unfit}") from None
 
 
-def _key(argument: object) -> object:
+def key_of(argument: object) -> object:
     """What tells one argument from another."""
     if isinstance(argument, Recorded):
         return argument.number
     if isinstance(argument, (tuple, list)):
-        return (type(argument), *map(_key, argument))
+        return (type(argument), *map(key_of, argument))
     if isinstance(argument, np.ndarray):
         return argument.shape, argument.dtype.str, argument.tobytes()
     return repr(argument)

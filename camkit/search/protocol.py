@@ -190,6 +190,14 @@ class _FollowedStudy(TightenedStudy):
         self.follow(self.judge(np.atleast_2d(x), analysis))
         return analysis
 
+    def evaluate(self, x: ArrayLike) -> Evaluation:
+        """Objectives and limits of designs."""
+        found = super().evaluate(x)
+        assert self.follow is not None
+        if not self.menus:  # else those with the same options were handed on
+            self.follow(found)
+        return found
+
 
 @dataclass(frozen=True)
 class _FollowedRobustStudy(RobustStudy):

@@ -28,9 +28,9 @@ class TightenedStudy(Study[D]):
         """The margins at designs ``(p, n_free)``."""
         return np.zeros(()) if self.margins is None else self.margins(x)
 
-    def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
-        """Objectives and tightened limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
-        found = super().judge(x, analysis)
+    def judged_by(self, x: np.ndarray, values: Array) -> Evaluation:
+        """Objectives and tightened limits of designs ``(p, n_free)`` of which the values are at hand."""
+        found = super().judged_by(x, values)
         return found if self.margins is None else replace(found, g=found.g + self.margins(x))
 
 

@@ -150,7 +150,7 @@ def _limits(study: RobustStudy, parts: Array, objectives: bool = True) -> Array:
         g = found.g if study.limits else np.full((len(rows), 1), DEEP)
         g = np.where(np.isfinite(found.f).all(-1, keepdims=True), g, np.inf)
     else:
-        g = study.limits_of(study.analysis_of_parts(rows), len(rows))
+        g = study.judged(rows).g
     return seen(g).reshape(*parts.shape[:2], g.shape[-1])
 
 

@@ -174,7 +174,7 @@ class RobustStudy(Study[D]):
 
     def judged(self, parts: Array) -> Evaluation:
         """What the nominal study says of parts ``(q, n_paths)``."""
-        return self.judge(parts, self.analysis_of_parts(parts))
+        return self.judged_by(parts, self.values(parts, tuple(self._parts.declared)))
 
     def has_objectives(self, x: Array) -> bool:
         """Whether the objectives of designs ``(p, n_free)`` are finite in the middle and at the ends of tolerances."""
@@ -299,7 +299,7 @@ class RobustStudy(Study[D]):
         rows = self.rows(x)
         if self.menus:
             return self.options.evaluate(rows)
-        found = self.judge(rows, self.analysis(rows))
+        found = self.judged_by(rows, self.values(rows))
         middle = found
         if (self._half(self._base(rows))[0] != 0).any():
             middle = self.judged(self.made(rows, np.zeros((1, len(self.tolerances))))[:, 0])

@@ -36,14 +36,17 @@ from ..quantities.kinds import (
 )
 from ..quantities.types import Array, Value
 from .free import Free, Menu, declared_with, freed, is_number
+from .native import Native, native
 from .options import Options, Plain, copied, ready
-from .weighted import WeightedSum, checked_weight
+from .weighted import WeightedSum, added, checked_weight
 
 if TYPE_CHECKING:
     from .robust import RobustStudy
 
 TRIED = 32
 """So many pairs of designs, at random, say whether a free quantity has any effect."""
+BLOCK = 64
+"""So many designs numpy takes at once."""
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
 
@@ -299,7 +302,34 @@ class Study(Generic[D]):
     def evaluate(self, x: ArrayLike) -> Evaluation:
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
         rows = self.rows(x)
-        return self.options.evaluate(rows) if self.menus else self.judge(rows, self.analysis(rows))
+        return self.options.evaluate(rows) if self.menus else self.judged_by(rows, self.values(rows))
+
+    @cached_property
+    def _natives(self) -> dict[tuple[str, ...], Native | None]:
+        return {}
+
+    def values(self, x: Array, paths: tuple[str, ...] | None = None) -> Array:
+        """What `measures` say of ``p`` designs, ``(p, n_measures)``, SI; values ``x`` stand at ``paths``, else are free.
+
+        By native code once it is there, else by numpy (see `camkit.study.native`).
+        """
+        at = tuple(self.free) if paths is None else paths
+        if at not in self._natives:
+            self._natives[at] = native(self, at)
+        by = self._natives[at]
+        found = by.values(self, at, x) if by and len(x) else None
+        return self.by_numpy(x, at) if found is None else found
+
+    def by_numpy(self, x: Array, paths: tuple[str, ...]) -> Array:
+        """The same by numpy, in blocks of designs that stay near the processor."""
+        put = self._paths if paths == tuple(self.free) else Paths(self.start, paths, Quantity)
+        return np.concatenate([self._block(put, x[k : k + BLOCK]) for k in range(0, max(len(x), 1), BLOCK)])
+
+    def _block(self, put: Paths, x: Array) -> Array:
+        with unremarked():
+            designs = put.put(self.start, [np.ascontiguousarray(column)[:, None] for column in x.T])
+        analysis = self.analysis_of(designs)
+        return self._columns([measure.of(analysis, len(x)) for measure in self.measures], len(x))
 
     def rows(self, x: ArrayLike) -> np.ndarray:
         """``x`` as a table with a row for each design; ``ValueError`` in a sentence for what is none."""
@@ -315,14 +345,16 @@ class Study(Generic[D]):
 
     def judge(self, x: np.ndarray, analysis: object) -> Evaluation:
         """Objectives and limits of designs ``(p, n_free)`` whose ``analysis`` is at hand."""
-        f = self._columns([measure.of(analysis, len(x)) for measure in self.minimise], len(x))
-        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), self.limits_of(analysis, len(x)))
+        values = [measure.of(analysis, len(x)) for measure in self.measures]
+        return self.judged_by(x, self._columns(values, len(x)))
 
-    def limits_of(self, analysis: object, p: int) -> np.ndarray:
-        """The limits alone of ``p`` designs, as `Evaluation.g` has them, ``(p, n_limits)``."""
-        limits = [(m.of(analysis, p), v, sense) for m, v, sense in self.limits]
-        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], p)
-        return np.where(np.isnan(g), np.inf, g)
+    def judged_by(self, x: np.ndarray, values: Array) -> Evaluation:
+        """Objectives and limits of designs ``(p, n_free)`` of which `values` are at hand."""
+        told = iter(values.T)
+        f = self._columns([added(m, told) for m in self.minimise], len(x))
+        limits = [(added(m, told), v, sense) for m, v, sense in self.limits]
+        g = self._columns([sense * (value - v) / (abs(v) or 1.0) for value, v, sense in limits], len(x))
+        return Evaluation(x, np.where(np.isfinite(f), f, np.inf), np.where(np.isnan(g), np.inf, g))
 
     @staticmethod
     def _columns(values: list[Array], p: int) -> np.ndarray:

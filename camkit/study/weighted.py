@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..quantities import CurveMeasure, Measure
 from ..quantities.kinds import finite, listed, one_number, shown
-from ..quantities.types import Value
+from ..quantities.types import Array, Value
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,14 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
         return sum(w * part(analysis) / r for part, w, r in zip(parts, shares, divisors, strict=True))
 
     return WeightedSum(name, "", total, 1, parts, shares, divisors)
+
+
+def added(measure: Measure, values: Iterator[Array]) -> Array:
+    """A measure by what its parts say, which come next among values; of one that is no sum its own."""
+    if not isinstance(measure, WeightedSum):
+        return next(values)
+    told = zip(measure.weights, measure.reference, measure.parts, strict=True)
+    return np.asarray(measure.sign * sum(w * next(values) / r for w, r, _ in told))
 
 
 def checked_weight(value: object, of: str) -> float:

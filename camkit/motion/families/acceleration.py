@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -281,7 +281,6 @@ def _refuse_zones(law: AccelerationTable) -> None:
     (x, fixed), there = law._scaled, law._zones.there
     least = np.min(np.where(there > 0, x, np.inf), axis=-1, keepdims=True)
     few = law._table.zones[..., -1:] < MOST_ZONES
-    oks: list[Any] = [few, fixed, least > 0]
     if x.ndim == 1:
         few, fixed, least = few[0], fixed[0], least[0]
     if refuse := unless(few):
@@ -296,8 +295,8 @@ def _refuse_zones(law: AccelerationTable) -> None:
             f"the least scale of a zone of the acceleration table is {least:.6g}; each must be above 0: a zone would "
             "have to change its sign"
         )
-    ok = oks[0] & oks[1] & oks[2]
-    if not certain(ok) and x.ndim > 1:
+    ok = few & fixed & (least > 0)
+    if not certain(ok):
         object.__setattr__(law, "a", tuple(np.where(ok, a, np.nan) for a in law.a))
         for name in ("_table", "_zones", "_scaled"):
             law.__dict__.pop(name, None)

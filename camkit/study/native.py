@@ -1,0 +1,156 @@
+"""What a study says of many designs, by native code where that is there: numpy answers until it is, and if it is not.
+
+The code knows every declared number of the start as an input, so that it serves for all studies that differ in these.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import threading
+from collections import OrderedDict
+from collections.abc import Hashable, Mapping, Sequence
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..program import record
+from ..quantities import Quantity, quantities_of, unremarked
+from ..quantities.tree import Paths
+from ..quantities.types import Array
+
+if TYPE_CHECKING:
+    from ..program.kernel import Kernel
+    from .study import Study
+
+WORTH = 2048
+"""After so many designs it is worth making code for those that follow."""
+MOST = 32
+"""So many programs have their code, those that were last asked for."""
+AGREED = 1e-12
+"""By how much the code may differ from numpy, as a share of the largest of each measure."""
+
+
+class Native:
+    """The code for all studies that differ in declared numbers alone; made beside while numpy answers."""
+
+    def __init__(self) -> None:
+        self.kernel: Kernel | None = None
+        self.refused = ""
+        """Why there is none and will be none."""
+        self._seen, self._lock = 0, threading.Lock()
+        self._maker: threading.Thread | None = None
+
+    def __reduce__(self) -> tuple[type[Native], tuple[()]]:
+        return Native, ()
+
+    def values(self, study: Study[Any], paths: Sequence[str], x: Array) -> Array | None:
+        """What `Study.measures` say of designs with values ``x`` ``(p, n)`` at paths; none as long as there is no code."""
+        if self.kernel is not None:
+            return self.kernel(_numbers_of(study.start), x)
+        self._seen += len(x)
+        if self._seen > WORTH:
+            self.make(study, paths, x)
+        return None
+
+    def make(self, study: Study[Any], paths: Sequence[str], x: Array) -> None:
+        """Begin to make the code, if nobody has begun."""
+        with self._lock:
+            if self._maker is None and not self.refused:
+                self._maker = threading.Thread(target=self._make, args=(study, paths, x[:64].copy()), daemon=True)
+                self._maker.start()
+
+    def wait(self) -> None:
+        """Until the code is there, or there will be none."""
+        if self._maker is not None:
+            self._maker.join()
+
+    def _make(self, study: Study[Any], paths: Sequence[str], x: Array) -> None:
+        try:
+            kernel = made(study, paths)
+            agrees(kernel(_numbers_of(study.start), x), study.by_numpy(x, paths))
+            self.kernel = kernel
+        except Exception as why:  # whatever it is, numpy answers
+            self.refused = f"{type(why).__name__}: {why}"
+
+
+def made(study: Study[Any], paths: Sequence[str]) -> Kernel:
+    """The code for what a study's measures say of designs that differ at some paths."""
+    from ..program.kernel import Kernel
+
+    def measured(design: object) -> Mapping[str, object]:
+        analysis = study.analysis_of(design)
+        return {str(i): measure.of(analysis, 1) for i, measure in enumerate(study.measures)}
+
+    with unremarked():
+        return Kernel(record(measured, study.start), paths)
+
+
+def agrees(found: Array, expected: Array) -> None:
+    """``ArithmeticError`` where code and numpy differ, or are no numbers in different places."""
+    known = np.isfinite(expected)
+    size = np.max(abs(expected), axis=0, where=known, initial=0)
+    with np.errstate(invalid="ignore"):
+        same = np.where(known, abs(found - expected) <= AGREED * size, (found == expected) | np.isnan(found) & np.isnan(expected))
+    if not same.all():
+        raise ArithmeticError(f"native code and numpy differ in {(~same).sum()} numbers")
+
+
+def _numbers_of(design: object) -> dict[str, float]:
+    paths = quantities_of(design)
+    return dict(zip(paths, Paths(design, paths).values(design), strict=True))
+
+
+_KNOWN: OrderedDict[Hashable, Native] = OrderedDict()
+_LOCK = threading.Lock()
+
+
+def native(study: Study[Any], paths: Sequence[str]) -> Native | None:
+    """What there is for studies like this one; none where llvmlite is not installed, or ``CAMKIT_FAST`` is 0."""
+    if os.environ.get("CAMKIT_FAST") == "0" or not _installed():
+        return None
+    try:
+        key = (_likeness(study.start), tuple(paths), _likeness(study.measures), study.angles, study.rough)
+        hash(key)
+    except TypeError:  # who can say what is like it
+        return None
+    with _LOCK:
+        found = _KNOWN.setdefault(key, Native())
+        _KNOWN.move_to_end(key)
+        while len(_KNOWN) > MOST:
+            _KNOWN.popitem(last=False)
+    return found
+
+
+@cache
+def _installed() -> bool:
+    with suppress(ModuleNotFoundError):
+        return find_spec("llvmlite") is not None
+    return False
+
+
+def _likeness(thing: object) -> Hashable:
+    """What two things have in common that differ in declared numbers alone."""
+    if isinstance(thing, (tuple, list)):
+        return (type(thing), *map(_likeness, thing))
+    if isinstance(thing, Mapping):
+        return (type(thing), *((key, _likeness(value)) for key, value in thing.items()))
+    if isinstance(thing, np.ndarray):
+        return thing.shape, thing.dtype.str, thing.tobytes()
+    if not dataclasses.is_dataclass(thing):
+        return type(thing), thing  # type: ignore[return-value]
+    return (type(thing), *(_likeness_of(f, getattr(thing, f.name)) for f in dataclasses.fields(thing)))
+
+
+def _likeness_of(f: dataclasses.Field[Any], value: Any) -> Hashable:
+    """The same of a field: of declared numbers whether they are there."""
+    if isinstance(f.metadata.get("declared"), Quantity):
+        return value is None
+    if "row" in f.metadata:
+        return tuple(each is None for each in value)
+    return _likeness(value)
+
+

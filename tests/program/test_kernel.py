@@ -1,0 +1,191 @@
+"""Programs as native code: what numpy says, at awkward numbers, of expressions at random, of every machine."""
+
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from camkit.program import record, recorded
+from camkit.quantities import with_quantities
+from machine_cases import LAWS
+from program_cases import CASES, INPUTS, designs_beside, expression
+from test_machines import CAMS, curves, with_law
+from test_studies_and_views import STUDIES
+
+pytest.importorskip("llvmlite")
+from camkit.program.kernel import Kernel, compiler, kernel, stored  # noqa: E402
+
+DESIGNS = 200
+ULP = 1e-15
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("CAMKIT_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def of_numbers(function, arrays):
+    """A program of ``function`` whose inputs are the numbers of arrays, one by one; and these."""
+    ends = np.cumsum([0, *(array.size for array in arrays)])
+    numbers = np.concatenate([np.ravel(array) for array in arrays])
+
+    def whole(given):
+        row = np.stack([*given.values()])
+        parts = zip(ends, ends[1:], arrays, strict=False)
+        return {"out": function(*(np.reshape(row[a:b], array.shape) for a, b, array in parts))}
+
+    return recorded(whole, {str(i): number for i, number in enumerate(numbers)}), numbers
+
+
+def compare(function, arrays):
+    """The kernel's numbers and numpy's, of the arrays' numbers as they are and twice by lot."""
+    program, numbers = of_numbers(function, arrays)
+    draw, ends = np.random.default_rng(1), np.cumsum([array.size for array in arrays])[:-1]
+    rows = np.stack([numbers, *(draw.permutation(numbers) for _ in range(2))])
+    found = Kernel(program, program.inputs)({}, rows)
+    for row, each in zip(rows, found, strict=True):
+        given = [np.reshape(part, array.shape) for part, array in zip(np.split(row, ends), arrays, strict=True)]
+        with np.errstate(all="ignore"):
+            expected = np.ravel(np.asarray(function(*given), dtype=float))
+        size = np.max(abs(expected), initial=0, where=np.isfinite(expected))
+        yield each, expected, size
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_row_of_the_table_at_awkward_numbers(name):
+    function, arrays = CASES[name]
+    for found, expected, _ in compare(function, arrays):
+        assert_allclose(found, expected, rtol=1e-14, atol=ULP)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_an_expression_at_random(seed):
+    for found, expected, size in compare(expression(seed), [np.asarray(value) for value in INPUTS.values()]):
+        assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * size)
+
+
+def same(found, expected):
+    """To 1e-12 of the largest of each column, and no number where numpy has none."""
+    with np.errstate(all="ignore"):
+        size = np.max(abs(expected), axis=0, where=np.isfinite(expected), initial=0)
+        assert_array_equal(np.isnan(found), np.isnan(expected))
+        near = (abs(found - expected) <= 1e-12 * size) | (found == expected) | np.isnan(expected)
+    assert near.all(), f"{(~near).sum(0)} of {len(near)}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", STUDIES)
+def test_a_study_says_what_numpy_says(name):
+    study = STUDIES[name]
+    values = designs_beside(study.start, DESIGNS, 3)
+
+    def measured(design, p=1):
+        analysis = study.analysis_of(design)
+        return {str(i): measure.of(analysis, p) for i, measure in enumerate(study.measures)}
+
+    with np.errstate(all="ignore"):
+        expected = np.stack([*measured(with_quantities(study.start, values), DESIGNS).values()], axis=-1)
+    found = Kernel(record(measured, study.start), [*values])({}, np.hstack([*values.values()]))
+    assert 0.02 < np.isfinite(expected).all(-1).mean()
+    same(found, expected)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("place", "law"), [*enumerate(LAWS)])
+def test_a_cam_with_any_law_and_follower(place, law):
+    cam = with_law(CAMS[place % len(CAMS)], LAWS[law])
+    values = designs_beside(cam, DESIGNS, 1)
+    with np.errstate(all="ignore"):
+        expected = curves(with_quantities(cam, values))
+    shapes = {name: np.shape(value) for name, value in curves(cam).items()}
+    found = Kernel(record(curves, cam), [*values])({}, np.hstack([*values.values()]))
+    ends = np.cumsum([int(np.prod(shape)) for shape in shapes.values()])
+    for (name, shape), column in zip(shapes.items(), np.split(found, ends[:-1], axis=1), strict=True):
+        rows = np.moveaxis(column.reshape(DESIGNS, *shape), 0, -2 if shape else -1)
+        value = np.broadcast_to(expected[name].reshape(DESIGNS) if not shape else expected[name], rows.shape)
+        same(rows.reshape(-1, *rows.shape[-1:]), value.reshape(-1, *rows.shape[-1:]))
+
+
+def product(value=3.0):
+    return recorded(lambda given: {"area": given["x"] * given["y"] + value, "side": given["y"]}, {"x": 1.0, "y": 1.0})
+
+
+def files(cache):
+    return sorted(cache.iterdir())
+
+
+def test_code_is_made_once_for_each_program(cache, monkeypatch):
+    found = Kernel(product(), ["x"])({"y": 5.0}, np.array([[2.0]]))
+    assert found.tolist() == [[13.0, 5.0]]
+    (file,) = files(cache)
+    before = file.stat().st_mtime_ns
+    monkeypatch.setattr(kernel, "code_of", None)  # now it cannot be made
+    assert Kernel(product(), ["x"])({"y": 7.0}, np.array([[2.0]])).tolist() == [[17.0, 7.0]]
+    assert files(cache)[0].stat().st_mtime_ns == before
+    for program, inputs in ((product(4.0), ["x"]), (product(), ["y"]), (product(), ["y", "x"])):
+        with pytest.raises(TypeError):
+            Kernel(program, inputs)
+
+
+@pytest.mark.parametrize("harm", [lambda b: b[:-1], lambda b: b"", lambda b: b[:40] + b"x" + b[41:], lambda b: b[:32]])
+def test_a_damaged_file_is_written_anew(cache, harm):
+    Kernel(product(), ["x"])
+    (file,) = files(cache)
+    whole = file.read_bytes()
+    file.write_bytes(harm(whole))
+    assert Kernel(product(), ["x"])({"y": 5.0}, np.array([[2.0]])).tolist() == [[13.0, 5.0]]
+    assert stored.read(file.name) is not None
+    assert len(files(cache)) == 1
+
+
+def test_code_of_another_processor_or_another_version_is_not_taken(cache, monkeypatch):
+    Kernel(product(), ["x"])
+    for what in ("processor", "code"):
+        if what == "processor":
+            monkeypatch.setattr(compiler, "processor", lambda: "another")
+        else:
+            monkeypatch.setattr(stored, "_of_this_code", lambda: "another")
+        before = len(files(cache))
+        Kernel(product(), ["x"])
+        assert len(files(cache)) == before + 1
+
+
+def test_the_cache_keeps_what_was_last_made(cache, monkeypatch):
+    monkeypatch.setattr(stored, "MOST", 3)
+    for value in range(6):
+        Kernel(product(float(value)), ["x"])
+    assert len(files(cache)) == 3
+
+
+def test_a_cache_that_cannot_be_written_to_is_none(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("CAMKIT_CACHE", str(tmp_path / "file" / "below"))
+    assert Kernel(product(), ["x"])({"y": 5.0}, np.array([[2.0]])).tolist() == [[13.0, 5.0]]
+
+
+@pytest.mark.parametrize("rows", [0, 1, 7, 8, 9, 255, 257, 5000])
+def test_any_number_of_designs_whoever_shares_them(rows, monkeypatch):
+    monkeypatch.setattr(kernel, "threads", lambda: 2)
+    program = recorded(lambda given: {"sum": np.sum(np.sin(given["x"] * np.arange(50.0)))}, {"x": 1.0})
+    x = np.random.default_rng(rows).normal(size=(rows, 1))
+    found = Kernel(program, ["x"])({}, x)
+    assert found.shape == (rows, 1)
+    assert_allclose(found[:, 0], np.sin(x * np.arange(50.0)).sum(-1), rtol=0, atol=1e-13)
+    one_by_one = [Kernel(program, ["x"])({}, row[None])[0] for row in x[:3]]
+    assert_array_equal(found[:3], np.reshape(one_by_one, (-1, 1)))
+
+
+def test_what_no_input_changes_is_as_numpy_says():
+    program = recorded(lambda given: {"a": np.cumsum(given["y"] * np.arange(3.0)), "b": 2.0}, {"x": 1.0, "y": 1.0})
+    assert Kernel(program, ["x"])({"y": 3.0}, np.zeros((2, 1))).tolist() == [[0.0, 3.0, 9.0, 2.0]] * 2
+
+
+def test_no_flag_lets_llvm_change_a_digit(monkeypatch):
+    texts = []
+    monkeypatch.setattr(compiler, "machine_code", lambda text: texts.append(text) or b"")
+    program, _ = of_numbers(expression(4), [np.asarray(value) for value in INPUTS.values()])
+    kernel.code_of(program, program.inputs)
+    flags = "fast|nnan|ninf|nsz|arcp|contract|afn|reassoc"
+    assert not re.search(rf"\b({flags})\b", texts[0].replace("fastcc", ""))
