@@ -107,6 +107,7 @@ def _check(function: Callable[..., Any], arguments: tuple[Any, ...], named: dict
 
 
 def name_of(function: object) -> str:
+    """What a function of numpy is called."""
     owner = getattr(function, "__self__", None)
     return f"{owner.__name__ + '.' if isinstance(owner, np.ufunc) else ''}{getattr(function, '__name__', function)}"
 

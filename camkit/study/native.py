@@ -48,7 +48,7 @@ class Native:
         return Native, ()
 
     def values(self, study: Study[Any], paths: Sequence[str], x: Array) -> Array | None:
-        """What `Study.measures` say of designs with values ``x`` ``(p, n)`` at paths; none as long as there is no code."""
+        """What `Study.measures` say of designs with values ``x`` ``(p, n)`` at paths, if there is code for it."""
         if self.kernel is not None:
             return self.kernel(_numbers_of(study.start), x)
         self._seen += len(x)
@@ -63,6 +63,11 @@ class Native:
                 self._maker = threading.Thread(target=self._make, args=(study, paths, x[:64].copy()), daemon=True)
                 self._maker.start()
 
+    @property
+    def begun(self) -> bool:
+        """Whether it is being made, or was."""
+        return self._maker is not None
+
     def wait(self) -> None:
         """Until the code is there, or there will be none."""
         if self._maker is not None:
@@ -71,7 +76,7 @@ class Native:
     def _make(self, study: Study[Any], paths: Sequence[str], x: Array) -> None:
         try:
             kernel = made(study, paths)
-            agrees(kernel(_numbers_of(study.start), x), study.by_numpy(x, paths))
+            agrees(kernel(_numbers_of(study.start), x), study.by_numpy(x, tuple(paths)))
             self.kernel = kernel
         except Exception as why:  # whatever it is, numpy answers
             self.refused = f"{type(why).__name__}: {why}"
@@ -94,7 +99,8 @@ def agrees(found: Array, expected: Array) -> None:
     known = np.isfinite(expected)
     size = np.max(abs(expected), axis=0, where=known, initial=0)
     with np.errstate(invalid="ignore"):
-        same = np.where(known, abs(found - expected) <= AGREED * size, (found == expected) | np.isnan(found) & np.isnan(expected))
+        same = (known & (abs(found - expected) <= AGREED * size)) | (found == expected)
+        same |= np.isnan(found) & np.isnan(expected)
     if not same.all():
         raise ArithmeticError(f"native code and numpy differ in {(~same).sum()} numbers")
 
@@ -104,7 +110,8 @@ def _numbers_of(design: object) -> dict[str, float]:
     return dict(zip(paths, Paths(design, paths).values(design), strict=True))
 
 
-_KNOWN: OrderedDict[Hashable, Native] = OrderedDict()
+KNOWN: OrderedDict[Hashable, Native] = OrderedDict()
+"""By what studies have in common, what was last asked for last."""
 _LOCK = threading.Lock()
 
 
@@ -118,10 +125,10 @@ def native(study: Study[Any], paths: Sequence[str]) -> Native | None:
     except TypeError:  # who can say what is like it
         return None
     with _LOCK:
-        found = _KNOWN.setdefault(key, Native())
-        _KNOWN.move_to_end(key)
-        while len(_KNOWN) > MOST:
-            _KNOWN.popitem(last=False)
+        found = KNOWN.setdefault(key, Native())
+        KNOWN.move_to_end(key)
+        while len(KNOWN) > MOST:
+            KNOWN.popitem(last=False)
     return found
 
 
@@ -141,7 +148,7 @@ def _likeness(thing: object) -> Hashable:
     if isinstance(thing, np.ndarray):
         return thing.shape, thing.dtype.str, thing.tobytes()
     if not dataclasses.is_dataclass(thing):
-        return type(thing), thing  # type: ignore[return-value]
+        return type(thing), thing
     return (type(thing), *(_likeness_of(f, getattr(thing, f.name)) for f in dataclasses.fields(thing)))
 
 
@@ -152,5 +159,3 @@ def _likeness_of(f: dataclasses.Field[Any], value: Any) -> Hashable:
     if "row" in f.metadata:
         return tuple(each is None for each in value)
     return _likeness(value)
-
-

@@ -309,9 +309,9 @@ class Study(Generic[D]):
         return {}
 
     def values(self, x: Array, paths: tuple[str, ...] | None = None) -> Array:
-        """What `measures` say of ``p`` designs, ``(p, n_measures)``, SI; values ``x`` stand at ``paths``, else are free.
+        """What `measures` say of ``p`` designs, ``(p, n_measures)``, SI, with values ``x`` at paths, or free ones.
 
-        By native code once it is there, else by numpy (see `camkit.study.native`).
+        By native code as soon as it is there, else by numpy (see `camkit.study.native`).
         """
         at = tuple(self.free) if paths is None else paths
         if at not in self._natives:

@@ -14,7 +14,7 @@ from test_machines import CAMS, curves, with_law
 from test_studies_and_views import STUDIES
 
 pytest.importorskip("llvmlite")
-from camkit.program.kernel import Kernel, compiler, kernel, stored  # noqa: E402
+from camkit.program.kernel import Kernel, compiler, kernel, stored
 
 DESIGNS = 200
 ULP = 1e-15
@@ -88,7 +88,7 @@ def test_a_study_says_what_numpy_says(name):
     with np.errstate(all="ignore"):
         expected = np.stack([*measured(with_quantities(study.start, values), DESIGNS).values()], axis=-1)
     found = Kernel(record(measured, study.start), [*values])({}, np.hstack([*values.values()]))
-    assert 0.02 < np.isfinite(expected).all(-1).mean()
+    assert np.isfinite(expected).all(-1).mean() > 0.02
     same(found, expected)
 
 

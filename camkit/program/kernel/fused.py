@@ -95,7 +95,8 @@ class Fused:
         for loop in loops.loops:
             for part in _cut(loop, steady):
                 self._place(part)
-        self.outputs = [a for at, size in loops.outputs for a in range(at - len(loops.constants), at - len(loops.constants) + size)]
+        self.outputs = [at + k - len(loops.constants) for at, size in loops.outputs for k in range(size)]
+        """The address of each number of the outputs."""
         for at in self.outputs:
             if maker := self._makers[at]:
                 maker.stored = True
@@ -131,9 +132,11 @@ class Fused:
         if addresses[0] < self.steady <= addresses[-1]:
             raise CannotRecord("numbers that move and numbers that stay stand in one row")
         makers = {id(m): m for a in addresses if a >= 0 and (m := self._makers[a])}
-        even = len(makers) == 1 and not (step.operation == PICKED and k == 0) and not (step.fold and not step.begins and k == 0)
+        at_once = k == 0 and (step.operation == PICKED or (step.fold and not step.begins))
+        beside = len(makers) == 1 and not at_once
         return [
-            (m, even and not m.fold and m.times == step.times and _same(m.result, span, m.times)) for m in makers.values()
+            (m, beside and not m.fold and m.times == step.times and _same(m.result, span, m.times))
+            for m in makers.values()
         ]
 
     def _heap(self) -> tuple[np.ndarray, int]:

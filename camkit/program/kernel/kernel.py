@@ -27,7 +27,9 @@ SHARED = 256
 
 def measured(program: Program) -> Program:
     """A program of its numbers alone, without its texts and what its inputs would be refused for."""
-    outputs = {name: out for name, out in program.outputs.items() if isinstance(name, str)}
+    outputs: dict[str | int, Recorded | np.ndarray] = {
+        name: out for name, out in program.outputs.items() if isinstance(name, str)
+    }
     return replace(program, outputs=outputs, texts={}, refusals={})
 
 

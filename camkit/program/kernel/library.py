@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .words import BY_NUMPY, Value, Words, literal
@@ -14,7 +16,8 @@ SINE = (1.58962301576546568060e-10, -2.50507477628578072866e-8, 2.75573136213857
 COSINE = (-1.13585365213876817300e-11, 2.08757008419747316778e-9, -2.75573141792967388112e-7,
           2.48015872888517045348e-5, -1.38888888888730564116e-3, 4.16666666666665929218e-2)  # fmt: skip
 """The polynomials of the sine and the cosine up to a quarter of pi (Cephes, ``sin.c``), highest power first."""
-WHOLE, INFINITE = 2.0**52, literal(float("inf"))
+WHOLE = 2.0**52
+"""Larger numbers have no fraction."""
 
 
 def library(lanes: int) -> str:
@@ -32,11 +35,11 @@ def library(lanes: int) -> str:
     )
 
 
-def _guarded(name: str, takes: tuple[str, ...], lanes: int, body) -> str:
+def _guarded(name: str, takes: tuple[str, ...], lanes: int, body: Callable[[Words], tuple[Value, Value]]) -> str:
     """A function with a quick way for numbers that are as usual in all lanes, and numpy's for others."""
     w = Words(lanes)
     found, usual = body(w)
-    place = [f.__name__ for f in BY_NUMPY].index(name)
+    place = [str(function.__name__) for function in BY_NUMPY].index(name)
     given = [Value(f"%{a}") for a in takes]
     all_usual = w.named(f"call i1 @llvm.vector.reduce.and.v{lanes}i1({w.truths} {usual})")
     w.line(f"br i1 {all_usual}, label %quick, label %rare")
@@ -87,8 +90,8 @@ def _remainder(w: Words) -> tuple[Value, Value]:
     other = w.both("xor", w.compared("olt", r, zero), w.compared("olt", b, zero))
     none = w.compared("oeq", r, zero)
     found = w.where(none, w.called("copysign", zero, b), w.where(other, w.two("fadd", r, b), r))
-    small, finite = w.compared("ult", w.called("fabs", q), literal(WHOLE)), w.compared("ult", w.called("fabs", b), INFINITE)
-    return found, w.both("and", small, finite)
+    usual = w.compared("ult", w.called("fabs", q), literal(WHOLE))
+    return found, w.both("and", usual, w.compared("ult", w.called("fabs", b), literal(float("inf"))))
 
 
 def _by_numpy(lanes: int, takes: int) -> str:
@@ -104,7 +107,8 @@ def _by_numpy(lanes: int, takes: int) -> str:
     ]
     return (
         f"define internal fastcc {numbers} @numpy{takes}(ptr %N, i64 %k, {given}) #1 {{\n"
-        f"  %args = alloca [3 x ptr]\n  %steps = alloca [3 x i64]\n  %n = alloca i64\n{''.join(arrays + stores + places)}"
+        "  %args = alloca [3 x ptr]\n  %steps = alloca [3 x i64]\n  %n = alloca i64\n"
+        f"{''.join(arrays + stores + places)}"
         f"  store i64 {lanes}, ptr %n\n"
         "  %at = getelementptr ptr, ptr %N, i64 %k\n  %loop = load ptr, ptr %at\n"
         "  %beside = getelementptr ptr, ptr %at, i64 1\n  %data = load ptr, ptr %beside\n"

@@ -57,8 +57,9 @@ class Code:
         begin = 8 + int.from_bytes(rest[:8], "little")
         told = json.loads(rest[8:begin])
         end = begin + 8 * told.pop("constants")
-        numbers = {name: tuple(value) if isinstance(value, list) else value for name, value in told.items()}
-        return cls(rest[end:], np.frombuffer(rest[begin:end]), **numbers)
+        given, steady, outputs = (tuple(told[name]) for name in ("given", "steady", "outputs"))
+        numbers = np.frombuffer(rest[begin:end])
+        return cls(rest[end:], numbers, given, steady, outputs, told["size"], told["lanes"])
 
 
 def folder() -> Path:
@@ -83,7 +84,7 @@ def name(program: Program, inputs: Sequence[str], processor: str) -> str:
     """
     calls = [program.calls[k] for k in program.needed]
     told = [(k.number, name_of(k.function), *map(key_of, k.arguments), k.named) for k in calls]
-    outputs = [out.number if isinstance(out, Recorded) else np.asarray(out).tobytes() for out in program.outputs.values()]
+    outputs = [out.number if isinstance(out, Recorded) else key_of(out) for out in program.outputs.values()]
     shapes = [call.shape for call in program.calls[: len(program.inputs)]]
     moving = [program.inputs.index(given) for given in inputs]
     return sha256(repr((_of_this_code(), processor, told, outputs, shapes, moving)).encode()).hexdigest()

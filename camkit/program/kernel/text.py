@@ -87,15 +87,16 @@ class _Block(Words):
         self._turn = Value(f"%j{number}")
         self.line(f"{self._turn} = phi i64 [0, %before{number}], [%next{number}, %loop{number}]")
         heads = len(self.lines)
-        folded = []
+        folded = list[tuple[tuple[Value, ...], tuple[Value, ...], tuple[Value, ...]]]()
         for step in group.steps:
-            names = tuple(type(start)(f"%f{number}_{len(folded)}_{k}") for k, start in enumerate(before.get(id(step), ())))
+            starts = before.get(id(step), ())
+            names = tuple(type(start)(f"%f{number}_{len(folded)}_{k}") for k, start in enumerate(starts))
             ends = self._made(step, names)
-            folded += [(names, before[id(step)], ends)] if step.fold else []
+            folded += [(names, starts, ends)] if step.fold else []
         self.lines[heads:heads] = [
-            f"  {name} = phi {self.truths if name.truth else self.numbers} [{start}, %before{number}], [{end}, %loop{number}]"
-            for names, starts, ends in folded
-            for name, start, end in zip(names, starts, ends, strict=True)
+            f"  {name} = phi {self.kind(name)} [{start}, %before{number}], [{end}, %loop{number}]"
+            for each in folded
+            for name, start, end in zip(*each, strict=True)
         ]
         self.line(f"%next{number} = add nuw nsw i64 {self._turn}, 1")
         self.line(f"%more{number} = icmp ult i64 %next{number}, {group.times}")

@@ -19,7 +19,7 @@ BY_NUMPY = (
     *(np.arccosh, np.arctanh, np.exp, np.expm1, np.log, np.log1p, np.log2, np.log10, np.cbrt, np.arctan2, np.hypot),
     *(np.power, np.floor_divide),
 )
-"""Functions that are done by numpy's own loops, and so to the last bit the same; the first three are its last resort."""
+"""Functions that are done by numpy's own loops, to the last bit the same; the first three for rare numbers alone."""
 MOST = 8
 """The largest whole exponent that is a product."""
 
@@ -52,6 +52,10 @@ class Words:
         self.numbers, self.truths = f"<{lanes} x double>", f"<{lanes} x i1>"
         self.lines: list[str] = []
         self._names = 0
+
+    def kind(self, value: Value) -> str:
+        """The type of a value, as LLVM calls it."""
+        return self.truths if value.truth else self.numbers
 
     def line(self, text: str) -> None:
         """One more line."""
