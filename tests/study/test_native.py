@@ -144,3 +144,13 @@ def test_so_many_programs_are_kept(monkeypatch):
     for angles in (31, 32, 33):
         native.native(study().replace(angles=angles), ("base_radius",))
     assert [key[3] for key in native.KNOWN] == [32, 33]
+
+
+def test_where_a_last_digit_may_lead_elsewhere_numpy_answers():
+    of = study()
+    ready(of)
+    x = rows(of, 300)
+    with native.numpy_alone():
+        found = of.evaluate(x)
+    expected = np.concatenate([by_numpy(of, x[k : k + 64]).f for k in range(0, 300, 64)])
+    assert_array_equal(found.f, expected)
