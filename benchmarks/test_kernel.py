@@ -1,4 +1,4 @@
-"""Studies by native code beside numpy, in turns: a design of a population, the first use, a million designs, a front."""
+"""Studies by native code beside numpy, in turns: populations, the first use, a million designs, fronts, yields."""
 
 from __future__ import annotations
 
