@@ -232,13 +232,19 @@ def spread(f: np.ndarray, size: int) -> np.ndarray:
     """Which ``size`` rows of objectives are spread evenly: again and again the one farthest from those taken."""
     if len(f) <= size:
         return np.arange(len(f))
-    f = normalised(f)
-    taken = list(dict.fromkeys(f.argmin(0).tolist()))
-    gap = ((f[:, None] - f[taken]) ** 2).sum(-1).min(1)
+    columns = np.ascontiguousarray(normalised(f).T)
+    taken = list(dict.fromkeys(columns.argmin(1).tolist()))
+    gap = np.minimum.reduce([_squared(columns, one) for one in taken])
     while len(taken) < size:
         taken.append(int(gap.argmax()))
-        gap = np.minimum(gap, ((f - f[taken[-1]]) ** 2).sum(-1))
+        np.minimum(gap, _squared(columns, taken[-1]), out=gap)
     return np.sort(taken)
+
+
+def _squared(columns: np.ndarray, one: int) -> np.ndarray:
+    """How far all designs are from one, squared: of objectives as rows, which is a third of the time of columns."""
+    apart = columns - columns[:, one : one + 1]
+    return np.asarray(np.add.reduce(apart * apart, axis=0))
 
 
 def _tried(archive: Archive, step: float, draw: np.random.Generator) -> np.ndarray:

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from llvmlite.binding import ExecutionEngine, TargetMachine
 
 LEVEL = 2
-_KEPT: list[ExecutionEngine] = []
-"""Code is there as long as its engine is."""
 
 
 @cache
@@ -53,8 +51,8 @@ def machine_code(text: str) -> bytes:
     return bytes(target.emit_object(module))
 
 
-def loaded(code: bytes) -> Callable[..., None]:
-    """The function ``kernel`` of machine code; other threads go on while it runs."""
+def loaded(code: bytes) -> tuple[Callable[..., None], ExecutionEngine]:
+    """The function ``kernel`` of machine code, which is there as long as the other; threads go on while it runs."""
     import llvmlite.binding as llvm
 
     _target()
@@ -62,6 +60,5 @@ def loaded(code: bytes) -> Callable[..., None]:
     engine = llvm.create_mcjit_compiler(empty, llvm.Target.from_default_triple().create_target_machine(jit=True))
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    _KEPT.append(engine)
     kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 5, *[ctypes.c_int64] * 3)
-    return kind(engine.get_function_address("kernel"))
+    return kind(engine.get_function_address("kernel")), engine

@@ -85,7 +85,7 @@ class Kernel:
         if code is None:
             code = code_of(self.program, inputs)
             stored.write(name, code)
-        self._code, self._function = code, compiler.loaded(code.machine_code)
+        self._code, (self._function, self._engine) = code, compiler.loaded(code.machine_code)
         self._others = [k for k, name in enumerate(self.program.inputs) if name not in self.inputs]
         self._heap = threading.local()
         self._last: tuple[bytes, Array] = b"", np.empty(0)
@@ -145,6 +145,3 @@ def threads() -> int:
 @cache
 def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads(), "camkit-kernel")
-
-
-__all__ = ["Kernel", "code_of", "threads"]

@@ -234,4 +234,3 @@ NOTHING = {
 BEGINNINGS = {FOLDS[function.reduce]: literal(value) for function, value in NOTHING.items()}
 """What a fold of no number is, to the last bit; of truths 1 and 0."""
 OF_TRUTHS = {EACH[f] for f in (np.logical_and, np.logical_or, np.bitwise_and, np.bitwise_or)}
-__all__ = ["BEGINNINGS", "BY_NUMPY", "OF_TRUTHS", "POWER", "WORDS", "ZERO", "Truth", "Value", "Words", "literal"]
