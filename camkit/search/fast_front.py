@@ -27,6 +27,7 @@ from .front import Front, dominated
 from .options import alone, fronts_of_options, refuse_many
 from .protocol import Step, looked_at, on_grid
 from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
+from .threads import in_one_thread
 
 MOST_FREE = 4
 """A box of more free quantities has too many corners for this search."""
@@ -96,8 +97,9 @@ def quick_front(study: Study[D], size: int = 100, start: Front[D] | None = None)
 
 def modelled_front(study: Study[D], size: int = 100, start: Front[D] | None = None) -> Front[D]:
     """`quick_front` without exact parts: under tolerances its designs survive by the models of their limits."""
-    *_, last = fast_front_steps(study, size, start)
-    return last.front
+    with in_one_thread():
+        *_, last = fast_front_steps(study, size, start)
+        return last.front
 
 
 def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) -> Iterator[Step]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
+from ..study.native import numpy_alone
 from ..study.robust import RobustStudy
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
@@ -22,6 +23,7 @@ from .minimum import SAME, Found, Minimum, described
 from .options import best_of_options
 from .parts import Arrays
 from .protocol import Step, ended, looked_at, plain, stepwise
+from .threads import in_one_thread
 
 ROUGH, EXACT = 1e-6, 1e-10
 """Precision of SLSQP from each start, and from the best of their ends."""
@@ -84,10 +86,11 @@ def minimise(
     if study.menus and method == "slsqp":
         each = partial(minimise, method=method, seed=seed, starts=starts, designs=designs, recheck=recheck)
         return best_of_options(study, plain(judge), each)
-    found = METHODS[method](study, judge, seed, starts, designs)
-    if method != "slsqp":
-        found = _checked(plain(study), plain(judge), found)
-    return described(plain(judge), found)
+    with numpy_alone(), in_one_thread():
+        found = METHODS[method](study, judge, seed, starts, designs)
+        if method != "slsqp":
+            found = _checked(plain(study), plain(judge), found)
+        return described(plain(judge), found)
 
 
 def minimise_steps(

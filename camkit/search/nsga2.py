@@ -21,6 +21,7 @@ from .evolution import OnGrid, StudyProblem, mixed
 from .front import Front
 from .protocol import Step
 from .robust_front import FITTED, RAISED, Room, looked_at_closely, surviving
+from .threads import one_by_one
 
 RENEWED = 1 / 6, 1 / 3, 5 / 6
 """After which shares of the generations the margins for tolerances are fitted to the population; then only raised."""
@@ -147,7 +148,7 @@ def nsga2(
     checkpoint that is damaged, or of another study, population, seed or version, and for one of more generations.
     """
     warned = False
-    for step in nsga2_steps(study, population, generations, seed, checkpoint):
+    for step in one_by_one(nsga2_steps(study, population, generations, seed, checkpoint)):
         if step.message and not warned:
             warned = True
             warnings.warn(

@@ -29,6 +29,7 @@ from ..study.study import Evaluation, Study
 from .front import Front, front_of
 from .minimum import Minimum, Reached
 from .parts import Arrays, Parts, parts_of
+from .threads import one_by_one
 
 ONE = "minimise", "minimise_steps"
 METHODS = {
@@ -158,7 +159,7 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
 def _timed(steps: Iterator[Step], parts: Parts) -> Iterator[Step]:
     """The steps of a search, with how long they took."""
     try:
-        for step in steps:
+        for step in one_by_one(steps):
             known: dict[str, Any] = {"study": plain(step.study), "seconds": parts.seconds, "unkept": parts.unkept}
             yield step if "seconds" in step.record and not parts.path else replace(step, **known)
     finally:
