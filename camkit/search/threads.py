@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 from functools import cache
@@ -20,14 +19,15 @@ def in_one_thread() -> AbstractContextManager[object]:
     >>> with in_one_thread():
     ...     pass
     """
-    controller = _controller("scipy.linalg" in sys.modules)
+    controller = _controller()
     return controller.limit(limits=1, user_api="blas") if controller else nullcontext()
 
 
 @cache
-def _controller(of_scipy: bool) -> ThreadpoolController | None:
-    """What knows the libraries that are loaded; scipy brings one of its own."""
+def _controller() -> ThreadpoolController | None:
+    """What knows the libraries of numpy and scipy, each its own."""
     try:
+        import scipy.linalg  # noqa: F401
         from threadpoolctl import ThreadpoolController
     except ModuleNotFoundError:
         return None
