@@ -23,11 +23,12 @@ def rows(study: Study, p: int) -> np.ndarray:
     return np.random.default_rng(1).uniform(*study.bounds, (p, len(study.free)))
 
 
-def ready(study: Study, paths: tuple[str, ...]) -> None:
+def ready(study: Study, paths: tuple[str, ...], x: np.ndarray) -> None:
     """Have the code of a study made, and wait for it."""
-    found = native.native(study, paths)
+    answers = native.Answers(study, paths)
+    found = answers.native
     assert found
-    found.make(study, paths, np.atleast_2d(study.x0))
+    found.make(answers, x)
     found.wait()
     assert not found.refused
 
@@ -53,8 +54,8 @@ def in_turns(work: Callable[[], object]) -> tuple[float, float, float]:
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_design_of_a_population(name: str, benchmark: Any, report: Report) -> None:
     study = STUDIES[name]()
-    ready(study, tuple(study.free))
     x = rows(study, 256)
+    ready(study, tuple(study.free), x)
     numpy, code, ratio = in_turns(lambda: study.evaluate(x))
     benchmark.pedantic(study.evaluate, args=(x,), rounds=5)
     report(f"{name}, {study.angles} angles, a design of 256: numpy, native code, ratio",
@@ -75,8 +76,8 @@ def test_the_first_use(
 
 def test_a_million_designs(benchmark: Any, report: Report) -> None:
     study = lift_curve_study()
-    ready(study, tuple(study.free))
     x = rows(study, 1_000_000)
+    ready(study, tuple(study.free), x)
     clock, start = time.perf_counter(), time.process_time()
     benchmark.pedantic(study.evaluate, args=(x,), rounds=1)
     took, worked = time.perf_counter() - clock, time.process_time() - start
@@ -90,7 +91,7 @@ def test_a_front(benchmark: Any, report: Report) -> None:
     study = lift_curve_study()
     rough = study.replace(angles=max(study.angles // 4, 61), rough=True)
     for each in (study, rough):
-        ready(each, tuple(study.free))
+        ready(each, tuple(study.free), rows(study, 64))
     numpy, code, ratio = in_turns(lambda: quick_front(study))
     front = benchmark.pedantic(quick_front, args=(study,), rounds=3)
     near = in_turns(lambda: quick_front(study, start=front))
@@ -100,8 +101,8 @@ def test_a_front(benchmark: Any, report: Report) -> None:
 
 def test_a_yield(benchmark: Any, report: Report) -> None:
     study = lift_curve_study().under({"lift_arm": 0.05 * mm, "roller_radius": 0.02 * mm})
-    ready(study, tuple(study._parts.declared))
     parts = study.made(study.x0[None], study.shares(1024))[0]
+    ready(study, tuple(study._parts.declared), parts)
     numpy, code, ratio = in_turns(lambda: study.judged(parts))
     benchmark.pedantic(study.judged, args=(parts,), rounds=5)
     report(

@@ -12,7 +12,8 @@ import numpy as np
 from ..quantities import Measure, declared_in, refuse_design, value_of, words
 from ..quantities.kinds import refuse_arguments
 from ..quantities.markup import Html, attribute, html, markdown, table
-from ..study.study import Study, keeps
+from ..study.limits import keeps
+from ..study.study import Study
 
 NOT_MET = "not met"
 BOLD = "Bold: the best of a line."

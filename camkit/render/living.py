@@ -38,7 +38,7 @@ from ..quantities import (
 from ..quantities.applied import a_new_file, applied
 from ..quantities.kinds import refuse_arguments
 from ..quantities.known import known
-from ..study.study import KEPT, refuse_limits
+from ..study.limits import KEPT, refuse_limits
 from ..units import deg, factor, known_units
 from ..views.defaults import default_views
 from ..views.picture import Mark, Picture, View

@@ -12,7 +12,7 @@ from collections import OrderedDict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from functools import cache
+from functools import cache, cached_property
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 WORTH = 2048
 """After so many designs it is worth making code for those that follow."""
+BLOCK = 64
+"""So many designs numpy takes at once."""
 MOST = 32
 """So many programs have their code, those that were last asked for."""
 AGREED = 1e-12
@@ -64,22 +66,17 @@ class Native:
     def __reduce__(self) -> tuple[type[Native], tuple[()]]:
         return Native, ()
 
-    def values(self, study: Study[Any], paths: Sequence[str], x: Array) -> Array | None:
-        """What `Study.measures` say of designs with values ``x`` ``(p, n)`` at paths, if there is code for it."""
-        if _NUMPY_ALONE.get():
-            return None
-        if self.kernel is not None:
-            return self.kernel(_numbers_of(study.start), x)
+    def seen(self, answers: Answers, x: Array) -> None:
+        """Note that numpy has answered for designs; after enough of them the code begins to be made."""
         self._seen += len(x)
         if self._seen > WORTH:
-            self.make(study, paths, x)
-        return None
+            self.make(answers, x)
 
-    def make(self, study: Study[Any], paths: Sequence[str], x: Array) -> None:
-        """Begin to make the code, if nobody has begun."""
+    def make(self, answers: Answers, x: Array) -> None:
+        """Begin to make the code, if nobody has begun; it is compared with numpy at designs ``x``."""
         with self._lock:
-            if self._maker is None and not self.refused:
-                self._maker = threading.Thread(target=self._make, args=(study, paths, x[:64].copy()), daemon=True)
+            if self._maker is None:
+                self._maker = threading.Thread(target=self._make, args=(answers, x[:BLOCK].copy()), daemon=True)
                 self._maker.start()
 
     @property
@@ -92,13 +89,51 @@ class Native:
         if self._maker is not None:
             self._maker.join()
 
-    def _make(self, study: Study[Any], paths: Sequence[str], x: Array) -> None:
+    def _make(self, answers: Answers, x: Array) -> None:
         try:
-            kernel = made(study, paths)
-            agrees(kernel(_numbers_of(study.start), x), study.by_numpy(x, tuple(paths)))
+            kernel = made(answers.study, answers.paths)
+            agrees(kernel(answers.numbers, x), answers.by_numpy(x))
             self.kernel = kernel
         except Exception as why:  # whatever it is, numpy answers
             self.refused = f"{type(why).__name__}: {why}"
+
+
+class Answers:
+    """What the measures of a study say of designs that differ at some ``paths``."""
+
+    def __init__(self, study: Study[Any], paths: tuple[str, ...]) -> None:
+        self.study, self.paths = study, paths
+        self.native = native(study, paths)
+
+    def __call__(self, x: Array) -> Array:
+        """What they say of values ``(p, n)``, ``(p, n_measures)``."""
+        if self.native is None or _NUMPY_ALONE.get() or not len(x):
+            return self.by_numpy(x)
+        if self.native.kernel is not None:
+            return self.native.kernel(self.numbers, x)
+        self.native.seen(self, x)
+        return self.by_numpy(x)
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """Every declared number of the start."""
+        paths = quantities_of(self.study.start)
+        return dict(zip(paths, Paths(self.study.start, paths).values(self.study.start), strict=True))
+
+    @cached_property
+    def _paths(self) -> Paths:
+        return Paths(self.study.start, self.paths, Quantity)
+
+    def by_numpy(self, x: Array) -> Array:
+        """The same by numpy, in blocks of designs that stay near the processor."""
+        return np.concatenate([self._block(x[k : k + BLOCK]) for k in range(0, max(len(x), 1), BLOCK)])
+
+    def _block(self, x: Array) -> Array:
+        with unremarked():
+            designs = self._paths.put(self.study.start, [np.ascontiguousarray(column)[:, None] for column in x.T])
+        analysis = self.study.analysis_of(designs)
+        values = [measure.of(analysis, len(x)) for measure in self.study.measures]
+        return np.stack(values, axis=-1) if values else np.zeros((len(x), 0))
 
 
 def made(study: Study[Any], paths: Sequence[str]) -> Kernel:
@@ -122,11 +157,6 @@ def agrees(found: Array, expected: Array) -> None:
         same |= np.isnan(found) & np.isnan(expected)
     if not same.all():
         raise ArithmeticError(f"native code and numpy differ in {(~same).sum()} numbers")
-
-
-def _numbers_of(design: object) -> dict[str, float]:
-    paths = quantities_of(design)
-    return dict(zip(paths, Paths(design, paths).values(design), strict=True))
 
 
 KNOWN: OrderedDict[Hashable, Native] = OrderedDict()

@@ -26,7 +26,6 @@ from ..quantities import (
     words,
 )
 from ..quantities.kinds import (
-    finite,
     listed,
     numbers,
     refuse_empty,
@@ -34,9 +33,10 @@ from ..quantities.kinds import (
     refuse_kinds,
     shown,
 )
-from ..quantities.types import Array, Value
-from .free import Free, Menu, declared_with, freed, is_number
-from .native import Native, native
+from ..quantities.types import Array
+from .free import Free, Menu, declared_with, freed
+from .limits import KEPT, refuse_limits, refuse_objectives
+from .native import Answers
 from .options import Options, Plain, copied, ready
 from .weighted import WeightedSum, added, checked_weight
 
@@ -45,59 +45,8 @@ if TYPE_CHECKING:
 
 TRIED = 32
 """So many pairs of designs, at random, say whether a free quantity has any effect."""
-BLOCK = 64
-"""So many designs numpy takes at once."""
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
-
-
-KEPT = 1e-9
-"""A limit is kept if it is missed by no more than this share of it (of 1, if it is 0): in all of the package."""
-
-
-def keeps(value: Value, limit: float, sense: int) -> Value:
-    """Whether ``value`` keeps a limit: at most (``sense`` +1) or at least (-1) ``limit``.
-
-    >>> keeps(2.0, 2.0 * (1 - 1e-10), 1), keeps(2.0, 1.99, 1), keeps(float("nan"), 2.0, 1)
-    (True, False, False)
-    """
-    return sense * (value - limit) <= KEPT * (abs(limit) or 1.0)
-
-
-def refuse_objectives(minimise: object) -> None:
-    """``ValueError`` in a sentence for what is no tuple of measures, each of them once."""
-    if not isinstance(minimise, (tuple, list)) or not minimise:
-        raise ValueError("a study needs a tuple of one or more measures to minimise")
-    for i, measure in enumerate(minimise):
-        if not isinstance(measure, Measure):
-            raise ValueError(f"the study has {shown(measure)} where a Measure belongs")
-        if measure in minimise[:i]:
-            raise ValueError(f"the study minimises the {measure.name} twice; each measure can be an objective once")
-        if -measure in minimise[:i]:
-            raise ValueError(
-                f"the study minimises the {measure.name} and its opposite; one of two designs is always better in "
-                "one of them, so that no design would be better than another"
-            )
-
-
-def refuse_limits(at_most: Mapping[Measure, float], at_least: Mapping[Measure, float]) -> None:
-    """``ValueError`` in a sentence for limits that are no finite number for a measure, or that nothing can keep."""
-    for measure, limit in (*at_most.items(), *at_least.items()):
-        if not isinstance(measure, Measure):
-            raise ValueError(f"the limit {shown(limit)} is for {shown(measure)}; it must be for a Measure")
-        if not is_number(limit) or not finite(limit):
-            raise ValueError(f"the limit of the {measure.name} is {shown(limit)}; it must be a finite number")
-    told = [*_sides(at_most, 1), *_sides(at_least, -1)]
-    ranges = ((m, low, high) for m, low, side in told if side < 0 for n, high, other in told if other > 0 and m == n)
-    for measure, low, high in ranges:
-        if not keeps(low, high, 1):
-            both = f"at least {measure.text(low)} and at most {measure.text(high)}"
-            raise ValueError(f"the {measure.name} is to be {both}; no design can be both")
-
-
-def _sides(limits: Mapping[Measure, float], sense: int) -> list[tuple[Measure, float, int]]:
-    """Limits as measure without its sign, value, and +1 for at most, -1 for at least."""
-    return [(m if m.sign > 0 else -m, m.sign * limit, m.sign * sense) for m, limit in limits.items()]
 
 
 def named_studies(studies: Study | Mapping[str, Study], start: Analysable) -> dict[str, Study]:
@@ -305,7 +254,7 @@ class Study(Generic[D]):
         return self.options.evaluate(rows) if self.menus else self.judged_by(rows, self.values(rows))
 
     @cached_property
-    def _natives(self) -> dict[tuple[str, ...], Native | None]:
+    def _answers(self) -> dict[tuple[str, ...], Answers]:
         return {}
 
     def values(self, x: Array, paths: tuple[str, ...] | None = None) -> Array:
@@ -314,22 +263,9 @@ class Study(Generic[D]):
         By native code as soon as it is there, else by numpy (see `camkit.study.native`).
         """
         at = tuple(self.free) if paths is None else paths
-        if at not in self._natives:
-            self._natives[at] = native(self, at)
-        by = self._natives[at]
-        found = by.values(self, at, x) if by and len(x) else None
-        return self.by_numpy(x, at) if found is None else found
-
-    def by_numpy(self, x: Array, paths: tuple[str, ...]) -> Array:
-        """The same by numpy, in blocks of designs that stay near the processor."""
-        put = self._paths if paths == tuple(self.free) else Paths(self.start, paths, Quantity)
-        return np.concatenate([self._block(put, x[k : k + BLOCK]) for k in range(0, max(len(x), 1), BLOCK)])
-
-    def _block(self, put: Paths, x: Array) -> Array:
-        with unremarked():
-            designs = put.put(self.start, [np.ascontiguousarray(column)[:, None] for column in x.T])
-        analysis = self.analysis_of(designs)
-        return self._columns([measure.of(analysis, len(x)) for measure in self.measures], len(x))
+        if at not in self._answers:
+            self._answers[at] = Answers(self, at)
+        return self._answers[at](x)
 
     def rows(self, x: ArrayLike) -> np.ndarray:
         """``x`` as a table with a row for each design; ``ValueError`` in a sentence for what is none."""

@@ -10,7 +10,7 @@ from camkit import minimise, quick_front
 from camkit.machines import high_speed_study, lift_curve_study
 from camkit.search import threads
 from camkit.search.protocol import search
-from camkit.study.study import Study
+from camkit.study.native import Answers
 
 pools = pytest.importorskip("threadpoolctl")
 
@@ -24,13 +24,13 @@ def blas():
 @pytest.fixture
 def seen(monkeypatch):
     """What `blas` says whenever a study is asked, in an environment that allows two threads."""
-    found, by_numpy = [], Study.by_numpy
+    found, by_numpy = [], Answers.by_numpy
 
     def asked(self, *given):
         found.append(blas())
         return by_numpy(self, *given)
 
-    monkeypatch.setattr(Study, "by_numpy", asked)
+    monkeypatch.setattr(Answers, "by_numpy", asked)
     with pools.threadpool_limits(2, "blas"):
         yield found
 

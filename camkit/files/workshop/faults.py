@@ -11,8 +11,9 @@ from ...cam.flank import flanks
 from ...cam.undercut import undercut_in_words
 from ...quantities import Measure
 from ...quantities.kinds import refuse_arguments
+from ...study.limits import keeps
 from ...study.robust import RobustStudy
-from ...study.study import Study, keeps
+from ...study.study import Study
 from ...units import deg, mm
 from .blank import Blank
 from .subject import Subject, analysis_of, design_of, subjects

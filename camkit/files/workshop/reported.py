@@ -12,9 +12,10 @@ import numpy as np
 
 from ...quantities import Measure, label, measures_of, words
 from ...study.failures import tolerance_texts
+from ...study.limits import keeps
 from ...study.recheck import Recheck
 from ...study.robust import RobustStudy
-from ...study.study import Study, keeps
+from ...study.study import Study
 from ...study.tolerances import CONFIDENCE, Tolerances
 from ..decisions import Decision
 from ..sessions import Session
