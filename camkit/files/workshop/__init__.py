@@ -4,6 +4,7 @@ Each is read back after it was written, and says how far it lies from the exact 
 """
 
 from .blank import Blank
+from .drawing import write_drawing
 from .faults import faults
 from .gcode import write_gcode
 from .milling import Milling
@@ -25,6 +26,7 @@ __all__ = [
     "to_workshop",
     "tool_path",
     "write_3mf",
+    "write_drawing",
     "write_gcode",
     "write_report",
     "write_step",

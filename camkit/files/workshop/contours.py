@@ -116,13 +116,13 @@ def contours(subject: Subject, steps: int = STEPS) -> tuple[Contour, ...]:
     >>> [c.layer for c in contours(subjects(TranslatingFlatCam())[0])]
     ['CAM']
     """
-    found, place = _Outline(subject.analysis, steps).contours, _on_the_shaft(subject)
+    found, place = _Outline(subject.analysis, steps).contours, on_the_shaft(subject)
     moved = [Contour(c.layer, tuple(Stretch(*map(place, s)) for s in c.stretches), c.closed) for c in found]
     unrolled = hasattr(subject.analysis, "period")
     return tuple(c if unrolled and not c.closed else c.counter_clockwise for c in moved)
 
 
-def _on_the_shaft(subject: Subject) -> Callable[[Array], Array]:
+def on_the_shaft(subject: Subject) -> Callable[[Array], Array]:
     """From the frame of a cam to that of its machine: the second cam of a pair has one of its own."""
     if getattr(subject.design, "second", None) is not subject.analysis.cam:
         return lambda points: points

@@ -132,6 +132,13 @@ def _3mf(order: Order) -> Made:
     return three_mf(order.cam, unit=order.unit, title=order.title, blank=order.blank)
 
 
+def _drawing(order: Order, ending: str) -> Made:
+    from .drawing import drawing
+
+    tolerances, blank = order.tolerances, order.blank
+    return drawing(order.cam, ending, tolerances=tolerances, blank=blank, unit=order.unit, title=order.title)
+
+
 def _report(order: Order, ending: str) -> Made:
     from .report import report
 
@@ -157,6 +164,22 @@ EXPORTS = (
     ),
     Export("stl", ".stl", "Mesh (STL)", "for 3D printing, in mm", _stl, _cam),
     Export("3mf", ".3mf", "Mesh (3MF)", "for 3D printing, with its unit and title", _3mf, _cam),
+    Export(
+        "drawing",
+        "-drawing.pdf",
+        "Drawing (PDF)",
+        "for the maker and for inspection: to scale, with dimensions and a table of radii",
+        partial(_drawing, ending=".pdf"),
+        _cam,
+    ),
+    Export(
+        "picture",
+        "-drawing.svg",
+        "Drawing (SVG)",
+        "for the maker: the same to be printed from a browser or opened in Inkscape",
+        partial(_drawing, ending=".svg"),
+        _cam,
+    ),
     Export(
         "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
     ),
