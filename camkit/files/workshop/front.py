@@ -100,6 +100,11 @@ class Front:
         high = np.max([points.max(1), *(np.asarray(c) + r for c, r in discs)], axis=0)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
+    @property
+    def reach(self) -> float:
+        """To the right and upwards, m: so far to each side a face is drawn."""
+        return max(self.extent[1], self.extent[3])
+
     @cached_property
     def least(self) -> Extreme:
         """Of the profile, or of a groove's inner wall: on the base circle."""
@@ -132,7 +137,7 @@ class Front:
             for arm in np.eye(2) * (radius + 1.5 * mm / view.scale):
                 view.line(centre - arm, centre + arm, "centre")
         for face in self.faces:
-            view.line(*_clipped(face, max(right, high)), "neighbour")
+            view.line(*_clipped(face, self.reach), "neighbour")
         for curve in self.curves:
             view.curve(curve)
         _turning(view, box, self.turns)
@@ -174,7 +179,7 @@ class Front:
             size = f"R{self.words.length(radius)}{self.words.plus_minus(half)}"
             yield centre + outwards, (size, "roller", "at angle 0°")
         for face in self.faces:
-            yield face.mean(1), ("follower", "at angle 0°")
+            yield _clipped(face, self.reach)[0], ("follower", "at angle 0°")
         for curve in (curve for curve in self.curves if curve.layer == "PITCH"):
             yield _at_share(curve, 0.85), ("pitch curve",)
 

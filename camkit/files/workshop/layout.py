@@ -26,7 +26,7 @@ from .unrolled import BELOW as BELOW_DRUM
 from .unrolled import BESIDE, Unrolled
 from .view import BEND, SCALES, View, scale_text, write_notes
 
-STRIP = 54.0
+STRIP = 58.0
 """Height of what stands above the title block: notes, and the detail of the bore, mm."""
 BAR = 12.0
 """Height of the scale bar with its words, mm."""
