@@ -48,8 +48,8 @@ def radii_table(subject: Subject, curves: Sequence[Contour], unit: str) -> Table
     """Radii of the flanks by direction; of a drum the path of the roller's centre on it by cam angle.
 
     >>> from camkit import TranslatingFlatCam
-    >>> from camkit.files.workshop.contours import contours
-    >>> from camkit.files.workshop.subject import subjects
+    >>> from .contours import contours
+    >>> from .subject import subjects
     >>> (cam,) = subjects(TranslatingFlatCam())
     >>> {name: column[90] for name, column in radii_table(cam, contours(cam), "mm").columns.items()}
     {'deg': '90', 'R': '30.000'}
