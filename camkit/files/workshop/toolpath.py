@@ -18,11 +18,12 @@ import numpy as np
 
 from ...cam.arcs import Arc, Curve, Node, arcs, chains, is_ring, whole
 from ...cam.flank import is_left, runs
+from ...motion.closing import TURN
 from ...quantities.kinds import one_number
 from ...quantities.types import Array
 from ...units import deg, mm
 from .arcs import ArcPath, biarcs
-from .contours import Swept, contours
+from .contours import Swept, contours, on_the_shaft
 from .curves import Contour, Stretch, arc, joined
 from .subject import Subject, subjects
 
@@ -38,7 +39,10 @@ LEAST = 1e-8
 
 
 class Uncut(NamedTuple):
-    """Where the tool is too large: cam angles (rad), and how thick the material is that stays there at most, m."""
+    """Where the tool is too large: cam angles (rad), and how thick the material is that stays there at most, m.
+
+    It may begin before the end of the turn and end after it: ``start`` is then the larger.
+    """
 
     start: float
     end: float
@@ -79,7 +83,7 @@ def tool_path(cam: object, tool_radius: float, side: str = OUTSIDE) -> ToolPath:
     >>> from camkit import TranslatingFlatCam, mm
     >>> path = tool_path(TranslatingFlatCam(), 60 * mm)
     >>> print(f"{np.hypot(*path.contours[0].points).min() / mm:.3f} mm")
-    100.000 mm
+    90.000 mm
 
     Raises ``ValueError`` for a tool that does not fit into the groove, or nowhere onto the path.
     """
@@ -129,7 +133,7 @@ def _cam_angles(subject: Subject) -> Callable[[Array], Array]:
     from scipy.spatial import cKDTree
 
     analysis = subject.analysis
-    points = np.hstack([analysis.profile, analysis.outer_profile])
+    points = on_the_shaft(subject)(np.hstack([analysis.profile, analysis.outer_profile]))
     angles = np.tile(analysis.profile_angle, 2)
     there = np.isfinite(points).all(0)
     tree, known = cKDTree(points[:, there].T), angles[there]
@@ -315,6 +319,7 @@ def _uncut(
         for run in runs(away, wall.closed):
             stays = float(tool.gaps(first + run, left).max())
             if stays > LEAST:
-                start, end = cam_angles(wall.points[:, run[[0, -1]]])
-                yield Uncut(float(start), float(end), stays)
+                start, middle, end = map(float, cam_angles(wall.points[:, run[[0, len(run) // 2, -1]]]))
+                backwards = (middle - start) % TURN > (end - start) % TURN
+                yield Uncut(end, start, stays) if backwards else Uncut(start, end, stays)
         first += len(away)

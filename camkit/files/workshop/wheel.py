@@ -30,19 +30,19 @@ def wheel_path(cam: object, wheel_radius: float, direction: Array) -> dict[str, 
     Raises ``ValueError`` for a path that does not go all the way around the axis, or goes back on it.
     """
     wanted = np.ravel(numbers(direction, "the directions"))
-    found = np.full((2, wanted.size), np.nan)
+    found = np.full(wanted.shape, np.nan)
     for line in tool_path(cam, wheel_radius).contours:
         for stretch in line.stretches:
-            here, points = _met(stretch, wanted)
-            found[:, here] = points
-    lost = wanted[np.isnan(found[0])]
+            here, distance = _met(stretch, wanted)
+            found[here] = distance
+    lost = wanted[np.isnan(found)]
     if lost.size:
         raise ValueError(f"the wheel does not come past {lost[0] / deg:.4g} deg: its path does not go around the cam")
-    return {"distance": np.hypot(*found), "x": found[0], "y": found[1]}
+    return {"distance": found, "x": found * np.cos(wanted), "y": found * np.sin(wanted)}
 
 
 def _met(stretch: Stretch, wanted: Array) -> tuple[Array, Array]:
-    """Which of the directions a stretch has, and its points in these, ``(2, k)``."""
+    """Which of the directions a stretch has, and how far it is from the axis there, m."""
     angle = np.unwrap(np.arctan2(*stretch.points[::-1]))
     sense = np.sign(angle[-1] - angle[0])
     if not (sense * np.diff(angle) > 0).all():
@@ -55,4 +55,4 @@ def _met(stretch: Stretch, wanted: Array) -> tuple[Array, Array]:
         now = np.arctan2(*stretch.at(place).points[::-1])
         missed = (sense * (wanted[here] - now) + np.pi) % (2 * np.pi) - np.pi
         place = np.clip(place + missed / np.diff(gone)[np.minimum(place.astype(int), last - 1)], 0, last)
-    return here, stretch.at(place).points
+    return here, np.hypot(*stretch.at(place).points)
