@@ -143,7 +143,7 @@ def _report(order: Order, ending: str) -> Made:
     from .report import report
 
     within = order.tolerances if order.study is not None else None  # without limits every part is good
-    return report(order.cam, ending, order.title, order.study, within, order.unit)
+    return report(order.cam, ending, order.title, order.study, within, order.unit, order.blank)
 
 
 EXPORTS = (

@@ -8,9 +8,10 @@ from typing import Any
 from ...quantities.applied import a_path
 from ...quantities.kinds import refuse_arguments
 from ...study.study import Study
+from .blank import Blank
 from .report_page import page
 from .report_pdf import pdf
-from .report_texts import report_of
+from .report_texts import BARE, report_of
 from .reported import Within, reported
 from .title import TitleBlock
 from .written import Made, Written, length_unit, written
@@ -26,11 +27,12 @@ def report(
     study: Study | None = None,
     tolerances: Within | None = None,
     unit: str = "mm",
+    blank: Blank = BARE,
 ) -> Made:
     """What `write_report` writes."""
     if ending not in LAYOUTS:
         raise ValueError(f"the ending of the report is {ending!r:.40}; there are {' and '.join(LAYOUTS)}")
-    return LAYOUTS[ending](report_of(reported(thing, study, tolerances), title, length_unit(unit)))
+    return LAYOUTS[ending](report_of(reported(thing, study, tolerances), title, length_unit(unit), blank))
 
 
 def write_report(
@@ -41,14 +43,15 @@ def write_report(
     study: Study | None = None,
     tolerances: Within | None = None,
     unit: str = "mm",
+    blank: Blank = BARE,
 ) -> Written:
     """Write one or two A4 pages about a design: a ``.pdf`` (extra ``report``) or, in one file, ``.html``.
 
     ``thing`` is a design, its analysis, a panel, a `Session` or a `Decision`; of these the study and what was decided
     are known.  ``study`` says what is asked of the design, ``tolerances`` (half widths by path, SI, or `Tolerances`)
     what its yield is found with.  Drawing, curves, inputs with units, measures with limits, the verdict, yield, the
-    record of the decision, versions and date stand in it; lengths in ``unit``, ``"mm"`` or ``"in"`` (then forces in
-    lbf).  What has no room is left out, and the report says so.
+    record of the decision, versions and date stand in it; the drawing has the bore of ``blank``.  Lengths are
+    in ``unit``, ``"mm"`` or ``"in"`` (then forces in lbf).  What has no room is left out, and the report says so.
 
     >>> from tempfile import TemporaryDirectory
     >>> from camkit import TranslatingRollerCam
@@ -60,4 +63,4 @@ def write_report(
     """
     refuse_arguments(write_report, locals())
     path = a_path(path)
-    return written(report(thing, path.suffix.lower(), title, study, tolerances, unit), path)
+    return written(report(thing, path.suffix.lower(), title, study, tolerances, unit, blank), path)

@@ -18,7 +18,7 @@ MM = 25.4 / 72
 """Of a point."""
 PAPER, SURE = 265.0, 0.96
 """What a page has room for between its margins, mm, and the share of it that may be filled by estimate."""
-BROAD, NARROW, HALF, WHOLE = 50, 33, 48, 95
+BROAD, NARROW, HALF, WHOLE = 50, 36, 48, 95
 """About so many letters of 9 points stand in a line beside the drawing, there beside limits, in half a page, in a
 note."""
 
@@ -32,7 +32,7 @@ def page(report: Report) -> Made:
             break
     report = shortened(report, fit)
     style = Html(files(__package__).joinpath("report.css").read_text(encoding="utf-8"))
-    density = attribute("style", f"--size: {fit.size}pt; --row: {0.4 * fit.row:.2f}pt")
+    density = attribute("style", f"--size: {fit.size}pt; --row: {0.4 * fit.row:.2f}pt; --drawing: {report.width}mm")
     body = joined([_head(report), _first(report), _others(report), _inputs(report, fit), _notes(report)], "\n")
     made = html(PAGE, title=report.title, style=style, density=density, body=body)
     return Made(made.encode(), "a report as a page of HTML", remarks=report.remarks)
@@ -47,8 +47,8 @@ def heights(report: Report, fit: Fit) -> tuple[float, float]:
         return -(-len(text) // int(most * letters))
 
     beside, others = report.measures[: report.beside], report.measures[report.beside :]
-    width = NARROW if any(each.asked for each in beside) else BROAD
-    first = max(72 if report.drawing else 0, row * (1 + sum(lines(each.name, width) for each in beside)))
+    width, drawn = NARROW if report.asks else BROAD, report.width * report.drawing.ratio if report.drawing else 0
+    first = max(drawn, row * (1 + sum(lines(each.name, width) for each in beside)))
     curves = 45 * -(-len(report.curves) // 3)
     further = heading + row * (1 + sum(lines(each.name, HALF) for each in others) / 2) if others else 0
     warned = sum(4 + line * lines(said, WHOLE) for said in (*report.faults, report.verdict))
@@ -80,7 +80,7 @@ def _image(drawn: Drawn) -> Html:
 
 def _first(report: Report) -> Html:
     """The drawing with measures beside it, and the curves."""
-    measures = _measures(report.measures[: report.beside], any(row.asked for row in report.measures))
+    measures = _measures(report.measures[: report.beside], report.asks)
     curves = joined(map(_image, report.curves))
     below = html('<div class="curves">{}</div>', curves) if curves else Html()
     if report.drawing is None:
@@ -119,7 +119,11 @@ def _others(report: Report) -> Html:
     rows = report.measures[report.beside :]
     half = (len(rows) + 1) // 2
     tables = joined(_measures(part, False) for part in (rows[:half], rows[half:]) if part)
-    return html('<h2>Further measures</h2><div class="two">{}</div>', tables) if rows else Html()
+    return (
+        html('<section class="whole"><h2>Further measures</h2><div class="two">{}</div></section>', tables)
+        if rows
+        else Html()
+    )
 
 
 def _inputs(report: Report, fit: Fit) -> Html:

@@ -33,7 +33,7 @@ def pdf(report: Report) -> Made:
 
 
 def _content(report: Report, fit: Fit) -> dict[str, object]:
-    return {**asdict(report), "fit": fit._asdict(), "beside": report.beside}
+    return {**asdict(report), "fit": fit._asdict(), "beside": report.beside, "width": report.width}
 
 
 def missing_letters(text: str, fonts: Iterable[object]) -> tuple[str, ...]:

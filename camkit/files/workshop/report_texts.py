@@ -16,7 +16,9 @@ from ...quantities.extras import extra
 from ...quantities.markup import letters
 from ...units import in_unit
 from ...views.defaults import default_views
-from .faults import faults
+from .blank import Blank
+from .faults import faults, has_profile
+from .figure import figure
 from .inches import picture_in, unit_in, words_in
 from .reported import Limit, Reported, abs_of
 from .title import TitleBlock
@@ -25,6 +27,10 @@ MOST_PICTURES = 12
 """So many curves at most stand in a report beside the drawing."""
 DRAWN, CURVE, SMALL_CURVE = (4.6, 3.9), (3.75, 2.65), (3.75, 2.3)
 """Width and height of the drawing and of a curve among few and among many, inches; they are printed smaller."""
+WIDTH, WIDTH_ASKED, HEIGHT = 80.0, 70.0, 84.0
+"""Of the room for the drawing, mm: beside measures, beside these and what is asked of them, and how high at most."""
+BARE = Blank(bore=0)
+"""What is drawn where nobody says what the cam is cut from."""
 FEW = 6
 """So many curves are few."""
 BESIDE, BESIDE_ASKED = 20, 14
@@ -38,6 +44,12 @@ class Drawn(NamedTuple):
 
     title: str
     svg: str
+
+    @property
+    def ratio(self) -> float:
+        """Its height by its width."""
+        found = re.search(r"viewBox=.0 0 ([\d.]+) ([\d.]+)", self.svg)
+        return float(found[2]) / float(found[1]) if found else 1.0
 
 
 class Input(NamedTuple):
@@ -93,18 +105,28 @@ class Report:
         return {True: "good", False: "bad", None: "open"}[self.good]
 
     @property
+    def asks(self) -> bool:
+        """Whether something is asked of a measure."""
+        return any(row.asked for row in self.measures)
+
+    @property
+    def width(self) -> float:
+        """Of the drawing, mm."""
+        return WIDTH_ASKED if self.asks else WIDTH
+
+    @property
     def beside(self) -> int:
         """How many measures stand beside the drawing; all, where little would be left."""
-        room = BESIDE_ASKED if any(row.asked for row in self.measures) else BESIDE
+        room = BESIDE_ASKED if self.asks else BESIDE
         return room if self.drawing and len(self.measures) > room + 2 else len(self.measures)
 
 
-def report_of(told: Reported, title: TitleBlock, lengths: str) -> Report:
+def report_of(told: Reported, title: TitleBlock, lengths: str, blank: Blank = BARE) -> Report:
     """The report of a design, with lengths in ``"mm"`` or ``"in"``."""
     kind = type(told.design).__name__
     wrong = dict.fromkeys((*title.faults, *faults(told.design)))
     good, verdict = _verdict(told, lengths, bool(wrong))
-    drawing, curves, left_out = _pictures(told, lengths)
+    drawing, curves, left_out = _pictures(told, blank, lengths)
     return Report(
         title.name(kind),
         _about(told, title),
@@ -227,7 +249,7 @@ def _another(told: Reported) -> list[tuple[str, str]]:
     return [] if np.allclose(chosen, here, rtol=1e-9, atol=0) else [("note", "this report is of another design")]
 
 
-def _pictures(told: Reported, lengths: str) -> tuple[Drawn | None, tuple[Drawn, ...], tuple[str, ...]]:
+def _pictures(told: Reported, blank: Blank, lengths: str) -> tuple[Drawn | None, tuple[Drawn, ...], tuple[str, ...]]:
     """The drawing, the curves, and what was left out."""
     with extra("the report"):
         from ...render.positions import given_to, made_by
@@ -235,12 +257,23 @@ def _pictures(told: Reported, lengths: str) -> tuple[Drawn | None, tuple[Drawn, 
     views = told.views or default_views(told.analysis)
     limits = {measure: value for measure, value, _ in told.limits}
     made = [picture_in(made_by(v, told.analysis, given_to(v, {"limits": limits})), lengths) for v in views]
-    shown = made[: MOST_PICTURES + 1]
-    size = CURVE if len(shown) - 1 <= FEW else SMALL_CURVE
-    drawn = [Drawn(picture.axes.title, printed(picture, *(size if i else DRAWN))) for i, picture in enumerate(shown)]
+    drawing = _drawing(told, blank, lengths)
+    if drawing and made and made[0].axes.equal:  # the cam once more
+        made = made[1:]
+    first, shown = (0 if drawing else 1), made[: MOST_PICTURES + 1]
+    size = CURVE if len(shown) - first <= FEW else SMALL_CURVE
+    drawn = [Drawn(p.axes.title, printed(p, *(DRAWN if i < first else size))) for i, p in enumerate(shown)]
     left: Sequence[str] = [picture.axes.title for picture in made[len(shown) :]]
     remarks = (f"{len(left)} of {len(made)} pictures are left out: {', '.join(left)}",) if left else ()
-    return (drawn[0] if drawn else None), tuple(drawn[1:]), remarks
+    return drawing or next(iter(drawn), None), tuple(drawn[first:]), remarks
+
+
+def _drawing(told: Reported, blank: Blank, lengths: str) -> Drawn | None:
+    """The cam to scale; of what has none nothing."""
+    if not has_profile(told.analysis):
+        return None
+    drawn = figure(told.design, WIDTH_ASKED if told.asks else WIDTH, HEIGHT, blank=blank, unit=lengths)
+    return Drawn("The cam to scale", drawn)
 
 
 class Fit(NamedTuple):

@@ -48,6 +48,11 @@ class Reported:
         return self.study.minimise if self.study else ()
 
     @property
+    def asks(self) -> bool:
+        """Whether something is asked of it."""
+        return bool(self.objectives or self.limits)
+
+    @property
     def values(self) -> dict[Measure, float]:
         """The objectives, what has a limit, and every other measure of the design, SI; infinite others are none."""
         asked = dict.fromkeys((*map(abs_of, self.objectives), *(measure for measure, _, _ in self.limits)))
