@@ -114,7 +114,8 @@ def test_every_kind_has_the_volume_between_its_flanks(tmp_path, kind):
     if groove:
         pocket = area(analysis.outer_profile[:, :-1]) - flank
         exact = np.pi * ((0.25 / 2) ** 2 - (6 * mm) ** 2) * 10 * mm - pocket * 6 * mm
-    assert volume(tmp_path, cam, blank, tolerance=0.05 * um) == pytest.approx(exact, rel=1e-6)
+    tolerance = 1 * um if groove else 0.05 * um  # along both walls the arcs of a groove err alike
+    assert volume(tmp_path, cam, blank, tolerance=tolerance) == pytest.approx(exact, rel=1e-6)
 
 
 @pytest.mark.parametrize("tolerance", [10 * um, 0.2 * um])
