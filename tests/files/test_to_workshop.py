@@ -10,6 +10,7 @@ import pytest
 from camkit import DoorHandleCam, TranslatingRollerCam, UniversalJointShaft, to_workshop
 from camkit.cam import ConjugatePair
 from camkit.files import TitleBlock, from_json
+from camkit.files.workshop import exports
 from camkit.files.workshop.exports import EXPORTS, Order, exports_of
 from camkit.files.workshop.package import README, package
 
@@ -30,11 +31,11 @@ def roller():
     return package(Order(TranslatingRollerCam(), title=DATED))
 
 
-def test_a_zip_is_written_with_what_it_says(tmp_path, roller):
+def test_a_zip_is_written_with_what_it_says(tmp_path, few):
     done = to_workshop(TranslatingRollerCam(), tmp_path / "cam.zip", title=DATED)
     files = opened(done.path.read_bytes())
-    assert done.what == roller.what == f"{len(files) - 1} files and README.txt"
-    assert not np.isnan(done.deviation) or done.deviation is np.nan
+    assert done.what == f"{len(files) - 1} files and README.txt"
+    assert np.isnan(done.deviation)
     assert list(tmp_path.iterdir()) == [done.path]
 
 
@@ -59,7 +60,13 @@ def test_the_same_design_gives_the_same_zip(roller):
     assert [name for name in again if again[name] != before[name] and name[-4:] != ".dxf"] == []
 
 
-def test_a_faulty_design_is_refused_and_marked_if_somebody_insists(tmp_path):
+@pytest.fixture
+def few(monkeypatch):
+    """The first of the exports alone, where the text beside them is what counts."""
+    monkeypatch.setattr(exports, "EXPORTS", exports.EXPORTS[:1])
+
+
+def test_a_faulty_design_is_refused_and_marked_if_somebody_insists(tmp_path, few):
     with pytest.raises(ValueError, match=r"undercut .*; insist=True writes it nevertheless, marked FAULTY"):
         to_workshop(DoorHandleCam(), tmp_path / "cam.zip", title=DATED)
     assert not list(tmp_path.iterdir())
@@ -74,7 +81,7 @@ def test_a_pair_and_a_shaft_get_what_they_have():
         assert {f"{type(design).__name__}.json", README} <= set(opened(made.data))
 
 
-def test_names_of_a_title_stay_text():
+def test_names_of_a_title_stay_text(few):
     text = opened(package(Order(TranslatingRollerCam(), title=HOSTILE)).data)[README].decode()
     assert "Кулачок <script>" in text
     assert "王小明" in text
@@ -82,7 +89,7 @@ def test_names_of_a_title_stay_text():
 
 
 @pytest.mark.parametrize(("rotation", "said"), [(1, "turns counter-clockwise."), (-1, "turns clockwise.")])
-def test_the_text_says_which_way_the_cam_turns(rotation, said):
+def test_the_text_says_which_way_the_cam_turns(rotation, said, few):
     text = opened(package(Order(TranslatingRollerCam(rotation=rotation), title=DATED)).data)[README].decode()
     assert said in text
     assert "turns" not in opened(package(Order(UniversalJointShaft(), title=DATED)).data)[README].decode()

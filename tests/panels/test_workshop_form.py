@@ -10,6 +10,7 @@ from sheets import alert, do
 from camkit import DoorHandleCam, TranslatingRollerCam, UniversalJointShaft, deg, explore, mm
 from camkit.cam import max_pressure_angle
 from camkit.files import from_json
+from camkit.files.workshop import exports
 from camkit.panels.workshop import SOUND, TITLE, WorkshopPanel
 from camkit.study.spread import Tolerance
 
@@ -21,6 +22,12 @@ def opened(app):
     """The form, as the menu of the page opens it."""
     ask(app, workshop=True)
     return next(tab["sheets"][0] for tab in app.tabs if tab["title"] == TITLE)
+
+
+@pytest.fixture(autouse=True)
+def _few_files(monkeypatch):
+    """What all of them are is tested where they are made; here the design alone is enough."""
+    monkeypatch.setattr(exports, "EXPORTS", tuple(each for each in exports.EXPORTS if each.key in ("json", "dxf")))
 
 
 @pytest.fixture
@@ -157,8 +164,6 @@ def test_what_the_menu_offers_and_a_kind_that_there_is_not(app):
 
 
 def test_a_file_that_cannot_be_made_is_named_and_the_others_are_made(app, form, monkeypatch):
-    from camkit.files.workshop import exports
-
     def refuse(order):
         raise ModuleNotFoundError("the solid needs build123d, which is not installed: pip install 'camkit[step]'")
 
