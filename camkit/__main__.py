@@ -1,4 +1,4 @@
-"""The command line: ``camkit check``, ``camkit export``, ``camkit optimise``.
+"""The command line: ``camkit check``, ``camkit export``, ``camkit optimise``, ``camkit schema``.
 
 Each says in a sentence on stderr what it cannot do, and ends with a number: 0, it is done and nothing is wrong; 1, the
 design is faulty, or none keeps every limit; 2, the command or a file cannot be read; 130, it was stopped.
@@ -20,6 +20,7 @@ from typing import NamedTuple
 from .files import Blank, Decision, Session, TitleBlock, faults, to_json, to_workshop
 from .files.designs import read_json
 from .files.json_file import MOST_BYTES
+from .files.schema import text as schema_text
 from .files.workshop.exports import EXPORTS, Export, Order, exports_of
 from .files.workshop.faults import verdicts
 from .files.workshop.written import length_unit, written
@@ -44,6 +45,7 @@ examples:
   camkit export cam.json --all --out made      every file that can be made of it, in the folder made
   camkit export cam.json --zip --bore 20mm --key "DIN 6885-1" --author "M. Curie"
   camkit optimise study.json --seed 1 --generations 200 --out found.json
+  camkit schema                                the JSON Schema of these files
 
 exit codes:
   0  done, and nothing is wrong     1  the design is faulty, or none keeps every limit
@@ -238,6 +240,15 @@ def _searched(steps: Iterator[Step]) -> Step:
     return step
 
 
+# ---------------------------------------------------------------- schema
+
+
+def schema(asked: argparse.Namespace) -> int:
+    """Print the JSON Schema of all files that camkit saves."""
+    print(schema_text(), end="")
+    return DONE
+
+
 # ---------------------------------------------------------------- the command
 
 
@@ -249,10 +260,11 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"camkit {version('camkit')}")
     each = top.add_subparsers(required=True, metavar="command")
-    for act in (check, export, optimise):
+    for act in (check, export, optimise, schema):
         about = (act.__doc__ or "").strip()
         one = each.add_parser(act.__name__, help=about, description=about, epilog=EXAMPLES, formatter_class=plain)
-        one.add_argument("file", help="a JSON file that camkit saved: a design, a study, a front or a decision")
+        if act is not schema:
+            one.add_argument("file", help="a JSON file that camkit saved: a design, a study, a front or a decision")
         one.set_defaults(act=act)
         {export: _ask_export, optimise: _ask_optimise}.get(act, lambda _: None)(one)
     return top
@@ -304,7 +316,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("stopped; the same command goes on from where it was", file=sys.stderr)
         return STOPPED
-    except (ValueError, ModuleNotFoundError, OSError) as refusal:
+    except (ValueError, ArithmeticError, ModuleNotFoundError, OSError) as refusal:
         print(f"camkit: {_sentence(refusal)}", file=sys.stderr)
         return UNREADABLE
 

@@ -21,7 +21,7 @@ from camkit import (
     write,
 )
 from camkit.cam import max_pressure_angle
-from camkit.files import Decision
+from camkit.files import Decision, json_schema
 from camkit.files.workshop import exports
 
 SHAFT = shaft_study()
@@ -255,12 +255,20 @@ def test_what_cannot_be_done_is_a_sentence_and_ends_with_2(files, capsys, argume
     assert said in err
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["check", "--help"], ["export", "--help"], ["optimise", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["check", "--help"], ["export", "--help"], ["optimise", "--help"], ["schema", "--help"]]
+)
 def test_help_has_examples_and_the_exit_codes(capsys, arguments):
     code, out, _ = asked(capsys, *arguments)
     assert code == 0
     assert "camkit check cam.json" in out
     assert "exit codes:" in out
+
+
+def test_the_schema_is_the_one_that_is_published(capsys):
+    code, out, _ = asked(capsys, "schema")
+    assert code == 0
+    assert json.loads(out) == json_schema()
 
 
 def test_it_runs_as_a_module_and_says_its_version():
