@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...quantities.kinds import one_number, refuse_fields
+from ...quantities.kinds import one_number, refuse_arguments, refuse_fields
 from ...quantities.types import Array
 from ...units import in_unit, mm, um
 from .arcs import ArcPath
@@ -116,6 +116,7 @@ def write_gcode(
     >>> path.read_text().splitlines()[:2], done.deviation < 1 * um
     (['%', 'O1000'], True)
     """
+    refuse_arguments(write_gcode, locals())
     return written(gcode(cam, unit=unit, title=title, blank=blank, tolerance=tolerance, **milling), path)
 
 
