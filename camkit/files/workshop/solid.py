@@ -55,11 +55,13 @@ def step(
     ``ModuleNotFoundError`` where Open CASCADE is not installed.
     """
     unit, kind = length_unit(unit), type(design_of(cam)).__name__
-    made = parts(cam, blank, tolerance)
     with extra("a STEP file", "step"):
+        import OCP  # noqa: F401
+
         from .open_cascade import solid
         from .step_file import Named, step_file
 
+        made = parts(cam, blank, tolerance)
         solids = [Named(part.name, solid(part.added, part.cut), part.height) for part in made]
     lines = title.lines(kind, unit, f"flanks within {tolerance / um:.3g} um")
     return _cams_read(step_file(title.marked(kind), solids, unit, title, lines), made, blank.thickness)
