@@ -21,7 +21,7 @@ from .cam import (
     motion_from_outline,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
-from .files import Decision, Session, profile_csv, profile_dxf, read, read_motion, to_workshop, write
+from .files import Decision, Session, profile_dxf, read, read_motion, to_workshop, write, write_table
 from .linkage import RSSR
 from .machines import (
     DoorHandleCam,
@@ -152,7 +152,6 @@ __all__ = [
     "most_isolated",
     "motion_from_outline",
     "polish",
-    "profile_csv",
     "profile_dxf",
     "psi",
     "quantities_of",
@@ -171,6 +170,7 @@ __all__ = [
     "weighted_sum",
     "with_quantities",
     "write",
+    "write_table",
     *(_LATER if _LAB else ()),
 ]
 

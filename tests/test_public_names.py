@@ -287,6 +287,7 @@ GOOD = {
     # where an argument of the same name is something else
     "cam_life.strength": camkit.cam.SurfaceStrength,
     "value_of.path": lambda: "base_radius",
+    "write_table.path": lambda: "a table.csv",
     "with_quantities.values": lambda: {"base_radius": 0.04},
     "AnalysisCurve.name": lambda: "pressure_angle",
     "AnalysisCurve.label": lambda: "pressure angle",

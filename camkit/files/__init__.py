@@ -6,7 +6,7 @@ from .designs import Read, from_json, read, read_json, to_json, write
 from .motion_tables import electronic_cam_csv, motion_csv
 from .motions import read_motion
 from .outlines import read_outline
-from .profiles import profile_csv, profile_dxf, table_csv
+from .profiles import profile_dxf, table_csv
 from .schema import json_schema
 from .sessions import Session
 from .workshop import (
@@ -24,6 +24,7 @@ from .workshop import (
     write_report,
     write_step,
     write_stl,
+    write_table,
 )
 
 __all__ = [
@@ -41,7 +42,6 @@ __all__ = [
     "from_json",
     "json_schema",
     "motion_csv",
-    "profile_csv",
     "profile_dxf",
     "read",
     "read_json",
@@ -58,4 +58,5 @@ __all__ = [
     "write_report",
     "write_step",
     "write_stl",
+    "write_table",
 ]

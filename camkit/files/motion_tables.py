@@ -63,7 +63,7 @@ def motion_csv(
         per = "s"
         columns["time [s]"] = angle / times
     for k, (name, column) in enumerate(zip("svaj", values, strict=True)):
-        columns[f"{name} [{_per(unit, per, k)}]"] = in_unit(column * times**k, unit)
+        columns[f"{name} [{derived_unit(unit, per, k)}]"] = in_unit(column * times**k, unit)
     last = None if repeated or not np.all(program.periodic) else -1
     return _text({name: column[:last] for name, column in columns.items()}, decimal)
 
@@ -103,7 +103,7 @@ def electronic_cam_csv(
     rows = controller_rows(program, way, step)
     columns: dict[str, Array] = {f"X [{master}]": in_unit(rows.angle, _an_angle(master))}
     for k, (name, column) in enumerate(zip("YVAJ", rows.values, strict=False)):
-        columns[f"{name} [{_per(unit, master, k)}]"] = in_unit(column * factor(master) ** k, unit)
+        columns[f"{name} [{derived_unit(unit, master, k)}]"] = in_unit(column * factor(master) ** k, unit)
     return _text(columns, decimal, {"way": way.upper()})
 
 
@@ -133,7 +133,7 @@ def _an_angle(master: str) -> str:
     return master
 
 
-def _per(unit: str, of: str, k: int) -> str:
+def derived_unit(unit: str, of: str, k: int) -> str:
     """The unit of a ``k``-th derivative."""
     return unit + ("" if k == 0 else f"/{of}" if k == 1 else f"/{of}^{k}")
 

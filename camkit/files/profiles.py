@@ -1,4 +1,4 @@
-"""Files for the workshop: the profile of a cam as CSV and as DXF, and any table as CSV."""
+"""The profile of a cam as DXF, and any table as CSV."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..cam.flank import flanks
-from ..cam.undercut import INNER, ONLY, OUTER, undercut_in_words
+from ..cam.undercut import undercut_in_words
 from ..quantities.kinds import refuse_arguments, shown
 from ..quantities.markup import csv_cell
 from ..quantities.types import Array
@@ -44,23 +44,6 @@ def table_csv(columns: Mapping[str, Sequence[object] | Array]) -> str:
     return out.getvalue()
 
 
-def profile_csv(analysis: Any) -> str:
-    """The profile of a cam as CSV text, a row for each cam angle, units in the heading.
-
-    Of an analysis that covers a part of the cam it takes the ``whole``.  Where the cam is undercut, the flank is what
-    the tool leaves of it (see `flanks`): the column ``undercut`` names the flanks that are cut away at a row's cam
-    angle, their points stand on the corner that is left, and the columns ``theory`` hold what was asked for.  Of a drum
-    these are unrolled; its groove in space, both ends of every flank, stands in columns of its own.
-
-    >>> from camkit import DoorHandleCam, TranslatingRollerCam
-    >>> print(profile_csv(TranslatingRollerCam().analyse(361)).splitlines()[0])
-    stretch,cam_angle_deg,pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,outer_profile_x_mm,outer_profile_y_mm
-    >>> "undercut,theory_profile_x_mm" in profile_csv(DoorHandleCam().analyse(361)).splitlines()[0]
-    True
-    """
-    return table_csv(_profile_columns(_one_cam(analysis)))
-
-
 def _one_cam(analysis: Any) -> Any:
     """The whole cam, if it is one."""
     analysis = getattr(analysis, "whole", analysis)
@@ -69,29 +52,6 @@ def _one_cam(analysis: Any) -> Any:
     if np.ndim(analysis.cam_angle) > 1 or np.ndim(analysis.pitch) > 2:
         raise ValueError("this is a population; the profile of one design can be written")
     return analysis
-
-
-def _profile_columns(analysis: Any) -> dict[str, Array]:
-    made = flanks(analysis)
-    columns = {"stretch": list(analysis.stretch), "cam_angle_deg": in_unit(analysis.profile_angle, "deg")}
-    columns |= _point_columns({"pitch": analysis.pitch, **made.points})
-    if made.cuts:
-        names = (INNER, OUTER) if len(made.cut_away) > 1 else (ONLY,)
-        away = dict(zip(names, made.cut_away.values(), strict=True))
-        rows = range(len(columns["stretch"]))
-        columns["undercut"] = [" and ".join(flank for flank, lost in away.items() if lost[k]) for k in rows]
-        columns |= _point_columns({f"theory {flank}": points for flank, points in made.theory.items()})
-    return columns | _point_columns(getattr(analysis, "points_in_space", {}))
-
-
-def _point_columns(curves: Mapping[str, np.ndarray]) -> dict[str, Array]:
-    """Two columns for each curve, of one in space three, in mm, but for a curve that is not there."""
-    return {
-        f"{name.replace(' ', '_')}_{axis}_mm": in_unit(values, "mm")
-        for name, points in curves.items()
-        if np.isfinite(points).any()
-        for axis, values in zip("xyz", points, strict=False)
-    }
 
 
 def profile_dxf(analysis: Any) -> str:

@@ -46,7 +46,8 @@ from camkit.cam import (
     vibration_at,
 )
 from camkit.files import Session, from_json, to_json
-from camkit.files.profiles import profile_csv, profile_dxf
+from camkit.files.profiles import profile_dxf
+from camkit.files.workshop import tables
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic
 from camkit.quantities import measures_of, unremarked
 from camkit.study import Sweep
@@ -391,11 +392,11 @@ def columns(text):
 
 def test_the_workshop_gets_the_groove_unrolled_and_in_space():
     analysis = BarrelCam().analyse()
-    found = columns(profile_csv(analysis))
-    assert_allclose(found["pitch_x_mm"].astype(float)[[0, -1]], [0, 120 * np.pi], atol=1e-6)
-    space = np.array([found[f"upper_flank_bottom_{axis}_mm"].astype(float) for axis in "xyz"]) * mm
+    found = columns(tables.table(analysis).data.decode())
+    assert_allclose(found["pitch curve x [mm]"].astype(float)[[0, -1]], [0, 120 * np.pi], atol=1e-6)
+    space = np.array([found[f"upper flank bottom {axis} [mm]"].astype(float) for axis in "xyz"]) * mm
     assert_allclose(space, analysis.in_space(54 * mm, -1), rtol=0, atol=1e-9)
-    assert "upper_flank_bottom_x_mm" not in columns(profile_csv(BarrelCam(groove=False).analyse()))
+    assert "upper flank bottom x [mm]" not in columns(tables.table(BarrelCam(groove=False)).data.decode())
     drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
     lines = {line.dxf.layer: np.array(line.get_points("xy")).T for line in drawing.modelspace()}
     assert set(lines) == {"pitch", "profile", "outer profile"}  # the groove closes around the drum: it has no ends
@@ -411,7 +412,7 @@ def test_the_seam_of_the_unrolled_groove_is_no_end():
     segments = Return(40 * deg, 25 * mm, law), Dwell(280 * deg), Rise(40 * deg, 25 * mm, law)
     analysis = BarrelCam(MotionProgram(segments), roller_radius=15 * mm).analyse(1441)
     assert "undercut" in analysis.trouble
-    assert "theory_profile_x_mm" in columns(profile_csv(analysis))
+    assert "theory profile x [mm]" in columns(tables.table(analysis).data.decode())
 
 
 def test_the_walls_of_an_open_groove_merge_across_the_seam():

@@ -20,7 +20,7 @@ from camkit.cam.slide import SlideFriction, SlideLoad
 from camkit.cam.translating_flat import TranslatingFlatCam
 from camkit.cam.translating_roller import TranslatingRollerCam
 from camkit.files import from_json, to_json
-from camkit.files.profiles import profile_csv
+from camkit.files.workshop import tables
 from camkit.motion import LAWS, Cycloidal, Dwell, MotionProgram, Poly345, Return, Rise, SimpleHarmonic
 from camkit.quantities import unremarked
 from camkit.render import picture
@@ -999,7 +999,7 @@ def test_a_study_evaluates_designs_as_their_analyses_do(cam):
 @every_cam
 def test_a_design_survives_a_file_and_its_profile_is_a_table(cam):
     assert from_json(to_json(cam), type(cam)) == cam
-    assert len(profile_csv(cam.analyse(91)).splitlines()) == 92
+    assert len(tables.table(cam.analyse(91)).data.splitlines()) == 92
 
 
 # ---------------------------------------------------------------- refusals

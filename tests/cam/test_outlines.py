@@ -17,10 +17,10 @@ from camkit import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     motion_from_outline,
-    profile_csv,
 )
 from camkit.cam import DrawnOutline, MeasuredOutline, OutlineMotion, cam_from_outline, peak_acceleration
 from camkit.files import from_json, to_json
+from camkit.files.workshop import tables
 from camkit.motion import Dwell
 from camkit.units import deg, mm, um
 
@@ -249,8 +249,8 @@ def test_a_steep_outline_is_smoothed_over_its_length():
 def test_a_cam_is_designed_anew_from_its_profile(design, rotation):
     """Through the points that go to the workshop, written to 1 nm: what comes back is the design."""
     design = design.replace(rotation=rotation)
-    rows = [row.split(",") for row in profile_csv(design.analyse(1441)).splitlines()]
-    x, y = (rows[0].index(f"profile_{axis}_mm") for axis in "xy")
+    rows = [row.split(",") for row in tables.table(design.analyse(1441)).data.decode().splitlines()]
+    x, y = (rows[0].index(f"profile {axis} [mm]") for axis in "xy")
     profile = np.array([[float(row[x]), float(row[y])] for row in rows[1:]]) * mm
     cam = cam_from_outline(MeasuredOutline(profile, 1e-9), design)
     assert isinstance(cam.motion, OutlineMotion)

@@ -14,11 +14,11 @@ from camkit import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     motion_from_outline,
-    profile_csv,
     profile_dxf,
 )
 from camkit.cam import DrawnOutline, MeasuredOutline, cam_from_outline
 from camkit.files import TableQuestion, read_outline
+from camkit.files.workshop import tables
 from camkit.units import deg, inch, mm, um
 
 TURN = np.arange(0, 360, 2) * deg
@@ -106,10 +106,10 @@ FOLLOWERS = {
 
 @pytest.mark.parametrize("rotation", [1, -1])
 @pytest.mark.parametrize("kind", list(FOLLOWERS))
-@pytest.mark.parametrize("written", [profile_csv, profile_dxf])
+@pytest.mark.parametrize("written", [lambda cam: tables.table(cam).data, lambda cam: profile_dxf(cam).encode()])
 def test_the_workshop_s_files_come_back_as_the_design(written, kind, rotation):
     design = FOLLOWERS[kind].replace(rotation=rotation)
-    outline = read_outline(written(design.analyse(721)).encode())
+    outline = read_outline(written(design.analyse(721)))
     assert isinstance(outline, MeasuredOutline)
     cam = cam_from_outline(outline, design)
     x = np.linspace(0, 2 * np.pi, 721)

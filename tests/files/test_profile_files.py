@@ -18,12 +18,12 @@ from camkit import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     ValveCam,
-    profile_csv,
     profile_dxf,
 )
 from camkit.cam.flank import flanks
 from camkit.cam.undercut import undercut_in_words
 from camkit.files.profiles import table_csv
+from camkit.files.workshop import tables
 from camkit.machines.valve_train import ROLLER
 from camkit.motion import Cycloidal, Dwell, FreePolynomial, MotionProgram, Poly345, Return, Rise
 from camkit.units import deg, mm
@@ -37,14 +37,14 @@ WHOLE_DOOR = DoorHandleCam(lift_arm=45 * mm, relief_arm=80 * mm, relief_cam_angl
 @pytest.mark.parametrize("design", [WHOLE_DOOR, OscillatingRollerCam()], ids=lambda d: type(d).__name__)
 def test_the_table_holds_the_analysis(design):
     analysis = design.analyse(181)
-    rows = list(csv.DictReader(profile_csv(analysis).splitlines()))
+    rows = list(csv.DictReader(tables.table(analysis).data.decode().splitlines()))
     assert len(rows) == analysis.pitch.shape[-1]
     assert [row["stretch"] for row in rows] == analysis.stretch.tolist()
-    column = {name: np.array([float(row[name]) for row in rows]) for name in rows[0] if name != "stretch"}
-    assert_allclose(column["cam_angle_deg"], analysis.profile_angle / deg, rtol=0, atol=0.5e-6 + 1e-12)
-    for name in ("pitch", "profile", "outer_profile"):
+    column = {name: np.array([float(row[name]) for row in rows]) for name in rows[0] if name.endswith("]")}
+    assert_allclose(column["cam angle [deg]"], analysis.profile_angle / deg, rtol=0, atol=0.5e-6 + 1e-12)
+    for name, words in (("pitch", "pitch curve"), ("profile", "profile"), ("outer_profile", "outer profile")):
         for axis, values in zip("xy", getattr(analysis, name), strict=True):
-            assert_allclose(column[f"{name}_{axis}_mm"], values / mm, rtol=0, atol=0.5e-6 + 1e-12)
+            assert_allclose(column[f"{words} {axis} [mm]"], values / mm, rtol=0, atol=1e-9)
 
 
 def test_a_number_that_is_zero_has_no_sign():
@@ -194,15 +194,14 @@ def test_the_follower_stays_from_its_place_by_as_much_as_is_said(name):
 def test_an_undercut_cam_is_marked_in_table_and_drawing(name):
     analysis = whole(UNDERCUT[name], 721)
     made = flanks(analysis)
-    rows = list(csv.DictReader(profile_csv(analysis).splitlines()))
+    rows = list(csv.DictReader(tables.table(analysis).data.decode().splitlines()))
     assert len(rows) == len(analysis.profile_angle)
     names = ("inner flank", "outer flank") if len(made.cut_away) > 1 else ("profile",)
     for said, (flank, away) in zip(names, made.cut_away.items(), strict=True):
         assert [said in row["undercut"].split(" and ") for row in rows] == away.tolist()
-        key = flank.replace(" ", "_")
         table, theory = (
-            np.array([[float(row[f"{k}_{axis}_mm"]) for row in rows] for axis in "xy"]) * mm
-            for k in (key, f"theory_{key}")
+            np.array([[float(row[f"{k} {axis} [mm]"]) for row in rows] for axis in "xy"]) * mm
+            for k in (flank, f"theory {flank}")
         )
         assert_allclose(theory, made.theory[flank], rtol=0, atol=1e-9)
         assert_allclose(table[:, ~away], theory[:, ~away], rtol=0, atol=1e-9)
@@ -241,7 +240,7 @@ def test_a_cam_that_its_tool_can_make_is_written_as_it_is(cam):
     assert not made.cuts
     assert not made.lost
     assert undercut_in_words(analysis, made.cuts) == ""
-    assert "undercut" not in profile_csv(analysis)
+    assert b"undercut" not in tables.table(analysis).data
     assert "FAULT" not in profile_dxf(analysis)
     for flank, points in made.points.items():
         assert_array_equal(points, made.theory[flank])

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from camkit.cam.force_closure import ContactPair, jump_speed, preload_needed
 from camkit.contact import contact_modulus
 from camkit.files import Session, from_json, to_json
-from camkit.files.profiles import profile_csv
+from camkit.files.workshop import tables
 from camkit.machines.cam_lever import CAM_LEVER_MEASURES, CamLever, cam_lever_study, closing_share
 from camkit.machines.high_speed_cam import HighSpeedCam
 from camkit.machines.high_speed_load import ConstantTorque, InertialSpringLoad
@@ -622,7 +622,7 @@ def test_saved_and_loaded_it_is_the_same_cam():
 
 
 def test_the_profile_can_be_cut():
-    assert len(profile_csv(FIRST.analyse(91)).splitlines()) == 1 + FIRST.analyse(91).cam_angle.size
+    assert len(tables.table(FIRST.analyse(91)).data.splitlines()) == 1 + FIRST.analyse(91).cam_angle.size
 
 
 def test_views_of_cams_show_it():

@@ -32,11 +32,11 @@ from camkit import (
     most_isolated,
     nsga2,
     picture,
-    profile_csv,
     read,
     topsis,
     weighted_sum,
     with_quantities,
+    write_table,
 )
 from camkit.data import load as reference
 from camkit.decision import (
@@ -432,7 +432,7 @@ IN_WORDS = {
     "a complex front": lambda: topsis([[1, 2j], [2, 1]]),
     "a ragged front": lambda: topsis([[1, 2], [1]]),
     "weights of text": lambda: topsis([[1, 2], [2, 1]], ["a", "b"]),
-    "a profile of many": lambda: profile_csv(DoorHandleCam(lift_arm=np.array([[0.05], [0.06]])).analyse(31)),
+    "a profile of many": lambda: write_table(DoorHandleCam(lift_arm=np.array([[0.05], [0.06]])), "profile.csv"),
     "a file that is not there": lambda: read("no such file.json"),
 }
 

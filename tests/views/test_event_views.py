@@ -8,9 +8,10 @@ import pytest
 from hand import move
 from numpy.testing import assert_allclose, assert_array_equal
 
-from camkit import explore, nsga2, picture, profile_csv
+from camkit import explore, nsga2, picture
 from camkit.files import from_json, to_json
 from camkit.files.profiles import table_csv
+from camkit.files.workshop import tables
 from camkit.geometry import rotated
 from camkit.machines.valve_cam import ValveCam
 from camkit.machines.valve_measures import VALVE_MEASURES, min_radius, valve_front_study
@@ -227,13 +228,13 @@ def test_the_lift_table_as_csv():
     assert_allclose(float(nose["profile radius [mm]"]), analysis.nose_radius / mm, atol=5.1e-7)
 
 
-@pytest.mark.parametrize(("follower", "columns"), [(FLAT, 4), (ROLLER, 6)])
+@pytest.mark.parametrize(("follower", "columns"), [(FLAT, 5), (ROLLER, 7)])
 def test_the_profile_as_csv_is_the_whole_cam(follower, columns):
     cam = ValveCam(follower=follower)
-    read = rows(profile_csv(cam.analyse(181)))
+    read = rows(tables.table(cam.analyse(181)).data.decode())
     assert len(read) == 181
     assert len(read[0]) == columns
-    points = np.array([[float(row[f"profile_{k}_mm"]) for row in read] for k in "xy"])
+    points = np.array([[float(row[f"profile {k} [mm]"]) for row in read] for k in "xy"])
     assert_allclose(points, cam.analyse(181).whole.profile / mm, atol=5.1e-7)
     assert_allclose(points[:, 0], points[:, -1], atol=1e-5)
     assert {row["stretch"] for row in read} == {

@@ -12,6 +12,7 @@ from .package import to_workshop
 from .printing import write_3mf, write_stl
 from .report import write_report
 from .solid import write_step
+from .tables import write_table
 from .title import TitleBlock
 from .toolpath import ToolPath, tool_path
 from .written import Written
@@ -31,4 +32,5 @@ __all__ = [
     "write_report",
     "write_step",
     "write_stl",
+    "write_table",
 ]

@@ -14,8 +14,12 @@ from ...quantities.kinds import one_number
 from ...study.study import Study
 from ...units import mm
 from .blank import Blank
+from .columns import Units
 from .faults import has_profile
+from .joints import joint_columns
+from .skeleton import DRAWN, skeleton
 from .subject import analysis_of, design_of, subjects
+from .tables import table
 from .title import TitleBlock
 from .written import Made, length_unit
 
@@ -95,12 +99,6 @@ def _dxf(order: Order) -> Made:
     return Made(profile_dxf(order.analysis).encode(), "the profile")
 
 
-def _csv(order: Order) -> Made:
-    from ..profiles import profile_csv
-
-    return Made(profile_csv(order.analysis).encode(), "the profile, a row for each cam angle")
-
-
 def _flat(order: Order) -> bool:
     return _cam(order) and not any(hasattr(subject.analysis, "period") for subject in subjects(order.cam))
 
@@ -130,6 +128,53 @@ def _3mf(order: Order) -> Made:
     from .printing import three_mf
 
     return three_mf(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+def _plate(order: Order) -> bool:
+    """Whether there is one profile."""
+    outer = getattr(order.analysis, "outer_profile", 0.0)  # a pair has no one profile
+    return _flat(order) and not np.isfinite(outer).any()
+
+
+def _one_motion(order: Order) -> bool:
+    return _cam(order) and hasattr(order.analysis, "cam_torque")
+
+
+def _linkage(order: Order) -> bool:
+    return not _cam(order) and joint_columns(order.analysis, Units()) is not None
+
+
+def _has_lengths(order: Order) -> bool:
+    return isinstance(order.analysis, DRAWN)
+
+
+def _skeleton(order: Order) -> Made:
+    return skeleton(order.analysis, unit=order.unit, title=order.title)
+
+
+def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], bool], key: str = "") -> Export:
+    def make(order: Order) -> Made:
+        return table(order.analysis, kind, ending, unit=order.unit, title=order.title)
+
+    return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", words, use, make, of)
+
+
+TABLES = (
+    _table("profile", "csv", "Profile (CSV)", "for spreadsheets: points of pitch curve and profile", _cam, "csv"),
+    _table("polar", "csv", "Radii (CSV)", "for machines and gauges: radius at whole degrees", _flat, "radii"),
+    _table("motion", "csv", "Motion (CSV)", "for spreadsheets: motion, pressure angle, radii, force and torque", _cam),
+    _table("motion", "xlsx", "Motion (XLSX)", "the same as a workbook", _cam, "workbook"),
+    _table("inspection", "csv", "Inspection (CSV)", "for measuring machines: points, normals, limits", _cam),
+    _table("joints", "csv", "Joints (CSV)", "for CAD: where the joints are over the turn", _linkage),
+    _table("solidworks", "sldcrv", "Curve for SolidWorks", "Curve Through XYZ Points", _plate),
+    _table("inventor", "xlsx", "Curve for Inventor", "Import Points", _plate),
+    _table("creo", "ibl", "Curve for Creo", "Curve from File", _plate),
+    _table("nx", "dat", "Curve for NX", "Spline from Points from File", _plate),
+    _table("codesys", "csv", "Cam table for CODESYS", "rows of the cam editor", _one_motion),
+    _table("twincat", "csv", "Cam table for TwinCAT", "rows of MC_MotionFunctionPoint", _one_motion),
+    _table("kollmorgen", "csv", "Cam profile for Kollmorgen KAS", "Import Cam Profile", _one_motion),
+    _table("rockwell", "csv", "Cam array for Rockwell Logix", "MASTER, SLAVE, SegmentType for MCCP", _one_motion),
+    Export("skeleton", "-skeleton.dxf", "Skeleton (DXF)", "for CAD: links, axes, or a tube", _skeleton, _has_lengths),
+)
+"""Tables and points of it."""
 
 
 def _drawing(order: Order, ending: str) -> Made:
@@ -157,7 +202,6 @@ EXPORTS = (
         lambda o: o.study is not None,
     ),
     Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
-    Export("csv", ".csv", "Profile (CSV)", "for spreadsheets: points of the profile", _csv, _cam),
     Export("nc", ".ngc", "Tool path (G-code)", "for a milling machine: LinuxCNC, arcs, feeds to be set", _gcode, _flat),
     Export(
         "step", ".step", "Solid (STEP)", "for CAD, CAM and inspection: the cam with bore, keyway and hub", _step, _flat
@@ -184,6 +228,7 @@ EXPORTS = (
         "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
     ),
     Export("page", "-report.html", "Report (HTML)", "for colleagues, in a browser", partial(_report, ending=".html")),
+    *TABLES,
 )
 """In the order in which they are offered."""
 

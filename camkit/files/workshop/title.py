@@ -36,7 +36,7 @@ class TitleBlock:
 
     def name(self, kind: str) -> str:
         """The title, or the ``kind`` of the design (the name of its class) in words."""
-        return self.title or _PARTS.sub(" ", kind).capitalize()
+        return self.title or (kind if kind.isupper() else _PARTS.sub(" ", kind).capitalize())
 
     def marked(self, kind: str) -> str:
         """The name, which says so where the design is faulty."""

@@ -1,0 +1,101 @@
+"""Points to be probed on a cam: where they are, the surface's normal, and how far off they may be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...geometry import rotated
+from ...quantities.types import Array
+from .columns import Table, Units, stacked
+from .curves import Contour, Stretch
+from .named import named_contours
+from .sheets import Column
+from .subject import Subject
+
+POINTS = 360
+"""Of every contour."""
+
+
+def inspection_columns(subject: Subject, units: Units, limits: tuple[float, float], count: int = POINTS) -> Table:
+    """Points of every contour that is cut at even distances, with unit normals and the limits of their deviation.
+
+    X, Y, Z are nominal, I, J, K the normal, out of the material; a deviation is measured along it, above 0 where there
+    is too much.  ``limits`` are the lower and the upper one, m.
+    """
+    probed = _of_a_drum(subject, count) if hasattr(subject.analysis, "period") else _of_a_disk(subject, count)
+    tables = {name: _columns(points, normals, units, limits) for name, (points, normals) in probed.items()}
+    table = stacked(tables, "curve")
+    return {"point": np.arange(1.0, 1 + len(table["curve"])), **table}
+
+
+def _columns(points: Array, normals: Array, units: Units, limits: tuple[float, float]) -> Table:
+    columns: dict[str, Column] = {}
+    for name, values in zip("XYZ", points, strict=True):
+        columns |= units.column(name, "length", values)
+    columns |= dict(zip("IJK", normals, strict=True))
+    for name, limit in zip(("lower limit", "upper limit"), limits, strict=True):
+        columns |= units.column(name, "length", np.full(points.shape[1], limit))
+    return columns
+
+
+Probed = dict[str, tuple[Array, Array]]
+"""Points and normals in space, ``(3, n)``, by the name of their curve."""
+
+
+def _of_a_disk(subject: Subject, count: int) -> Probed:
+    cut = {name: contour for name, contour in named_contours(subject).items() if contour.layer != "PITCH"}
+    found = {}
+    for name, contour in cut.items():
+        points, (x, y) = evenly(contour, count)
+        normals = _outward(contour, cut) * np.stack([y, -x])
+        found[name] = np.vstack([points, 0.0 * x]), np.vstack([normals, 0.0 * x])
+    return found
+
+
+def _of_a_drum(subject: Subject, count: int) -> Probed:
+    """Both flanks at the mean radius, at even steps of the cam angle; their normals are square to the roller's axis."""
+    first, last = subject.analysis.cam_angle[[0, -1]]
+    at = subject.analysis.at(first + (last - first) * (np.arange(count) + 0.5) / count)
+    radius, (around, along) = at.cam.mean_radius, at.normal
+    normals = np.vstack([rotated(np.stack([0.0 * around, around]), at.turn), along])
+    sides = {"lower flank": 1, "upper flank": -1} if at.groove else {"lower flank": 1}
+    return {name: (at.in_space(radius, side), side * normals) for name, side in sides.items()}
+
+
+def evenly(contour: Contour, count: int) -> Stretch:
+    """Points of a contour at even distances along it, with their tangents; none stands on a corner.
+
+    >>> turn = np.linspace(0, 2 * np.pi, 100)
+    >>> circle = Stretch(np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)]))
+    >>> evenly(Contour("CAM", (circle,), True), 4).points.round(6).tolist()[0]
+    [0.707107, -0.707107, -0.707107, 0.707107]
+    """
+    lengths = [np.append(0, np.cumsum(np.hypot(*np.diff(stretch.points)))) for stretch in contour.stretches]
+    begins = np.cumsum([0.0, *(length[-1] for length in lengths)])
+    at = begins[-1] * (np.arange(count) + 0.5) / count
+    parts = []
+    for stretch, length, begin in zip(contour.stretches, lengths, begins, strict=False):
+        here = at[(at > begin) & (at < begin + length[-1])] - begin
+        parts.append(stretch.at(np.interp(here, length, np.arange(len(length)))))
+    points, tangents = (np.hstack(each) for each in zip(*parts, strict=True))
+    return Stretch(points, tangents)
+
+
+def _outward(contour: Contour, cut: Mapping[str, Contour]) -> float:
+    """1 where the material lies to the left of the direction of travel, -1: to its right.
+
+    Contours run counter-clockwise: a plate's material is inside, a groove's outside, but within its inner wall.
+    """
+    if contour.layer == "CAM":
+        return 1.0
+    others = (other for other in cut.values() if other is not contour and other.layer == "GROOVE")
+    return 1.0 if any(_inside(contour.points[:, 0], other.points) for other in others) else -1.0
+
+
+def _inside(point: Array, around: Array) -> bool:
+    """Whether a point lies within a closed polygon: the angles at which its sides are seen add up to a turn."""
+    spokes = around - point[:, None]
+    turned = np.diff(np.unwrap(np.arctan2(spokes[1], spokes[0]), axis=-1)).sum()
+    return bool(abs(turned) > np.pi)

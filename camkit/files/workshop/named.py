@@ -1,0 +1,81 @@
+"""The curves of a cam by the names under which they are asked for and found in files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...quantities.types import Array
+from ...units import deg
+from .contours import Contour, contours
+from .curves import SAME, Stretch, smooth
+from .subject import Subject
+
+LOST, CORNER = "FAULT", 0.1 * deg
+"""The layer of what is cut away; stretches whose tangents differ by less (rad) are one smooth curve."""
+WALLS = ("outer wall", "inner wall"), ("upper wall", "lower wall")
+"""Of a groove in a disk, and of one around a drum."""
+WORDS = {"CAM": "profile", "GROOVE": "groove", "PITCH": "pitch curve"}
+
+
+def named_contours(subject: Subject) -> dict[str, Contour]:
+    """What is cut, and the pitch curve: ``profile``; ``outer wall`` and ``inner wall``, or one ``groove`` with ends.
+
+    Of several of a name the others are numbered.
+
+    >>> from camkit import DoorHandleCam, TranslatingRollerCam
+    >>> from .subject import subjects
+    >>> list(named_contours(subjects(TranslatingRollerCam())[0]))
+    ['outer wall', 'inner wall', 'pitch curve']
+    """
+    found = [contour for contour in contours(subject) if contour.layer != LOST]
+    unrolled = hasattr(subject.analysis, "period")
+    found.sort(key=_height if unrolled else _size, reverse=True)
+    named: dict[str, Contour] = {}
+    walls = [contour for contour in found if contour.layer == "GROOVE"]
+    for contour in found:
+        name = WORDS[contour.layer]
+        if contour.layer == "GROOVE" and len(walls) == 2:
+            name = WALLS[unrolled][contour is walls[1]]
+        same = sum(other == name or other.startswith(f"{name} ") for other in named)
+        named[f"{name} {same + 1}" if same else name] = contour
+    order = list(WORDS)
+    return dict(sorted(named.items(), key=lambda each: order.index(each[1].layer)))
+
+
+def curves_of(subject: Subject) -> dict[str, list[Array]]:
+    """The smooth parts of every curve by name, exact points ``(2, n)``, of a drum also those in space ``(3, n)``, m."""
+    plane = {name: smooth_parts(contour) for name, contour in named_contours(subject).items()}
+    return plane | {name: [points] for name, points in getattr(subject.analysis, "points_in_space", {}).items()}
+
+
+def smooth_parts(contour: Contour) -> list[Array]:
+    """Points ``(2, n)`` of a contour from corner to corner; a closed one without is one part, with one corner two."""
+    stretches = list(contour.stretches)
+    last = [*stretches[-1:], *stretches[:-1]]
+    starts = [k for k, (one, other) in enumerate(zip(last, stretches, strict=True)) if not smooth(one, other, CORNER)]
+    if contour.closed and starts:
+        stretches = [*stretches[starts[0] :], *stretches[: starts[0]]]
+        starts = [k - starts[0] for k in starts]
+    ends = [*[k for k in starts if k], len(stretches)]
+    parts = [_run(stretches[first:end]) for first, end in zip([0, *ends], ends, strict=False)]
+    if contour.closed and len(starts) == 1:
+        half = parts[0].shape[1] // 2
+        return [parts[0][:, : half + 1], parts[0][:, half:]]
+    return parts
+
+
+def _run(stretches: Sequence[Stretch]) -> Array:
+    points = np.hstack([stretches[0].points[:, :1], *(stretch.points[:, 1:] for stretch in stretches)])
+    if np.hypot(*(points[:, 0] - points[:, -1])) <= SAME:
+        points[:, -1] = points[:, 0]
+    return points
+
+
+def _height(contour: Contour) -> float:
+    return float(contour.points[1].mean())
+
+
+def _size(contour: Contour) -> float:
+    return float(np.hypot(*contour.points).max())

@@ -1,0 +1,156 @@
+"""Tables of a cam, a linkage or a shaft: for people, spreadsheets, CAD, inspection and controllers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from ...cam.analysis import CamAnalysis
+from ...quantities.applied import a_path
+from ...quantities.kinds import numbers, refuse_arguments, shown
+from ...quantities.types import Array
+from ...units import deg, um
+from .cad_curves import CAD, cad_curve
+from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked
+from .controllers import FORMS, controller_table
+from .inspection import inspection_columns
+from .joints import joint_columns
+from .named import curves_of
+from .sheets import Sheet, numbers_in
+from .subject import analysis_of, design_of, subjects
+from .title import TitleBlock
+from .written import LENGTHS, Made, Written, length_unit, written
+
+T = TypeVar("T")
+KINDS = {
+    "profile": "pitch curve and profile by the cam angle, in space that of a drum",
+    "polar": "radius by direction",
+    "motion": "s, v, a, j, pressure angle, radii of curvature, contact force and torque by the cam angle",
+    "inspection": "points with normals and limits, for a coordinate measuring machine",
+    "joints": "joints of a linkage or a shaft over the turn",
+    **{program: "points of one curve for CAD" for program in CAD},
+    **{form: "cam table of a controller" for form in FORMS},
+}
+"""The kinds of tables, and what each is."""
+LIMIT = 25 * um
+"""Deviation that a probed point may have to either side, where nobody says another."""
+
+
+def write_table(
+    cam: object,
+    path: str | Path,
+    kind: str = "profile",
+    *,
+    unit: str = "mm",
+    title: TitleBlock = TitleBlock(),
+    step: float = 1 * deg,
+    curve: str = "",
+    limits: tuple[float, float] = (-LIMIT, LIMIT),
+    decimal: str = ".",
+) -> Written:
+    """Write a table of a design, an analysis or a panel, of one of `KINDS`; as CSV or XLSX, by the ending of ``path``.
+
+    ``unit`` is ``"mm"`` or ``"in"``; with inches forces are in lbf and torques in lbf in.  ``step`` (rad) is that of
+    the rows of ``polar``, ``motion`` and cam tables, which also have rows where the motion needs them.  ``limits`` (m)
+    are those of the deviation of every probed point.  The first row are headings with units, the last column's says
+    where the table comes from (`title`) and is empty below; a decimal comma goes with semicolons.  Both cams of a pair
+    stand below each other, as they are on their shaft.
+
+    ``solidworks``, ``inventor``, ``creo`` and ``nx`` are points of one ``curve``, without headings (see `cad_curves`),
+    ``codesys``, ``twincat``, ``kollmorgen`` and ``rockwell`` cam tables of one motion (see `controllers`); where there
+    are several the sentence that asks names them.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> from camkit import TranslatingRollerCam
+    >>> with TemporaryDirectory() as folder:
+    ...     print(write_table(TranslatingRollerCam(), f"{folder}/radii.csv", "polar"))
+    radii.csv: 360 rows of polar; read back, at most 7.8e-07 um off
+
+    Raises ``ValueError`` in a sentence for a kind, a unit or a curve that there is not.
+    """
+    refuse_arguments(write_table, locals())
+    ending = a_path(path).suffix.lower().lstrip(".")
+    made = table(cam, kind, ending, unit=unit, title=title, step=step, curve=curve, limits=limits, decimal=decimal)
+    return written(made, path)
+
+
+def table(
+    cam: object,
+    kind: str = "profile",
+    ending: str = "csv",
+    *,
+    unit: str = "mm",
+    title: TitleBlock = TitleBlock(),
+    step: float = 1 * deg,
+    curve: str = "",
+    limits: tuple[float, float] = (-LIMIT, LIMIT),
+    decimal: str = ".",
+) -> Made:
+    """The same as bytes, with the ``ending`` of the file's name."""
+    if kind not in KINDS:
+        raise ValueError(f"the kind of the table is {shown(kind)}; it must be one of {', '.join(KINDS)}")
+    unit = length_unit(unit)
+    lines = title.lines(type(design_of(cam)).__name__, unit)
+    if kind in CAD:
+        return cad_curve(_one_of(_curves(cam), curve, "curve"), kind, unit, lines, ending)
+    if kind in FORMS:
+        motion = _one_of(_motions(cam), curve, "motion")
+        return controller_table(motion.cam.motion, kind, unit if slides(motion) else "deg", step)
+    whole = stacked(_columns(cam, kind, Units(unit), step, limits), "cam")
+    data = Sheet(whole, lines).written(ending, decimal)
+    rows = len(next(iter(whole.values())))
+    away = np.nan if kind == "motion" else _deviation(whole, numbers_in(data, decimal), unit)
+    return Made(data, f"{rows} rows of {kind}", away)
+
+
+def _columns(cam: object, kind: str, units: Units, step: float, limits: tuple[float, float]) -> Mapping[str, Table]:
+    """The columns of a table of every cam by name, or of the one mechanism."""
+    if kind == "joints":
+        joints = joint_columns(analysis_of(cam), units)
+        if joints is None:
+            raise ValueError(f"{type(design_of(cam)).__name__} has no joints in space; a linkage or a shaft has")
+        return {"": joints}
+    make = {
+        "profile": lambda one: profile_columns(one, units),
+        "polar": lambda one: polar_columns(one, units, step),
+        "motion": lambda one: motion_columns(one, units, step),
+        "inspection": lambda one: inspection_columns(one, units, _limits(limits)),
+    }[kind]
+    return {one.name: make(one) for one in subjects(cam)}
+
+
+def _limits(given: object) -> tuple[float, float]:
+    lower, upper = numbers(given, "the limits of the deviation (m), lower and upper,").tolist()
+    if not -np.inf < lower < upper < np.inf:
+        raise ValueError(f"the limits of the deviation are {shown(given)}; the lower must be below the upper, m")
+    return lower, upper
+
+
+def _curves(cam: object) -> dict[str, list[Array]]:
+    return {f"{one.name} {name}".strip(): parts for one in subjects(cam) for name, parts in curves_of(one).items()}
+
+
+def _motions(cam: object) -> dict[str, CamAnalysis]:
+    """The motion of every curve of a cam; of a pair that of the first, which the follower has."""
+    return dict(subjects(cam)[0].analysis.curves)
+
+
+def _one_of(there: Mapping[str, T], name: str, what: str) -> T:
+    """That of some things which is named, or the only one, or the profile of a cam."""
+    default = [key for key in there if key == "profile"] or list(there)
+    if not name and len(default) == 1:
+        return there[default[0]]
+    if name not in there:
+        asked = f"there is no {what} {shown(name)}" if name else f"there are several {what}s"
+        raise ValueError(f"{asked}; curve= must be one of {', '.join(map(repr, there))}")
+    return there[name]
+
+
+def _deviation(given: Table, read: Table, unit: str) -> float:
+    """By how much the lengths in a file differ from those that were to be written, m; ``nan`` where there are none."""
+    lengths = [heading for heading in given if heading.endswith(f"[{unit}]")]
+    away = [np.nanmax(abs(read[heading] - np.asarray(given[heading])), initial=0.0) for heading in lengths]
+    return float(max(away, default=np.nan)) * LENGTHS[unit]
