@@ -17,9 +17,11 @@ from ...quantities.kinds import a_number
 from ...quantities.types import Array, Value
 from ...units import in_unit
 from ..motion_tables import derived_unit
-from .polar import polar
+from .contours import on_the_shaft
+from .polar import polar, radii
 from .sheets import Column
 from .subject import Subject
+from .toolpath import ToolPath
 
 STRAIGHT = 1e-6
 """A curve of less curvature (1/m) has no radius."""
@@ -99,18 +101,20 @@ def profile_columns(subject: Subject, units: Units) -> Table:
     that are cut away at a row's cam angle, their points stand on the corner that is left, and ``theory`` is what was
     asked for.  Of a drum these are unrolled; its groove in space, both ends of every flank, has columns of its own.
     """
-    analysis = subject.analysis
+    analysis, place = subject.analysis, on_the_shaft(subject)
     made = flanks(analysis)
     columns: dict[str, Column] = {"stretch": analysis.stretch.tolist()}
     columns |= units.column("cam angle", "angle", analysis.profile_angle)
-    columns |= _curves(units, {"pitch curve": analysis.pitch, **made.points})
+    columns |= _curves(
+        units, {"pitch curve": place(analysis.pitch), **{name: place(p) for name, p in made.points.items()}}
+    )
     if made.cuts:
         names = (INNER, OUTER) if len(made.cut_away) > 1 else (ONLY,)
         away = dict(zip(names, made.cut_away.values(), strict=True))
         columns["undercut"] = [
             " and ".join(flank for flank, lost in away.items() if lost[k]) for k in range(len(analysis.profile_angle))
         ]
-        columns |= _curves(units, {f"theory {flank}": points for flank, points in made.theory.items()})
+        columns |= _curves(units, {f"theory {flank}": place(points) for flank, points in made.theory.items()})
     return columns | _curves(units, getattr(analysis, "points_in_space", {}))
 
 
@@ -127,6 +131,18 @@ def polar_columns(subject: Subject, units: Units, step: float) -> Table:
     for name, radius in polar(subject, direction).items():
         columns |= units.column(f"{name} radius", "length", radius)
     return columns
+
+
+def wheel_columns(path: ToolPath, units: Units, step: float) -> Table:
+    """Where the centre of a tool stands: its distance from the cam's axis in every direction, and its place.
+
+    A grinder turns the cam against its x axis by the direction (C) and has the wheel at the distance (X).
+    """
+    direction = rows_between(0.0, TURN, step)[:-1]
+    _, distance = radii([stretch for contour in path.contours for stretch in contour.stretches], direction)
+    columns = dict(units.column("direction", "angle", direction))
+    columns |= units.column("distance of the centre", "length", distance)
+    return columns | units.points("centre", distance * np.stack([np.cos(direction), np.sin(direction)]))
 
 
 def motion_columns(subject: Subject, units: Units, step: float) -> Table:

@@ -24,7 +24,7 @@ from ...quantities.types import Array
 from ...units import deg
 from .arcs import ArcPath, biarcs, distances
 from .curves import SAME, Contour, Stretch, arc, hermite, joined, line, smooth
-from .subject import Subject
+from .subject import Subject, kept
 
 __all__ = ["Contour", "Stretch", "contours"]
 
@@ -101,13 +101,13 @@ class Swept(Roller):
         return self.radius - SLACK - np.min([distances(path, points) for path in self.paths], axis=0)
 
 
+@kept
 def contours(subject: Subject, steps: int = STEPS) -> tuple[Contour, ...]:
     """What is to be cut, the pitch curve of a roller, and what of the cam is lost to undercut (``FAULT``).
 
     A plate has one contour ``CAM``, closed if the motion goes around; a groove has its walls on ``GROOVE``: both, or
     one closed contour with round ends where the motion does not go around.  A drum's are unrolled, from cam angle 0 to
-    the end of the turn.  Both cams of a pair lie as they stand on their shaft.  Other ``steps`` give other points of
-    the same curves.
+    the end of the turn.  Both cams of a pair lie as they stand on their shaft.  Other ``steps``: other points.
 
     >>> from .subject import subjects
     >>> from camkit import DoorHandleCam, TranslatingFlatCam, TranslatingRollerCam

@@ -128,6 +128,8 @@ def _3mf(order: Order) -> Made:
     from .printing import three_mf
 
     return three_mf(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+
+
 def _plate(order: Order) -> bool:
     """Whether there is one profile."""
     outer = getattr(order.analysis, "outer_profile", 0.0)  # a pair has no one profile
@@ -152,7 +154,7 @@ def _skeleton(order: Order) -> Made:
 
 def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], bool], key: str = "") -> Export:
     def make(order: Order) -> Made:
-        return table(order.analysis, kind, ending, unit=order.unit, title=order.title)
+        return table(order.analysis, kind, ending, unit=order.unit, title=order.title, tool_radius=order.tool_radius)
 
     return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", words, use, make, of)
 
@@ -162,6 +164,7 @@ TABLES = (
     _table("polar", "csv", "Radii (CSV)", "for machines and gauges: radius at whole degrees", _flat, "radii"),
     _table("motion", "csv", "Motion (CSV)", "for spreadsheets: motion, pressure angle, radii, force and torque", _cam),
     _table("motion", "xlsx", "Motion (XLSX)", "the same as a workbook", _cam, "workbook"),
+    _table("wheel", "csv", "Path of the tool (CSV)", "for grinders: where the wheel's centre stands", _plate),
     _table("inspection", "csv", "Inspection (CSV)", "for measuring machines: points, normals, limits", _cam),
     _table("joints", "csv", "Joints (CSV)", "for CAD: where the joints are over the turn", _linkage),
     _table("solidworks", "sldcrv", "Curve for SolidWorks", "Curve Through XYZ Points", _plate),

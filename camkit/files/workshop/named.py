@@ -45,9 +45,11 @@ def named_contours(subject: Subject) -> dict[str, Contour]:
 
 
 def curves_of(subject: Subject) -> dict[str, list[Array]]:
-    """The smooth parts of every curve by name, exact points ``(2, n)``, of a drum also those in space ``(3, n)``, m."""
-    plane = {name: smooth_parts(contour) for name, contour in named_contours(subject).items()}
-    return plane | {name: [points] for name, points in getattr(subject.analysis, "points_in_space", {}).items()}
+    """The smooth parts of every curve by name, exact points ``(2, n)``, of a drum in space ``(3, n)``, m."""
+    space = getattr(subject.analysis, "points_in_space", None)
+    if space is not None:
+        return {name: [points] for name, points in space.items()}
+    return {name: smooth_parts(contour) for name, contour in named_contours(subject).items()}
 
 
 def smooth_parts(contour: Contour) -> list[Array]:

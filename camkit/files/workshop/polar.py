@@ -17,8 +17,8 @@ from .subject import Subject
 
 NAMES = {"CAM": ("profile",), "GROOVE": ("inner wall", "outer wall"), "PITCH": ("pitch curve",)}
 """What the curves of a layer are called; of two the first is the one nearest to the axis."""
-ON = 1e-12
-"""What lies this near (m) to a ray is on it."""
+ON = 1e-9
+"""An end of a curve this near (m) to a ray is on it: curves that meet leave gaps of rounding."""
 HALVINGS = 60
 """Of a piece of a curve that crosses a ray."""
 

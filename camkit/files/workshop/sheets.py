@@ -21,9 +21,9 @@ from ...quantities.extras import extra
 from ...quantities.kinds import shown
 from ...quantities.markup import csv_cell
 from ...quantities.types import Array
+from .written import zipped
 
 DIGITS = 12
-EARLIEST = (1980, 1, 1, 0, 0, 0)
 ENDINGS = ("csv", "xlsx")
 Column = Sequence[str] | Array
 
@@ -144,12 +144,9 @@ def workbook(rows: Sequence[Sequence[str | float | None]], headed: bool = True) 
 
 
 def _dated(data: bytes) -> bytes:
-    """A zip whose files are as old as a zip can say, so that a table gives the same file again."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(data)) as given, zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as made:
-        for info in given.infolist():
-            text = given.read(info)
-            if info.filename == "docProps/core.xml":  # says when it was made
-                text = re.sub(rb"[0-9]{4}(-[0-9]{2}){2}T[0-9:]{8}Z", b"1980-01-01T00:00:00Z", text)
-            made.writestr(zipfile.ZipInfo(info.filename, EARLIEST), text, zipfile.ZIP_DEFLATED)
-    return out.getvalue()
+    """A workbook that does not say when it was made, so that a table gives the same file again."""
+    with zipfile.ZipFile(io.BytesIO(data)) as given:
+        files = {name: given.read(name) for name in given.namelist()}
+    about = "docProps/core.xml"
+    files[about] = re.sub(rb"[0-9]{4}(-[0-9]{2}){2}T[0-9:]{8}Z", b"1980-01-01T00:00:00Z", files[about])
+    return zipped(files)

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from ...quantities import words
 from ...quantities.kinds import columns, shown
+
+P = ParamSpec("P")
+T = TypeVar("T")
+LAST: deque[tuple[object, Any]] = deque(maxlen=2)
+"""Designs that were analysed last: of one order every export asks for the same, and its contours take seconds."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +31,20 @@ class Subject:
     def kind(self) -> str:
         """The name of the design's class."""
         return type(self.design).__name__
+
+
+def kept(find: Callable[Concatenate[Subject, P], T]) -> Callable[Concatenate[Subject, P], T]:
+    """What is found of a cam is kept with its analysis, as a cached property is: exports ask for the same."""
+
+    @wraps(find)
+    def known(subject: Subject, /, *given: P.args, **named: P.kwargs) -> T:
+        found: dict[object, T] = vars(subject.analysis).setdefault(f"_{find.__name__}", {})
+        key = given, tuple(named.items())
+        if key not in found:
+            found[key] = find(subject, *given, **named)
+        return found[key]
+
+    return known
 
 
 def subjects(given: Any) -> tuple[Subject, ...]:
@@ -52,9 +74,13 @@ def analysis_of(given: Any) -> Any:
     design = design_of(given)
     if columns(design):
         raise ValueError(f"given is {shown(design)}, a population; one design can be exported")
-    if given is design:
-        return design.analyse()
-    return getattr(given, "analysis", given)
+    if given is not design:
+        return getattr(given, "analysis", given)
+    for known, analysis in LAST:
+        if known is design:
+            return analysis
+    LAST.append((design, design.analyse()))
+    return LAST[-1][1]
 
 
 def design_of(given: Any) -> Any:

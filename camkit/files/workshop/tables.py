@@ -12,9 +12,9 @@ from ...cam.analysis import CamAnalysis
 from ...quantities.applied import a_path
 from ...quantities.kinds import numbers, refuse_arguments, shown
 from ...quantities.types import Array
-from ...units import deg, um
+from ...units import deg, in_unit, mm, um
 from .cad_curves import CAD, cad_curve
-from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked
+from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked, wheel_columns
 from .controllers import FORMS, controller_table
 from .inspection import inspection_columns
 from .joints import joint_columns
@@ -22,6 +22,7 @@ from .named import curves_of
 from .sheets import Sheet, numbers_in
 from .subject import analysis_of, design_of, subjects
 from .title import TitleBlock
+from .toolpath import tool_path
 from .written import LENGTHS, Made, Written, length_unit, written
 
 T = TypeVar("T")
@@ -29,6 +30,7 @@ KINDS = {
     "profile": "pitch curve and profile by the cam angle, in space that of a drum",
     "polar": "radius by direction",
     "motion": "s, v, a, j, pressure angle, radii of curvature, contact force and torque by the cam angle",
+    "wheel": "centre of a grinding wheel or a cutter by direction",
     "inspection": "points with normals and limits, for a coordinate measuring machine",
     "joints": "joints of a linkage or a shaft over the turn",
     **{program: "points of one curve for CAD" for program in CAD},
@@ -48,14 +50,16 @@ def write_table(
     title: TitleBlock = TitleBlock(),
     step: float = 1 * deg,
     curve: str = "",
+    tool_radius: float = 5 * mm,
     limits: tuple[float, float] = (-LIMIT, LIMIT),
     decimal: str = ".",
 ) -> Written:
     """Write a table of a design, an analysis or a panel, of one of `KINDS`; as CSV or XLSX, by the ending of ``path``.
 
     ``unit`` is ``"mm"`` or ``"in"``; with inches forces are in lbf and torques in lbf in.  ``step`` (rad) is that of
-    the rows of ``polar``, ``motion`` and cam tables, which also have rows where the motion needs them.  ``limits`` (m)
-    are those of the deviation of every probed point.  The first row are headings with units, the last column's says
+    the rows of ``polar``, ``wheel``, ``motion`` and cam tables, which also have rows where the motion needs them.
+    ``tool_radius`` (m) is that of the wheel (see `tool_path`), ``limits`` (m) are those of the deviation of every
+    probed point.  The first row are headings with units, the last column's says
     where the table comes from (`title`) and is empty below; a decimal comma goes with semicolons.  Both cams of a pair
     stand below each other, as they are on their shaft.
 
@@ -66,15 +70,26 @@ def write_table(
     >>> from tempfile import TemporaryDirectory
     >>> from camkit import TranslatingRollerCam
     >>> with TemporaryDirectory() as folder:
-    ...     print(write_table(TranslatingRollerCam(), f"{folder}/radii.csv", "polar"))
-    radii.csv: 360 rows of polar; read back, at most 7.8e-07 um off
+    ...     print(write_table(TranslatingRollerCam(), f"{folder}/radii.csv", "polar").what)
+    360 rows of polar
 
     Raises ``ValueError`` in a sentence for a kind, a unit or a curve that there is not.
     """
     refuse_arguments(write_table, locals())
     ending = a_path(path).suffix.lower().lstrip(".")
-    made = table(cam, kind, ending, unit=unit, title=title, step=step, curve=curve, limits=limits, decimal=decimal)
-    return written(made, path)
+    more = table(
+        cam,
+        kind,
+        ending,
+        unit=unit,
+        title=title,
+        step=step,
+        curve=curve,
+        tool_radius=tool_radius,
+        limits=limits,
+        decimal=decimal,
+    )
+    return written(more, path)
 
 
 def table(
@@ -86,6 +101,7 @@ def table(
     title: TitleBlock = TitleBlock(),
     step: float = 1 * deg,
     curve: str = "",
+    tool_radius: float = 5 * mm,
     limits: tuple[float, float] = (-LIMIT, LIMIT),
     decimal: str = ".",
 ) -> Made:
@@ -93,17 +109,21 @@ def table(
     if kind not in KINDS:
         raise ValueError(f"the kind of the table is {shown(kind)}; it must be one of {', '.join(KINDS)}")
     unit = length_unit(unit)
-    lines = title.lines(type(design_of(cam)).__name__, unit)
+    tool = f"tool radius {in_unit(tool_radius, unit):.6g} {unit}" if kind == "wheel" else ""
+    lines = title.lines(type(design_of(cam)).__name__, unit, tool)
     if kind in CAD:
         return cad_curve(_one_of(_curves(cam), curve, "curve"), kind, unit, lines, ending)
     if kind in FORMS:
         motion = _one_of(_motions(cam), curve, "motion")
         return controller_table(motion.cam.motion, kind, unit if slides(motion) else "deg", step)
-    whole = stacked(_columns(cam, kind, Units(unit), step, limits), "cam")
+    path = tool_path(cam, tool_radius) if kind == "wheel" else None
+    columns = {"": wheel_columns(path, Units(unit), step)} if path else _columns(cam, kind, Units(unit), step, limits)
+    whole = stacked(columns, "cam")
     data = Sheet(whole, lines).written(ending, decimal)
     rows = len(next(iter(whole.values())))
     away = np.nan if kind == "motion" else _deviation(whole, numbers_in(data, decimal), unit)
-    return Made(data, f"{rows} rows of {kind}", away)
+    remarks = (*map(str, path.uncut), *path.remarks) if path else ()
+    return Made(data, f"{rows} rows of {kind}", away, remarks)
 
 
 def _columns(cam: object, kind: str, units: Units, step: float, limits: tuple[float, float]) -> Mapping[str, Table]:
