@@ -14,6 +14,7 @@ from ...units import deg, mm
 from .blank import Blank
 from .contours import Contour, on_the_shaft
 from .dimensions import Words
+from .prisms import outer_diameter
 from .radii import EDGES
 from .section import draw_bore
 from .subject import Subject
@@ -60,7 +61,8 @@ class Front:
     @cached_property
     def rim(self) -> float:
         """Radius of the disk that holds a groove, m; 0 for a plate."""
-        return outer_diameter([c for c in self.curves if c.layer in EDGES], self.blank) / 2 if self.grooved else 0.0
+        edges = tuple(curve for curve in self.curves if curve.layer in EDGES)
+        return outer_diameter(edges, self.blank) / 2 if self.grooved else 0.0
 
     @property
     def turns(self) -> int:
@@ -182,12 +184,6 @@ class Front:
             yield _clipped(face, self.reach)[0], ("follower", "at angle 0°")
         for curve in (curve for curve in self.curves if curve.layer == "PITCH"):
             yield _at_share(curve, 0.85), ("pitch curve",)
-
-
-def outer_diameter(edges: list[Contour], blank: Blank) -> float:
-    """Of the disk that holds a groove, m."""
-    largest = 2 * max(float(np.hypot(*edge.points).max()) for edge in edges)
-    return float(getattr(blank, "outer_diameter", 0.0)) or largest + 2 * blank.groove_depth
 
 
 def _farthest(points: Array, sign: int) -> Extreme:

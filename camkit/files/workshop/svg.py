@@ -99,7 +99,7 @@ def fitted(text: str, width: float, size: float, least: float, lines: int = 1) -
     >>> fitted("Cam of the inlet valve", 30, 5, 2.5, lines=2)
     (['Cam of the', 'inlet valve'], 5)
     >>> fitted("x" * 60, 20, 5, 2.5)[0]
-    ['xxxxxxxxxxxxxxx…']
+    ['xxxxxxxxxxxxxx…']
     """
     while True:
         found = _broken(text, width, size)
@@ -275,7 +275,7 @@ def arcs_data(corners: Array, bulges: Array, closed: bool) -> str:
     A bulge is the tangent of a quarter of the arc's angle, above 0 where it is seen to run counter-clockwise.
 
     >>> arcs_data(np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([0.25, 0.0]), True)
-    'M0 0A1.50260 1.5026 0 0 0 1 1Z'
+    'M0 0A1.5026 1.5026 0 0 0 1 1L0 0Z'
     """
     ends = np.column_stack([corners, corners[:, :1]]) if closed else corners
     data = [f"M{xy(ends[:, 0])}"]
