@@ -21,7 +21,7 @@ from .cam import (
     motion_from_outline,
 )
 from .decision import Judgements, ahp, group, knee, most_isolated, topsis, weighted_sum
-from .files import Decision, Session, profile_dxf, read, read_motion, to_workshop, write, write_table
+from .files import Decision, Session, read, read_motion, to_workshop, write, write_dxf, write_table
 from .linkage import RSSR
 from .machines import (
     DoorHandleCam,
@@ -152,7 +152,6 @@ __all__ = [
     "most_isolated",
     "motion_from_outline",
     "polish",
-    "profile_dxf",
     "psi",
     "quantities_of",
     "quantity",
@@ -170,6 +169,7 @@ __all__ = [
     "weighted_sum",
     "with_quantities",
     "write",
+    "write_dxf",
     "write_table",
     *(_LATER if _LAB else ()),
 ]

@@ -347,7 +347,6 @@ FUNCTIONS |= {
         "symbol": "l", "default": 50, "low": 20, "high": 90, "unit": "mm", "meaning": "a length", "above": 0.0,
         "at_least": 1.0, "at_most": 100.0
     },
-    camkit.profile_dxf: {"analysis": CAM.analyse(31)},
     camkit.decision.side_by_side: {
         "designs": {"cam": CAM}, "measures": (HEIGHT,), "study": STUDY, "analyses": [CAM.analyse(31)]
     },

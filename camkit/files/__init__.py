@@ -6,7 +6,7 @@ from .designs import Read, from_json, read, read_json, to_json, write
 from .motion_tables import electronic_cam_csv, motion_csv
 from .motions import read_motion
 from .outlines import read_outline
-from .profiles import profile_dxf, table_csv
+from .profiles import table_csv
 from .schema import json_schema
 from .sessions import Session
 from .workshop import (
@@ -20,6 +20,7 @@ from .workshop import (
     tool_path,
     write_3mf,
     write_drawing,
+    write_dxf,
     write_gcode,
     write_report,
     write_step,
@@ -42,7 +43,6 @@ __all__ = [
     "from_json",
     "json_schema",
     "motion_csv",
-    "profile_dxf",
     "read",
     "read_json",
     "read_motion",
@@ -54,6 +54,7 @@ __all__ = [
     "write",
     "write_3mf",
     "write_drawing",
+    "write_dxf",
     "write_gcode",
     "write_report",
     "write_step",

@@ -81,7 +81,7 @@ def drawing_of(data: bytes, unit: str | None) -> Drawing:
     if len(entities) > MOST_ENTITIES:
         raise ValueError(f"the drawing has {len(entities)} entities; at most {MOST_ENTITIES} are read")
     said, worth = _worth(unit, header)
-    edges = [edge for entity in entities if entity.dxftype() in KINDS for edge in _edges(entity, worth)]
+    edges = [edge for entity in entities if entity.dxftype() in KINDS for edge in edges_of(entity, worth)]
     left = sorted({entity.dxftype() for entity in entities} - {*KINDS, "TEXT", "MTEXT", "POINT", "DIMENSION"})
     loops, ways = _chained([edge for edge in edges if np.isfinite(edge.corners).all() and edge.corners.shape[1] > 1])
     return Drawing(tuple(loops), tuple(ways), said, worth, tuple(left))
@@ -96,7 +96,7 @@ def _worth(unit: str | None, header: int) -> tuple[str, float]:
     return "coordinates in mm as its header names no unit", mm
 
 
-def _edges(entity: Any, worth: float) -> Iterator[Edge]:
+def edges_of(entity: Any, worth: float) -> Iterator[Edge]:
     """What an entity draws; nothing of one that says too little or nonsense."""
     try:
         corners, bulges, exact = SHAPES[entity.dxftype()](entity)

@@ -28,6 +28,8 @@ MANY = 24
 BACK = 0.2
 """An angle that goes on from row to row steps back less often, or nearly always."""
 LINEAR = list(NAMES)
+PROFILES = "profile", "outline", "cam"
+"""Layers on which the outline is, if one of several loops is on such a one."""
 X, Y, RADIUS, POLAR_ANGLE = r"\bx\b|x$", r"\by\b|y$", r"\br\b|radi|\brho\b", r"theta|angle|winkel|\bphi\b|polar"
 """What the headings of columns name, but for their units."""
 
@@ -239,7 +241,7 @@ def _of_drawing(
 ) -> DrawnOutline | MeasuredOutline:
     moved = [_moved(each, axis * drawing.worth) for each in drawing.loops]
     around = [each for each in moved if _goes_around(each)]
-    profiles = [each for each in around if each.layer.lower() in ("profile", "outline")]
+    profiles = [each for each in around if each.layer.lower() in PROFILES] or _inner_wall(around)
     if not around:
         raise ValueError(_no_loop(drawing, moved))
     chosen = _chosen(profiles if len(profiles) == 1 and loop is None else around, loop)
@@ -253,6 +255,12 @@ def _of_drawing(
     said.append("its curve taken by points on it")
     points = chosen.corners.T if not chosen.bulges.any() else _points(chosen)
     return MeasuredOutline(points, 0.0, tolerance, tuple(said))  # type: ignore[arg-type]
+
+
+def _inner_wall(around: Sequence[Loop]) -> list[Loop]:
+    """Of a groove's walls, on a layer of this name, the one on which a roller goes out."""
+    walls = [each for each in around if each.layer.lower() == "groove"]
+    return sorted(walls, key=lambda each: abs(signed_area(each.corners)))[:1]
 
 
 def _points(loop: Loop) -> Array:

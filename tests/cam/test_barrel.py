@@ -7,7 +7,6 @@ import csv
 import io
 from dataclasses import replace
 
-import ezdxf
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -46,7 +45,6 @@ from camkit.cam import (
     vibration_at,
 )
 from camkit.files import Session, from_json, to_json
-from camkit.files.profiles import profile_dxf
 from camkit.files.workshop import tables
 from camkit.motion import Cycloidal, Dwell, MotionProgram, Return, Rise, SimpleHarmonic
 from camkit.quantities import measures_of, unremarked
@@ -397,13 +395,6 @@ def test_the_workshop_gets_the_groove_unrolled_and_in_space():
     space = np.array([found[f"upper flank bottom {axis} [mm]"].astype(float) for axis in "xyz"]) * mm
     assert_allclose(space, analysis.in_space(54 * mm, -1), rtol=0, atol=1e-9)
     assert "upper flank bottom x [mm]" not in columns(tables.table(BarrelCam(groove=False)).data.decode())
-    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
-    lines = {line.dxf.layer: np.array(line.get_points("xy")).T for line in drawing.modelspace()}
-    assert set(lines) == {"pitch", "profile", "outer profile"}  # the groove closes around the drum: it has no ends
-    assert_allclose(lines["profile"] * mm, analysis.profile, rtol=0, atol=1e-9)
-    rise = MotionProgram((Rise(120 * deg, 50 * mm, Cycloidal()),))
-    open_ = ezdxf.read(io.StringIO(profile_dxf(BarrelCam(rise).analyse())))
-    assert sum(line.dxf.layer == "groove end" for line in open_.modelspace()) == 2
 
 
 def test_the_seam_of_the_unrolled_groove_is_no_end():

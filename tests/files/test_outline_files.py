@@ -14,11 +14,14 @@ from camkit import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     motion_from_outline,
-    profile_dxf,
 )
 from camkit.cam import DrawnOutline, MeasuredOutline, cam_from_outline
 from camkit.files import TableQuestion, read_outline
 from camkit.files.workshop import tables
+from camkit.files.workshop.arcs import dense_path, distances
+from camkit.files.workshop.contours import contours
+from camkit.files.workshop.dxf import dxf
+from camkit.files.workshop.subject import subjects
 from camkit.units import deg, inch, mm, um
 
 TURN = np.arange(0, 360, 2) * deg
@@ -106,16 +109,39 @@ FOLLOWERS = {
 
 @pytest.mark.parametrize("rotation", [1, -1])
 @pytest.mark.parametrize("kind", list(FOLLOWERS))
-@pytest.mark.parametrize("written", [lambda cam: tables.table(cam).data, lambda cam: profile_dxf(cam).encode()])
-def test_the_workshop_s_files_come_back_as_the_design(written, kind, rotation):
+def test_the_workshop_s_table_comes_back_as_the_design(kind, rotation):
     design = FOLLOWERS[kind].replace(rotation=rotation)
-    outline = read_outline(written(design.analyse(721)))
+    outline = read_outline(tables.table(design.analyse(721)).data)
     assert isinstance(outline, MeasuredOutline)
     cam = cam_from_outline(outline, design)
     x = np.linspace(0, 2 * np.pi, 721)
     size = 1.0 if cam.motion.unit == "mm" else 60 * mm
     assert_allclose(cam.motion(x).s * size, design.motion(x).s * size, rtol=0, atol=1 * um)
     assert_allclose(cam.motion(x).v * size, design.motion(x).v * size, rtol=0, atol=40 * um)
+
+
+@pytest.mark.parametrize("unit", ["mm", "in"])
+@pytest.mark.parametrize("kind", list(FOLLOWERS))
+def test_the_workshop_s_drawing_comes_back_within_its_tolerance(kind, unit):
+    """By its arcs, which lie on the cam to 1 um: so does the follower, over the cosine of its pressure angle."""
+    design = FOLLOWERS[kind].replace(rotation=-1)
+    outline = read_outline(dxf(design, 1 * um, unit=unit).data)
+    assert isinstance(outline, DrawnOutline)
+    exact = [line for line in contours(subjects(design)[0]) if line.layer != "PITCH"]
+    assert np.min([distances(dense_path(line), outline.points) for line in exact], axis=0).max() < 1 * um
+    cam = cam_from_outline(outline, design)
+    x = np.linspace(0, 2 * np.pi, 721)
+    size = 1.0 if cam.motion.unit == "mm" else 60 * mm
+    assert_allclose(cam.motion(x).s * size, design.motion(x).s * size, rtol=0, atol=1.3 * um)
+
+
+@pytest.mark.parametrize("entity", ["spline", "chords"])
+def test_a_drawing_by_splines_or_chords_comes_back_by_points(entity):
+    design = TranslatingFlatCam()
+    outline = read_outline(dxf(design, 0.2 * um, entity).data)
+    assert isinstance(outline, MeasuredOutline)
+    x = np.linspace(0, 2 * np.pi, 721)
+    assert_allclose(cam_from_outline(outline, design).motion(x).s, design.motion(x).s, rtol=0, atol=0.5 * um)
 
 
 def drawn(draw, units=4):

@@ -1,10 +1,8 @@
-"""Files for the workshop: a table or a drawing holds the profile that was analysed, or what the tool leaves of it."""
+"""Files for the workshop: a table holds the profile that was analysed, or what the tool leaves of it."""
 
 import csv
-import io
 from functools import cache
 
-import ezdxf
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -18,7 +16,6 @@ from camkit import (
     TranslatingFlatCam,
     TranslatingRollerCam,
     ValveCam,
-    profile_dxf,
 )
 from camkit.cam.flank import flanks
 from camkit.cam.undercut import undercut_in_words
@@ -51,25 +48,6 @@ def test_a_number_that_is_zero_has_no_sign():
     assert table_csv({"x": [-0.0, np.float64(-1e-9), -1e-6, 0]}) == "x\n0.000000\n0.000000\n-0.000001\n0.000000\n"
     for column in ValveCam().analyse(361).lift_table.values():
         assert "-0.000000" not in table_csv({"x": column})
-
-
-@pytest.mark.parametrize("cam", [WHOLE_DOOR, TranslatingRollerCam(groove=False), ValveCam()])
-def test_a_drawing_holds_the_points_of_the_profile_in_mm(cam):
-    """Read back by ezdxf: every point of the profile, in order, closed exactly where the whole cam is."""
-    analysis = cam.analyse()
-    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
-    assert drawing.units == ezdxf.units.MM
-    assert not drawing.audit().errors
-    (curve,) = drawing.modelspace().query('LWPOLYLINE[layer=="profile"]')
-    points = 1e3 * getattr(analysis, "whole", analysis).profile.T
-    assert curve.closed == (np.hypot(*(points[0] - points[-1])) < 1e-6)
-    assert_allclose(np.array(curve.get_points("xy")), points[: len(points) - curve.closed], atol=1e-9)
-
-
-def test_a_population_is_not_drawn():
-    many = TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]]))
-    with pytest.raises(ValueError, match="this is a population; the profile of one design can be written"):
-        profile_dxf(many.analyse())
 
 
 # ---------------------------------------------------------------- what the tool leaves
@@ -191,7 +169,7 @@ def test_the_follower_stays_from_its_place_by_as_much_as_is_said(name):
 
 
 @every_undercut
-def test_an_undercut_cam_is_marked_in_table_and_drawing(name):
+def test_an_undercut_cam_is_marked_in_its_table(name):
     analysis = whole(UNDERCUT[name], 721)
     made = flanks(analysis)
     rows = list(csv.DictReader(tables.table(analysis).data.decode().splitlines()))
@@ -207,17 +185,6 @@ def test_an_undercut_cam_is_marked_in_table_and_drawing(name):
         assert_allclose(table[:, ~away], theory[:, ~away], rtol=0, atol=1e-9)
         assert depth_in_tool(UNDERCUT[name], table).max() <= 1e-6
         assert distance_to([p for p in made.left if p.flank == flank], table).max() < 1e-8
-    drawing = ezdxf.read(io.StringIO(profile_dxf(analysis)))
-    assert not drawing.audit().errors
-    drawn = drawing.modelspace().query('LWPOLYLINE[layer=="profile"]')
-    lines = [np.array(line.get_points("xy")).T * mm for line in drawn]
-    left = [piece for piece in made.left if piece.flank == "profile"]
-    assert [line.shape for line in lines] == [piece.points.shape for piece in left]
-    for line, piece in zip(lines, left, strict=True):
-        assert_allclose(line, piece.points, rtol=0, atol=1e-12)
-    assert len(drawing.modelspace().query('LWPOLYLINE[layer=="FAULT"]')) == len(made.lost)
-    (sentence,) = drawing.modelspace().query('TEXT[layer=="FAULT"]')
-    assert sentence.dxf.text == undercut_in_words(analysis, made.cuts) != ""
 
 
 @pytest.mark.parametrize(
@@ -241,7 +208,6 @@ def test_a_cam_that_its_tool_can_make_is_written_as_it_is(cam):
     assert not made.lost
     assert undercut_in_words(analysis, made.cuts) == ""
     assert b"undercut" not in tables.table(analysis).data
-    assert "FAULT" not in profile_dxf(analysis)
     for flank, points in made.points.items():
         assert_array_equal(points, made.theory[flank])
 

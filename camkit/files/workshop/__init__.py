@@ -5,6 +5,7 @@ Each is read back after it was written, and says how far it lies from the exact 
 
 from .blank import Blank
 from .drawing import write_drawing
+from .dxf import write_dxf
 from .faults import faults
 from .gcode import write_gcode
 from .milling import Milling
@@ -28,6 +29,7 @@ __all__ = [
     "tool_path",
     "write_3mf",
     "write_drawing",
+    "write_dxf",
     "write_gcode",
     "write_report",
     "write_step",

@@ -19,13 +19,15 @@ from .curves import Contour, Stretch
 
 FINE = 8
 """Places at which each step of a stretch is compared with its arcs."""
+KEPT = 0.995
+"""Of the tolerance, where places are compared: between them an arc may be a little farther."""
 STRAIGHT = 1e-8
 """A bulge below this is that of a line."""
 MOST = np.tan(np.pi / 4) * (1 + 1e-9)
 """No arc turns by more than half a turn: its bulge is 1."""
 ROUND = 1e-10
 """Arcs that would bow by less than about this (m) from each other are one."""
-BLOCK = 64
+BLOCK = 16
 """How many points are compared with arcs at once."""
 
 
@@ -84,6 +86,37 @@ def arc_path(contour: Contour, tolerance: float) -> ArcPath:
     return ArcPath(contour.layer, np.hstack([*corners, *last]), np.concatenate(bulges), contour.closed)
 
 
+def dense_path(contour: Contour) -> ArcPath:
+    """The contour as many arcs, a nanometre from it at most."""
+    corners, bulges = zip(*(biarcs(stretch.finer(3)) for stretch in contour.stretches), strict=True)
+    last = [] if contour.closed else [corners[-1][:, -1:]]
+    return ArcPath(
+        contour.layer, np.hstack([*(c[:, :-1] for c in corners), *last]), np.concatenate(bulges), contour.closed
+    )
+
+
+def chord_path(contour: Contour, tolerance: float) -> ArcPath:
+    """The contour as chords that lie nowhere farther from it than the tolerance (m)."""
+    corners = [_chords(stretch, tolerance) for stretch in contour.stretches]
+    last = [] if contour.closed else [contour.stretches[-1].points[:, -1:]]
+    found = np.hstack([*corners, *last])
+    return ArcPath(contour.layer, found, np.zeros(found.shape[1] - 1 + contour.closed), contour.closed)
+
+
+def _chords(stretch: Stretch, tolerance: float) -> Array:
+    """Corners but for the last."""
+    (px, py), (tx, ty) = (x[:, :-1] for x in stretch)
+    (qx, qy), (ux, uy) = (x[:, 1:] for x in stretch)
+    bow = np.hypot(qx - px, qy - py) * abs(np.arctan2(tx * uy - ty * ux, tx * ux + ty * uy)) / 8
+    fine = stretch.finer(min(512, max(2, int(np.ceil(16 * np.sqrt(bow.max() / tolerance)))))).points
+
+    def off(i: int, j: int) -> float:
+        between, zero = fine[:, i : j + 1], np.zeros(1)
+        return float(_from_arc(between, between[:, 0], between[:, -1], zero).max())
+
+    return fine[:, list(spans(fine.shape[1] - 1, off, tolerance))[:-1]]
+
+
 def _arcs(fine: Stretch, tolerance: float) -> tuple[Array, Array]:
     """Corners but for the last, and bulges."""
 
@@ -92,8 +125,9 @@ def _arcs(fine: Stretch, tolerance: float) -> tuple[Array, Array]:
         if not (abs(bulges) <= MOST).all():
             return np.inf
         between = fine.points[:, i : j + 1]
-        away = (_from_arc(between, corners[:, k], corners[:, k + 1], bulges[k]) for k in (0, 1))
-        return float(np.minimum(*away).max())
+        return float(
+            np.minimum(*(_from_arc(between, corners[:, k], corners[:, k + 1], bulges[k]) for k in (0, 1))).max()
+        )
 
     knots = list(spans(fine.points.shape[1] - 1, off, tolerance))
     corners, bulges = biarcs(Stretch(fine.points[:, knots], fine.tangents[:, knots]))
@@ -108,9 +142,9 @@ def spans(last: int, off: Callable[[int, int], float], tolerance: float) -> Iter
         good, bad = 1, last - start + 1
         while good + 1 < bad:
             trial = min(max(reach, good + 1), bad - 1)
-            within = off(start, start + trial) <= tolerance
+            within = off(start, start + trial) <= KEPT * tolerance
             good, bad = (trial, bad) if within else (good, trial)
-            reach = 2 * good if start + bad > last else (good + bad) // 2
+            reach = good + good // 2 + 1 if start + bad > last else (good + bad) // 2
         start, reach = start + good, good
         yield start
 
@@ -171,14 +205,15 @@ def _from_arc(points: Array, start: Array, end: Array, bulge: Array) -> Array:
     size = (chord**2).sum(0)
     share = np.clip(((points - start) * chord).sum(0) / np.where(size > 0, size, 1.0), 0, 1)
     straight = np.hypot(*(points - start - share * chord))
-    bent = abs(bulge) > STRAIGHT
+    bent = (abs(bulge) > STRAIGHT) & (size > 0)
     b = np.where(bent, bulge, 1.0)
     side = np.stack([-chord[1], chord[0]])
     spoke = points - (start + end) / 2 - (1 - b**2) / (4 * b) * side
     radius = np.sqrt(size) * (1 + b**2) / (4 * abs(b))
     ends = np.minimum(np.hypot(*(points - start)), np.hypot(*(points - end)))
-    out = -np.sign(b) * (spoke * side).sum(0)  # towards the middle of the arc
-    within = out >= np.hypot(*spoke) * np.sqrt(size) * (1 - b**2) / (1 + b**2)
+    along, across = (1 - b**2) * chord, 2 * b * side
+    begun, over = ((points - start) * (along - across)).sum(0) >= 0, ((points - end) * (along + across)).sum(0) > 0
+    within = np.where(abs(b) <= 1, begun & ~over, begun | ~over)
     return np.where(bent, np.where(within, abs(np.hypot(*spoke) - radius), ends), straight)
 
 

@@ -22,8 +22,8 @@ from ...cam.flank import Flanks
 from ...cam.tool import Face, Roller
 from ...quantities.types import Array
 from ...units import deg
-from .arcs import ArcPath, biarcs, distances
-from .curves import SAME, Contour, Stretch, arc, hermite, joined, line, smooth
+from .arcs import ArcPath, dense_path, distances
+from .curves import SAME, Contour, Stretch, arc, from_cubic, joined, line, smooth
 from .subject import Subject, kept
 
 __all__ = ["Contour", "Stretch", "contours"]
@@ -32,11 +32,9 @@ CAM, GROOVE, PITCH, FAULT = "CAM", "GROOVE", "PITCH", "FAULT"
 STEPS = 16
 """Even steps of a smooth piece of the motion, before they are halved where that is needed."""
 WIDEST = 3 * deg
-"""No step is wider."""
+"""No step is wider, or of more steps in proportion."""
 EXACT, HALVINGS = 1e-10, 12
 """Between its points a stretch lies no farther (m) from the cam; no step is halved more often."""
-TURNED = 1e-5
-"""Tangents that differ by less (rad) are those of a smooth curve."""
 BENT = 1e-3
 """A curvature that jumps by less, over that of a circle about the cam axis, is no joint."""
 STANDS = 1e-6
@@ -188,7 +186,8 @@ def _between_cusps(leg: Leg, aways: Sequence[float]) -> Iterator[Leg]:
 
 def _dense(leg: Leg, aways: Sequence[float], steps: int) -> Seen:
     """What is seen at cam angles between which cubics are exact, even steps halved where that is needed."""
-    angles = np.linspace(leg.start, leg.end, 1 + max(steps, int(np.ceil((leg.end - leg.start) / WIDEST))))
+    wide = (leg.end - leg.start) / (STEPS * WIDEST)
+    angles = np.linspace(leg.start, leg.end, 1 + int(np.ceil(steps * max(1.0, wide))))
     seen, rough = leg.look(angles), np.ones(len(angles) - 1, dtype=bool)
     way = _way([seen])
     for _ in range(HALVINGS):
@@ -209,14 +208,9 @@ def _dense(leg: Leg, aways: Sequence[float], steps: int) -> Seen:
 
 
 def _off(given: Stretch, steps: Array, points: Array) -> Array:
-    """How far points are from the cubics of some steps, m."""
-    start, leaving, end, arriving = (x[:, k] for k in (steps, steps + 1) for x in given)
-    chord = np.maximum(np.hypot(*(end - start)), SAME)
-    share = np.full(len(steps), 0.5)
-    for _ in range(3):
-        at = hermite(start, leaving, end, arriving, share)
-        share = np.clip(share + ((points - at.points) * at.tangents).sum(0) / chord, 0, 1)
-    return np.hypot(*(points - hermite(start, leaving, end, arriving, share).points))
+    """How far points, one for each of some steps, are from the cubics of these, m."""
+    ends = Stretch(given.points[:, steps], given.tangents[:, steps])
+    return from_cubic(ends, Stretch(given.points[:, steps + 1], given.tangents[:, steps + 1]), points)
 
 
 # ---------------------------------------------------------------- what the follower draws
@@ -284,7 +278,7 @@ class _Outline:
             groups += [[part] for part in between]
             piece = seen.flank(away, self.way)
             goes_on = k and leg.goes_on and not between and _bends_on(self.seen[k - 1], seen)
-            if goes_on and groups and smooth(groups[-1][-1], piece, TURNED):
+            if goes_on and groups and smooth(groups[-1][-1], piece):
                 groups[-1].append(piece)
             elif piece.length > SAME:
                 groups.append([piece])
@@ -323,9 +317,9 @@ class _Outline:
             steps = [np.linspace(leg.start, leg.end, 2 + int((leg.end - leg.start) / FACES)) for leg in self.legs]
             seen = [leg.look(angles) for leg, angles in zip(self.legs, steps, strict=True)]
             return Face(np.hstack([s.normal for s in seen]), np.hstack([s.centre for s in seen]))
-        pitch = [biarcs(stretch.finer(8)) for stretch in self.flank(0.0)]
+        pitch = dense_path(Contour(PITCH, tuple(self.flank(0.0)), False))
         turns = (0, -1, 1) if self.period.any() else (0,)
-        paths = [ArcPath(PITCH, c + k * self.period[:, None], b, False) for c, b in pitch for k in turns]
+        paths = [pitch._replace(corners=pitch.corners + k * self.period[:, None]) for k in turns]
         return Swept(np.hstack([path.corners for path in paths]), self.radius, tuple(paths))
 
     @cached_property

@@ -16,6 +16,8 @@ from ...quantities.types import Array
 
 SAME = 1e-8
 """Points closer than this (m) are one."""
+TURNED = 1e-5
+"""Tangents that differ by less (rad) are those of a smooth curve."""
 
 
 class Stretch(NamedTuple):
@@ -103,6 +105,28 @@ def hermite(start: Array, leaving: Array, end: Array, arriving: Array, share: Ar
     return Stretch(points, np.where(long > 0, ways / np.where(long > 0, long, 1.0), leaving))
 
 
+def from_cubic(start: Stretch, end: Stretch, points: Array) -> Array:
+    """How far points ``(2, n)`` are from cubics that go from one point to another each, or from one cubic, m."""
+    chord = end.points - start.points
+    size = np.maximum(np.hypot(*chord), SAME)
+    share = np.clip(((points - start.points) * chord).sum(0) / size**2, 0, 1)
+    for _ in range(4):
+        at = hermite(*start, *end, share)
+        share = np.clip(share + ((points - at.points) * at.tangents).sum(0) / size, 0, 1)
+    return np.hypot(*(points - hermite(*start, *end, share).points))
+
+
+def smooth_runs(contour: Contour) -> list[Stretch]:
+    """The contour from corner to corner; one that has none in one run, which then ends where it begins."""
+    parts = list(contour.stretches)
+    corner = [not smooth(parts[k - 1], parts[k]) for k in range(len(parts))]
+    if contour.closed and any(corner):
+        first = corner.index(True)
+        parts, corner = parts[first:] + parts[:first], corner[first:] + corner[:first]
+    cuts = [k for k in range(1, len(parts)) if corner[k]]
+    return [joined(parts[i:j]) for i, j in zip([0, *cuts], [*cuts, len(parts)], strict=True)]
+
+
 def arc(centre: Array, start: Array, turn: float) -> Stretch:
     """An arc about a centre from a point on, by an angle (rad), above 0 counter-clockwise."""
     steps = max(4, int(np.ceil(abs(turn) / 0.08)))
@@ -118,11 +142,10 @@ def line(start: Array, end: Array) -> Stretch:
     return Stretch(np.stack([start, end], axis=1), np.stack([along, along], axis=1))
 
 
-def smooth(before: Stretch, after: Stretch, angle: float) -> bool:
-    """Whether two stretches meet with tangents that differ by no more than an angle (rad)."""
+def smooth(before: Stretch, after: Stretch, angle: float = TURNED) -> bool:
+    """Whether one stretch goes on from another with a tangent that differs by no more than an angle (rad)."""
     one, other = before.tangents[:, -1], after.tangents[:, 0]
-    turn = np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other)
-    return bool(abs(turn) <= angle)
+    return bool(abs(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other)) <= angle)
 
 
 def joined(parts: Sequence[Stretch]) -> Stretch:

@@ -94,9 +94,9 @@ def _study(order: Order) -> Made:
 
 
 def _dxf(order: Order) -> Made:
-    from ..profiles import profile_dxf
+    from .dxf import dxf
 
-    return Made(profile_dxf(order.analysis).encode(), "the profile")
+    return dxf(order.cam, unit=order.unit, blank=order.blank, title=order.title)
 
 
 def _flat(order: Order) -> bool:
