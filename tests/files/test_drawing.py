@@ -334,3 +334,22 @@ def test_general_tolerances_name_the_sizes_that_are_listed():
     together = " ".join(texts(root))
     for path in general_tolerances(ValveCam()):
         assert words(path) in together
+
+
+@pytest.mark.parametrize("rotation", [1, -1])
+def test_an_unrolled_drum_is_seen_from_outside_whichever_way_it_turns(rotation):
+    drum = BarrelCam(rotation=rotation)
+    root, found = made(drum, blank=Blank())
+    tidy(root)
+    assert found.deviation < 0.8 * um
+    said = texts(root)
+    assert "376.991 around the mean radius R60" in said
+    assert f"{'counter-' * (rotation > 0)}clockwise as seen from below" in " ".join(said)
+    (subject,) = subjects(drum)
+    x, y, z = subject.analysis.in_space(drum.mean_radius)
+    around, along = subject.analysis.pitch
+    azimuth = np.unwrap(np.arctan2(y, x))
+    assert azimuth * drum.mean_radius == pytest.approx(around, abs=1e-9)  # x goes with the azimuth, z is upwards
+    assert z == pytest.approx(along, abs=1e-12)
+    # the roller stands still and goes around the drum with the azimuth: about z the drum turns the other way
+    assert np.sign(azimuth[-1]) == rotation

@@ -17,7 +17,6 @@ from ...quantities.kinds import a_number
 from ...quantities.types import Array, Value
 from ...units import in_unit
 from ..motion_tables import derived_unit
-from .contours import on_the_shaft
 from .polar import polar, radii
 from .sheets import Column
 from .subject import Subject
@@ -101,7 +100,7 @@ def profile_columns(subject: Subject, units: Units) -> Table:
     that are cut away at a row's cam angle, their points stand on the corner that is left, and ``theory`` is what was
     asked for.  Of a drum these are unrolled; its groove in space, both ends of every flank, has columns of its own.
     """
-    analysis, place = subject.analysis, on_the_shaft(subject)
+    analysis, place = subject.analysis, subject.on_the_shaft
     made = flanks(analysis)
     columns: dict[str, Column] = {"stretch": analysis.stretch.tolist()}
     columns |= units.column("cam angle", "angle", analysis.profile_angle)

@@ -114,18 +114,9 @@ def contours(subject: Subject, steps: int = STEPS) -> tuple[Contour, ...]:
     >>> [c.layer for c in contours(subjects(TranslatingFlatCam())[0])]
     ['CAM']
     """
-    found, place = _Outline(subject.analysis, steps).contours, on_the_shaft(subject)
+    found, place = _Outline(subject.analysis, steps).contours, subject.on_the_shaft
     moved = [Contour(c.layer, tuple(Stretch(*map(place, s)) for s in c.stretches), c.closed) for c in found]
-    unrolled = hasattr(subject.analysis, "period")
-    return tuple(c if unrolled and not c.closed else c.counter_clockwise for c in moved)
-
-
-def on_the_shaft(subject: Subject) -> Callable[[Array], Array]:
-    """From the frame of a cam to that of its machine: the second cam of a pair has one of its own."""
-    if getattr(subject.design, "second", None) is not subject.analysis.cam:
-        return lambda points: points
-    turned = np.array([[1.0], [-1.0]]) if subject.design.mirrored else -1.0
-    return lambda points: points * turned
+    return tuple(c if subject.drum and not c.closed else c.counter_clockwise for c in moved)
 
 
 # ---------------------------------------------------------------- what the cam sees

@@ -166,29 +166,20 @@ def _faults(cams: Sequence[Subject]) -> Iterator[str]:
             yield f"{cam.name}: {words}" if cam.name else words
 
 
-def _rotation(subject: Subject) -> int:
-    """+1 counter-clockwise, -1 clockwise."""
-    return int(np.ravel(getattr(subject.analysis.cam, "rotation", 1))[0])
-
-
-def _unrolled(subject: Subject) -> bool:
-    return hasattr(subject.analysis, "period")
-
-
 def _notes(cams: Sequence[Subject]) -> tuple[str, ...]:
     """How it lies."""
     first = cams[0]
-    if _unrolled(first):
+    if first.drum:
         radius = float(np.ravel(first.analysis.cam.mean_radius)[0])
-        return (f"unrolled at the mean radius {radius / mm:.6g} mm, from cam angle 0 at x = 0",)
-    turns = "counter-clockwise" if _rotation(first) > 0 else "clockwise"
+        where = f"unrolled at the mean radius {radius / mm:.6g} mm, seen from outside, from cam angle 0 at x = 0"
+        return (f"{where}; the drum turns {first.turns}",)
     both = " both cams as they stand on their shaft;" if len(cams) > 1 else ""
-    return (f"cam axis at the origin, drawn at cam angle 0;{both} the cam turns {turns}",)
+    return (f"cam axis at the origin, drawn at cam angle 0;{both} the cam turns {first.turns}",)
 
 
 def _remarks(cams: Sequence[Subject], given: Sequence[Contour]) -> tuple[str, ...]:
     """What whoever uses it should know."""
-    if _unrolled(cams[0]):
+    if cams[0].drum:
         return _notes(cams)
     open_ = any(not line.closed and line.layer.startswith(CUT) for line in given)
     span = float(np.ravel(cams[0].analysis.cam_angle)[-1]) / deg
@@ -208,9 +199,9 @@ def _sheet(
     points = np.hstack([each.controls if isinstance(each, Spline) else each.points(4) for each in drawn])
     size = float(np.hypot(*points).max())
     height = size / 36
-    below = float(points[1].min()) if _unrolled(cams[0]) else -size
-    left = float(points[0].min()) if _unrolled(cams[0]) else -size
-    about, texts = (_beside_drum if _unrolled(cams[0]) else _around)(cams[0], points, blank, height)
+    below = float(points[1].min()) if cams[0].drum else -size
+    left = float(points[0].min()) if cams[0].drum else -size
+    about, texts = (_beside_drum if cams[0].drum else _around)(cams[0], points, blank, height)
     lines = [("FAULT", f"FAULTY: {line}") for line in faults] + [("NOTES", line) for line in notes]
     rows = [(layer, row) for layer, line in lines for row in textwrap.wrap(_plain(line), WRAPPED)]
     at = below - 4 * height
@@ -223,7 +214,7 @@ Texts = list[tuple[str, str, float, float]]
 
 def _around(subject: Subject, points: Array, blank: Blank, height: float) -> tuple[list[ArcPath], Texts]:
     """Centre lines, the blank, and the datum with its arrow."""
-    size, sense = float(np.hypot(*points).max()), _rotation(subject)
+    size, sense = float(np.hypot(*points).max()), subject.sense
     far, arrow = size + 2 * height, size + 4 * height
     way = np.array([35.0, 55.0])[::sense] * deg
     tip = arrow * np.array([np.cos(way[1]), np.sin(way[1])])
@@ -244,7 +235,7 @@ def _around(subject: Subject, points: Array, blank: Blank, height: float) -> tup
 def _beside_drum(subject: Subject, points: Array, blank: Blank, height: float) -> tuple[list[ArcPath], Texts]:
     """The line of cam angle 0 and an arrow to where cam angles grow."""
     low, high = float(points[1].min()) - height, float(points[1].max()) + height
-    sense = _rotation(subject)
+    sense = subject.sense
     tip, barb = np.array([8 * sense * height, high]), np.array([7 * sense * height, high])
     across = np.array([0.0, 0.4 * height])
     about = [_line("DATUM", [(0, low), (0, high)]), _line("DATUM", [(0, high), tip])]

@@ -100,7 +100,7 @@ def _dxf(order: Order) -> Made:
 
 
 def _flat(order: Order) -> bool:
-    return _cam(order) and not any(hasattr(subject.analysis, "period") for subject in subjects(order.cam))
+    return _cam(order) and not any(subject.drum for subject in subjects(order.cam))
 
 
 def _gcode(order: Order) -> Made:

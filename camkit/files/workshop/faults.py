@@ -109,7 +109,7 @@ def _open(part: Subject) -> bool:
 def _reached(parts: Iterable[Subject], blank: Blank) -> Iterator[str]:
     """Where bore, keyway or hub reach the cam's profile."""
     for part in parts:
-        if np.any(getattr(part.analysis, "period", 0)):
+        if part.drum:
             continue  # of a drum, which is drawn unrolled, the profile is not around the axis
         least = float(np.hypot(*part.analysis.profile).min())
         if blank.reach / 2 >= least:

@@ -12,7 +12,7 @@ from ...geometry import Disc, Outline, rotated
 from ...quantities.types import Array
 from ...units import deg, mm
 from .blank import Blank
-from .contours import Contour, on_the_shaft
+from .contours import Contour
 from .dimensions import Words
 from .prisms import outer_diameter
 from .radii import EDGES
@@ -64,12 +64,6 @@ class Front:
         edges = tuple(curve for curve in self.curves if curve.layer in EDGES)
         return outer_diameter(edges, self.blank) / 2 if self.grooved else 0.0
 
-    @property
-    def turns(self) -> int:
-        """+1: the cam turns counter-clockwise, -1: clockwise."""
-        turn = np.ravel(self.subject.analysis.turn)
-        return int(np.sign(turn[-1] - turn[0]) * np.sign(np.linalg.det(on_the_shaft(self.subject)(np.eye(2)))))
-
     @cached_property
     def rollers(self) -> list[tuple[Array, float]]:
         """Where rollers stand at cam angle 0, on the cam, and their radii, m."""
@@ -91,7 +85,7 @@ class Front:
 
     def _on_cam(self, body: Disc | Outline) -> Array:
         turn = float(np.ravel(self.subject.analysis.turn)[self._start])
-        return on_the_shaft(self.subject)(rotated(body.at(self._start), -turn).reshape(2, -1))
+        return self.subject.on_the_shaft(rotated(body.at(self._start), -turn).reshape(2, -1))
 
     @cached_property
     def extent(self) -> tuple[float, float, float, float]:
@@ -142,7 +136,7 @@ class Front:
             view.line(*_clipped(face, self.reach), "neighbour")
         for curve in self.curves:
             view.curve(curve)
-        _turning(view, box, self.turns)
+        _turning(view, box, self.subject.sense)
         return box
 
     def notes(self, view: View) -> list[Note]:

@@ -212,8 +212,7 @@ def _about(jobs: Sequence[_Job], how: Milling, unit: str) -> Iterator[str]:
     radius = _length(how.tool_radius, unit)
     yield f"tool T1 - radius {radius}, diameter {_length(2 * how.tool_radius, unit)}, the path is that of its centre"
     yield "X0 Y0 - cam axis, X - direction of angle 0 of the cam, Z0 - top of the blank"
-    sense = "counter-clockwise" if getattr(jobs[0].subject.analysis.cam, "rotation", 1) > 0 else "clockwise"
-    yield f"the cam turns {sense} as it is drawn, milling is {how.direction}, the spindle turns clockwise"
+    yield f"seen from above the cam turns {jobs[0].subject.turns}, the spindle clockwise; milling is {how.direction}"
     yield f"nothing may stand {_length(how.safe_height, unit)} above the top"
     yield from _remarks(jobs, how)
 

@@ -24,7 +24,7 @@ def inspection_columns(subject: Subject, units: Units, limits: tuple[float, floa
     X, Y, Z are nominal, I, J, K the normal, out of the material; a deviation is measured along it, above 0 where there
     is too much.  ``limits`` are the lower and the upper one, m.
     """
-    probed = _of_a_drum(subject, count) if hasattr(subject.analysis, "period") else _of_a_disk(subject, count)
+    probed = _of_a_drum(subject, count) if subject.drum else _of_a_disk(subject, count)
     tables = {name: _columns(points, normals, units, limits) for name, (points, normals) in probed.items()}
     table = stacked(tables, "curve")
     return {"point": np.arange(1.0, 1 + len(table["curve"])), **table}

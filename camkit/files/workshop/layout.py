@@ -71,7 +71,7 @@ class Rooms(NamedTuple):
 
 def seen_of(subject: Subject, blank: Blank, words: Words, zone: float = 0.0) -> Front | Unrolled:
     """The view of a cam: of a drum what is unrolled."""
-    kind = Unrolled if hasattr(subject.analysis, "period") else Front
+    kind = Unrolled if subject.drum else Front
     return kind(subject, contours(subject), blank, words, zone)
 
 
@@ -266,9 +266,9 @@ def _to_be_read(plan: Plan, seen: Front | Unrolled) -> list[str]:
     unit = {"in": "inches"}.get(plan.words.unit, plan.words.unit)
     if isinstance(seen, Unrolled):
         lines = [f"Lengths in {unit}. The surface of the drum is unrolled at its mean radius, seen from outside."]
+        lines.append(f"The drum turns {seen.subject.turns}.")
     else:
-        turns = "counter-clockwise" if seen.turns > 0 else "clockwise"
-        lines = [f"Lengths in {unit}. Angles run counter-clockwise from 0°; the cam turns {turns}."]
+        lines = [f"Lengths in {unit}. Angles run counter-clockwise from 0°; the cam turns {seen.subject.turns}."]
     if seen.zone:
         wide = plan.words.length(seen.zone)
         lines.append(f"The profile lies in a zone {wide} wide, half of it to each side of the profile that is drawn.")

@@ -30,14 +30,13 @@ def named_contours(subject: Subject) -> dict[str, Contour]:
     ['outer wall', 'inner wall', 'pitch curve']
     """
     found = [contour for contour in contours(subject) if contour.layer != LOST]
-    unrolled = hasattr(subject.analysis, "period")
-    found.sort(key=_height if unrolled else _size, reverse=True)
+    found.sort(key=_height if subject.drum else _size, reverse=True)
     named: dict[str, Contour] = {}
     walls = [contour for contour in found if contour.layer == "GROOVE"]
     for contour in found:
         name = WORDS[contour.layer]
         if contour.layer == "GROOVE" and len(walls) == 2:
-            name = WALLS[unrolled][contour is walls[1]]
+            name = WALLS[subject.drum][contour is walls[1]]
         same = sum(other == name or other.startswith(f"{name} ") for other in named)
         named[f"{name} {same + 1}" if same else name] = contour
     order = list(WORDS)

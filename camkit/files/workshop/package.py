@@ -20,7 +20,9 @@ from .written import Made, Written, written, zipped
 
 README = "README.txt"
 FRAME = "The cam's axis is the origin, angle 0 of the cam the x axis; angles are in degrees. The cam turns {}."
-UNROLLED = "Drawings are of the drum unrolled at its mean radius; angles are in degrees. The drum turns {}."
+UNROLLED = (
+    "Drawings are of the drum unrolled at its mean radius, seen from outside; angles are in degrees. The drum turns {}."
+)
 
 
 def to_workshop(
@@ -97,9 +99,8 @@ def _frame(order: Order) -> list[str]:
     """Where the drawings of a cam stand, and which way it turns."""
     if not has_profile(order.analysis):
         return []
-    first, *_ = (one.analysis for one in subjects(order.design))
-    way = "clockwise" if first.turn[-1] < first.turn[0] else "counter-clockwise"
-    return [(UNROLLED if hasattr(first, "period") else FRAME).format(way)]
+    first, *_ = subjects(order.design)
+    return [(UNROLLED if first.drum else FRAME).format(first.turns)]
 
 
 def _one_line(text: str) -> str:

@@ -38,7 +38,7 @@ def polar(subject: Subject, direction: Array) -> dict[str, Array]:
 
     Raises ``ValueError`` for a drum, which is drawn unrolled.
     """
-    if hasattr(subject.analysis, "period"):
+    if subject.drum:
         raise ValueError(f"{subject.kind} is a drum, which has no radii by direction; its other tables can be written")
     found: dict[str, Array] = {}
     curves = contours(subject)

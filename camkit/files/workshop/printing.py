@@ -19,7 +19,7 @@ from ...units import mm, um
 from .blank import Blank
 from .drum import drum_mesh
 from .mesh import Mesh, mesh, off
-from .prisms import Part, is_drum, parts
+from .prisms import Part, parts
 from .subject import design_of, subjects
 from .title import TitleBlock
 from .written import LENGTHS, Made, Written, length_unit, written, zipped
@@ -160,7 +160,7 @@ def _bodies(cam: object, blank: Blank, tolerance: float) -> list[Body]:
     with extra("a mesh", "print"):
         import manifold3d  # noqa: F401
     first = subjects(cam)[0]
-    if is_drum(first):
+    if first.drum:
         made, exact = drum_mesh(first, blank, tolerance)
         return [Body(first.name, made, exact, made.volume)]
     found = [_body(part, blank, tolerance) for part in parts(cam, blank, tolerance / 2)]

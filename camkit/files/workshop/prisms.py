@@ -72,7 +72,7 @@ def _part(subject: Subject, blank: Blank, tolerance: float, height: float) -> Pa
 
 def _flanks(subject: Subject) -> tuple[Contour, ...]:
     """The closed contours that are cut: the profile, or the walls of the groove, the outer one first."""
-    if is_drum(subject):
+    if subject.drum:
         raise ValueError(
             f"{subject.kind} is a drum, whose flanks are no prisms: its STL or 3MF file has it in space, and its table "
             "both edges of every flank"
@@ -86,11 +86,6 @@ def _flanks(subject: Subject) -> tuple[Contour, ...]:
     if cut[0].layer == "CAM" and len(cut) > 1:
         raise ValueError(f"of {subject.kind} the tool leaves {len(cut)} pieces; a solid is made of one")
     return tuple(sorted(cut, key=lambda contour: -np.hypot(*contour.points).max()))
-
-
-def is_drum(subject: Subject) -> bool:
-    """Whether its flanks lie around a drum, not on a disk."""
-    return hasattr(subject.analysis, "in_space")
 
 
 def _room(flanks: tuple[Contour, ...], blank: Blank) -> None:

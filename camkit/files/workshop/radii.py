@@ -54,7 +54,7 @@ def radii_table(subject: Subject, curves: Sequence[Contour], unit: str) -> Table
     >>> {name: column[90] for name, column in radii_table(cam, contours(cam), "mm").columns.items()}
     {'deg': '90', 'R': '30.000'}
     """
-    if hasattr(subject.analysis, "period"):
+    if subject.drum:
         return _drum_table(subject, unit)
     found = flank_radii(curves, WHOLE * deg)
     there = np.any([np.isfinite(values) for values in found.values()], axis=0)

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+import numpy as np
+
 from ...quantities import words
 from ...quantities.kinds import columns, shown
+from ...quantities.types import Array
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -31,6 +34,34 @@ class Subject:
     def kind(self) -> str:
         """The name of the design's class."""
         return type(self.design).__name__
+
+    @property
+    def drum(self) -> bool:
+        """Whether it is a drum, which is drawn unrolled."""
+        return hasattr(self.analysis, "period")
+
+    def on_the_shaft(self, points: Array) -> Array:
+        """Points of the cam's frame in that of its machine: the second cam of a pair has a frame of its own."""
+        if getattr(self.design, "second", None) is not self.analysis.cam:
+            return points
+        return points * (np.array([[1.0], [-1.0]]) if self.design.mirrored else -1.0)
+
+    @property
+    def sense(self) -> int:
+        """+1: it turns counter-clockwise as it is drawn, -1: clockwise; a drum, as seen from below, along the rise."""
+        turn = np.ravel(self.analysis.turn)
+        return int(np.sign(turn[-1] - turn[0]) * np.sign(np.linalg.det(self.on_the_shaft(np.eye(2)))))
+
+    @property
+    def turns(self) -> str:
+        """How it turns, in words.
+
+        >>> from camkit.cam import BarrelCam
+        >>> subjects(BarrelCam())[0].turns
+        'counter-clockwise as seen from below, along the rise'
+        """
+        way = "counter-clockwise" if self.sense > 0 else "clockwise"
+        return f"{way} as seen from below, along the rise" if self.drum else way
 
 
 def kept(find: Callable[Concatenate[Subject, P], T]) -> Callable[Concatenate[Subject, P], T]:

@@ -23,7 +23,7 @@ from ...quantities.kinds import one_number
 from ...quantities.types import Array
 from ...units import deg, mm
 from .arcs import ArcPath, biarcs
-from .contours import Swept, contours, on_the_shaft
+from .contours import Swept, contours
 from .curves import Contour, Stretch, arc, joined
 from .subject import Subject, subjects
 
@@ -98,7 +98,7 @@ def path_of(subject: Subject, tool_radius: float, side: str = OUTSIDE) -> ToolPa
     r = one_number(tool_radius, "the tool radius", "be a finite number above 0", lambda r: 0 < r < np.inf)
     if side not in (OUTSIDE, INSIDE):
         raise ValueError(f"the side is {side!r:.40}; it must be {OUTSIDE!r} or {INSIDE!r}")
-    if hasattr(subject.analysis, "period"):
+    if subject.drum:
         raise ValueError(f"{subject.kind} is a drum; a tool that moves in a plane cannot cut it")
     drawn = contours(subject)
     groove = tuple(each for each in drawn if each.layer == "GROOVE")
@@ -133,7 +133,7 @@ def _cam_angles(subject: Subject) -> Callable[[Array], Array]:
     from scipy.spatial import cKDTree
 
     analysis = subject.analysis
-    points = on_the_shaft(subject)(np.hstack([analysis.profile, analysis.outer_profile]))
+    points = subject.on_the_shaft(np.hstack([analysis.profile, analysis.outer_profile]))
     angles = np.tile(analysis.profile_angle, 2)
     there = np.isfinite(points).all(0)
     tree, known = cKDTree(points[:, there].T), angles[there]

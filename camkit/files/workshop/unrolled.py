@@ -35,8 +35,13 @@ class Unrolled:
 
     @cached_property
     def turn(self) -> float:
-        """Around the drum at its mean radius, m."""
+        """Around the drum at its mean radius, m; below 0 where cam angles grow to the left."""
         return float(self.subject.analysis.period[0])
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """The left and the right end of the turn, m."""
+        return min(0.0, self.turn), max(0.0, self.turn)
 
     @cached_property
     def rollers(self) -> list[tuple[Array, float]]:
@@ -56,7 +61,7 @@ class Unrolled:
         """Left, right, lowest and highest place of all that is seen, m."""
         points = np.hstack([curve.points for curve in self.curves])
         reach = [(c[0] - r, c[0] + r, c[1] - r, c[1] + r) for c, r in self.rollers]
-        rows = np.array([(points[0].min(), points[0].max(), *self.ends), (0.0, self.turn, *self.ends), *reach])
+        rows = np.array([(points[0].min(), points[0].max(), *self.ends), (*self.sides, *self.ends), *reach])
         return float(rows[:, 0].min()), float(rows[:, 1].max()), float(rows[:, 2].min()), float(rows[:, 3].max())
 
     @property
@@ -78,7 +83,7 @@ class Unrolled:
             view.circle(centre, radius, "neighbour")
             for arm in np.eye(2) * (radius + 1.5 * mm / view.scale):
                 view.line(centre - arm, centre + arm, "centre")
-        step = next(step for step in TICKS if (end - start) * step / 360 > 11)
+        step = next(step for step in TICKS if abs(end - start) * step / 360 > 11)
         for angle in range(0, 361, step):
             x = float(start + (end - start) * angle / 360)
             view.paper.line((x, bottom), (x, bottom + 2), "thin")
@@ -87,12 +92,13 @@ class Unrolled:
 
     def dimension(self, view: View, box: Box) -> None:
         """Write the dimensions of the drum, and what runs in it, around the ``box`` of its lines."""
-        (start, end), (bottom, top) = view.at(np.array([(0.0, self.turn), self.ends]))
-        around = f"{self.words.length(self.turn)} around the mean radius R{self.words.length(self.turn / 2 / np.pi)}"
-        across(view.paper, float(start), float(end), float(bottom), float(bottom) + 14, around)
+        (left, right), (bottom, top) = view.at(np.array([self.sides, self.ends]))
+        length = abs(self.turn)
+        around = f"{self.words.length(length)} around the mean radius R{self.words.length(length / 2 / np.pi)}"
+        across(view.paper, float(left), float(right), float(bottom), float(bottom) + 14, around)
         if self.grooved:
             wide = self.words.length(float(np.ptp(self.ends)))
-            upright(view.paper, (float(top), float(bottom)), float(end), box.right + 7, wide)
+            upright(view.paper, (float(top), float(bottom)), float(right), box.right + 7, wide)
         view.paper.text((box.left, box.top - 3), self._said, 3.5)
 
     @property
