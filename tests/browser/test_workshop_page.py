@@ -108,7 +108,7 @@ def test_the_menu_says_in_plain_words_what_there_is(page, app):
     menu = page.get_by_label("Export")
     words = menu.locator("option").all_inner_texts()
     assert words[:4] == ["Export", "To the workshop: all files in a zip …", "Design (JSON)", "Living page (HTML)"]
-    assert {"Profile (DXF)", "Picture (SVG)"} <= set(words)
+    assert {"Profile or skeleton (DXF)", "Picture (SVG)"} <= set(words)
     with page.expect_download() as saved:
-        menu.select_option(label="Profile (DXF)")
+        menu.select_option(label="Profile or skeleton (DXF)")
     assert saved.value.suggested_filename == "TranslatingRollerCam.dxf"

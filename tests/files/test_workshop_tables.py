@@ -34,9 +34,10 @@ from camkit import (
 )
 from camkit.cam import BarrelCam, OscillatingBarrelCam
 from camkit.cam.pair import ConjugatePair
-from camkit.files import TitleBlock, write_table
+from camkit.files import TitleBlock, write_dxf, write_table
 from camkit.files.workshop.cad_curves import CAD, read_cad_curve
 from camkit.files.workshop.controllers import FORMS, controller_table
+from camkit.files.workshop.exports import Order, exports_of
 from camkit.files.workshop.inspection import evenly
 from camkit.files.workshop.named import curves_of, named_contours
 from camkit.files.workshop.polar import polar
@@ -44,6 +45,7 @@ from camkit.files.workshop.sheets import Sheet
 from camkit.files.workshop.skeleton import skeleton, tube_callout
 from camkit.files.workshop.subject import subjects
 from camkit.files.workshop.tables import KINDS, table
+from camkit.files.workshop.written import Made
 from camkit.linkage import DoubleUniversalJoint, Driveline, UniversalJoint
 from camkit.machines import CabinDoorLinkage, DoorHandleCam, ValveCam
 from camkit.motion import ModifiedSine
@@ -432,8 +434,12 @@ def test_a_tube_turns_as_its_joint_makes_it():
 def test_a_cam_has_no_joints_and_a_linkage_no_profile():
     with pytest.raises(ValueError, match="ValveCam has no joints in space"):
         table(ValveCam(), "joints")
-    with pytest.raises(ValueError, match="RSSR has no cam profile; tables"):
-        table(RSSR(crank=20 * mm), "profile")
+    for mechanism, there in (
+        (RSSR(crank=20 * mm), "joints.*, its skeleton.*, its solid"),
+        (Driveline(), "joints [^,]*, [^,]*, a report"),
+    ):
+        with pytest.raises(ValueError, match=f"{type(mechanism).__name__} has no cam profile; there are its {there}"):
+            table(mechanism, "profile")
 
 
 # ---------------------------------------------------------------- skeletons
@@ -462,6 +468,39 @@ def test_the_skeleton_of_a_linkage_has_its_links_and_axes(unit):
     assert len(space.query('POLYLINE[layer=="PATHS"]')) == 2
     notes = [text.dxf.text for text in space.query("TEXT")]
     assert f"coupler {linkage.coupler / worth:.6g} {unit}" in notes
+
+
+@pytest.mark.parametrize("branch", [1, -1])
+@pytest.mark.parametrize("angle", [-130 * deg, -20 * deg, 0.0, 75 * deg, 160 * deg])
+def test_a_skeleton_at_any_position_keeps_the_lengths_of_its_links(angle, branch):
+    """The crank where its angle says, the rocker square to its axis; the branches are different ones."""
+    linkage = RSSR(crank=20 * mm, axis_distance=30 * mm, axis_angle=70 * deg)
+    space = drawn(skeleton(linkage.analyse([angle, angle + 1 * deg], branch))).modelspace()
+    links = [space.query(f'LINE[layer=="{layer}"]')[0] for layer in ("CRANK", "COUPLER", "ROCKER")]
+    joints = np.array([*(link.dxf.start for link in links), links[-1].dxf.end]) * mm
+    assert_allclose(joints[1:3], [link.dxf.end * mm for link in links[:2]], atol=1e-15)
+    sizes = [linkage.crank, linkage.coupler, linkage.rocker]
+    assert_allclose(np.linalg.norm(np.diff(joints, axis=0), axis=1), sizes, rtol=1e-12)
+    way, axis = np.array([np.cos(angle), np.sin(angle), 0]), np.array([0, np.sin(70 * deg), np.cos(70 * deg)])
+    assert_allclose(joints[1] - joints[0], linkage.crank * way, atol=1e-15)
+    assert_allclose(joints[3], [30 * mm, 0, 0] + linkage.rocker_offset * axis, atol=1e-15)
+    assert (joints[2] - joints[3]) @ axis == pytest.approx(0, abs=1e-12)
+    crank, rocker = (np.array([*(line.dxf.end - line.dxf.start)]) for line in space.query('LINE[layer=="FRAME"]')[:2])
+    assert_allclose([*np.cross(crank, [0, 0, 1]), *np.cross(rocker, axis)], 0, atol=1e-9)
+    other = linkage.analyse([angle, angle + 1 * deg], -branch)
+    assert np.linalg.norm(other.rocker_joint[:, 0] - joints[2]) > 1 * mm
+
+
+@pytest.mark.parametrize("mechanism", [CabinDoorLinkage(), UniversalJointShaft()])
+def test_a_drawing_of_what_has_no_profile_is_its_skeleton(tmp_path, mechanism):
+    done = write_dxf(mechanism, tmp_path / "it.dxf", unit="in", title=TitleBlock(date="2026-11-30"))
+    assert (done.what, done.remarks) == ((made := skeleton(mechanism)).what, made.remarks)
+    assert done.deviation < 1e-12
+    assert drawn(Made(done.path.read_bytes(), "")).units == 1
+    made = {export.key: export.make(Order(mechanism)) for export in exports_of(Order(mechanism)) if export.key == "dxf"}
+    assert made["dxf"].what == done.what
+    with pytest.raises(ValueError, match="the entity is"):
+        write_dxf(mechanism, tmp_path / "it.dxf", entity="dots")
 
 
 def test_a_tube_is_called_by_its_standard():

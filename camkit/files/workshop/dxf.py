@@ -24,8 +24,9 @@ from .curves import Contour
 from .dxf_read import paths_of
 from .dxf_sheet import Sheet, drawing
 from .plan import plan
+from .skeleton import skeleton
 from .splines import Spline, splines
-from .subject import Subject, subjects
+from .subject import DRAWN, Subject, analysis_of, subjects
 from .title import TitleBlock
 from .written import Made, Written, length_unit, written
 
@@ -54,7 +55,8 @@ def dxf(
     (one for each part between two corners), ``"chords"`` a polyline of lines.  ``PITCH`` is the path of the roller's
     centre; ``BORE``, ``KEYWAY`` and ``HUB`` are those of the ``blank``; ``DATUM`` shows angle 0 and the direction of
     rotation; ``FAULT`` what undercut takes away, with a sentence; ``NOTES`` says what it is.  Both cams of a pair lie
-    as they stand on their shaft, on ``CAM1`` and ``CAM2``.  A drum is unrolled at its mean radius.
+    as they stand on their shaft, on ``CAM1`` and ``CAM2``.  A drum is unrolled at its mean radius.  Of a linkage or a
+    shaft it is the `skeleton`.
 
     >>> from camkit import TranslatingFlatCam
     >>> print(dxf(TranslatingFlatCam()).what)
@@ -66,7 +68,10 @@ def dxf(
         raise ValueError(f"the entity is {shown(entity)}; it must be one of {', '.join(map(repr, ENTITIES))}")
     must = "be 0.01 um to 1 mm, in m"
     tolerance = one_number(tolerance, "the tolerance of the drawing", must, lambda x: 1e-8 <= x <= 1e-3)
-    unit, cams = length_unit(unit), subjects(cam)
+    unit = length_unit(unit)
+    if isinstance(analysis_of(cam), DRAWN):
+        return skeleton(cam, unit=unit, title=title)
+    cams = subjects(cam)
     exact = {layer: line for s in cams for layer, line in _by_layer(s, cams, CHECK).items()}
     given = [contour for s in cams for lines in _by_layer(s, cams).values() for contour in lines]
     drawn = [each for contour in given for each in _fitted(contour, tolerance, entity)]
@@ -97,7 +102,7 @@ def write_dxf(
     blank: Blank = Blank(),
     title: TitleBlock = TitleBlock(),
 ) -> Written:
-    """Write a cam as a DXF drawing (see `camkit.files.workshop.dxf.dxf`).
+    """Write a cam, or the skeleton of a linkage or a shaft, as a DXF drawing (see `camkit.files.workshop.dxf.dxf`).
 
     >>> import tempfile
     >>> from camkit import TranslatingFlatCam

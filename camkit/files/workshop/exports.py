@@ -14,11 +14,8 @@ from ...quantities.kinds import one_number
 from ...study.study import Study
 from ...units import mm
 from .blank import Blank
-from .columns import Units
 from .faults import has_profile
-from .joints import joint_columns
-from .skeleton import DRAWN, skeleton
-from .subject import analysis_of, design_of, subjects
+from .subject import DRAWN, JOINTED, analysis_of, design_of, subjects
 from .tables import table
 from .title import TitleBlock
 from .written import Made, length_unit
@@ -141,15 +138,15 @@ def _one_motion(order: Order) -> bool:
 
 
 def _linkage(order: Order) -> bool:
-    return not _cam(order) and joint_columns(order.analysis, Units()) is not None
+    return isinstance(order.analysis, JOINTED)
 
 
-def _has_lengths(order: Order) -> bool:
-    return isinstance(order.analysis, DRAWN)
+def _drawn(order: Order) -> bool:
+    return _cam(order) or isinstance(order.analysis, DRAWN)
 
 
-def _skeleton(order: Order) -> Made:
-    return skeleton(order.analysis, unit=order.unit, title=order.title)
+def _solid(order: Order) -> bool:
+    return _flat(order) or isinstance(order.analysis, DRAWN)
 
 
 def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], bool], key: str = "") -> Export:
@@ -175,7 +172,6 @@ TABLES = (
     _table("twincat", "csv", "Cam table for TwinCAT", "rows of MC_MotionFunctionPoint", _one_motion),
     _table("kollmorgen", "csv", "Cam profile for Kollmorgen KAS", "Import Cam Profile", _one_motion),
     _table("rockwell", "csv", "Cam array for Rockwell Logix", "MASTER, SLAVE, SegmentType for MCCP", _one_motion),
-    Export("skeleton", "-skeleton.dxf", "Skeleton (DXF)", "for CAD: links, axes, or a tube", _skeleton, _has_lengths),
 )
 """Tables and points of it."""
 
@@ -204,10 +200,15 @@ EXPORTS = (
         _study,
         lambda o: o.study is not None,
     ),
-    Export("dxf", ".dxf", "Profile (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _cam),
+    Export("dxf", ".dxf", "Profile or skeleton (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _drawn),
     Export("nc", ".ngc", "Tool path (G-code)", "for a milling machine: LinuxCNC, arcs, feeds to be set", _gcode, _flat),
     Export(
-        "step", ".step", "Solid (STEP)", "for CAD, CAM and inspection: the cam with bore, keyway and hub", _step, _flat
+        "step",
+        ".step",
+        "Solid (STEP)",
+        "for CAD, CAM and inspection: a cam with bore, keyway and hub, links as bars, a shaft as its tube",
+        _step,
+        _solid,
     ),
     Export("stl", ".stl", "Mesh (STL)", "for 3D printing, in mm", _stl, _cam),
     Export("3mf", ".3mf", "Mesh (3MF)", "for 3D printing, with its unit and title", _3mf, _cam),

@@ -23,8 +23,6 @@ from .written import LENGTHS, Made, length_unit
 SAME = 1e-7
 """Diameters that differ by less (m) are one."""
 LINKS = "CRANK", "COUPLER", "ROCKER"
-DRAWN = RSSRAnalysis, ShaftAnalysis
-"""The analyses of what can be drawn."""
 LAYERS = "CRANK", "COUPLER", "ROCKER", "FRAME", "PATHS", "TUBE", "BORE", "CENTRE", "JOINTS", "NOTES"
 COLOURS = dict(zip(LAYERS, (1, 3, 5, 8, 9, 7, 8, 1, 5, 8), strict=True))
 """Of the layers, by AutoCAD's numbers."""
@@ -51,8 +49,8 @@ def skeleton(given: object, *, unit: str = "mm", title: TitleBlock = TitleBlock(
     joints, and which standard tube it is or comes near to.
 
     >>> from camkit import RSSR
-    >>> print(skeleton(RSSR(crank=0.02)))
-    3 links and 2 axes; read back, at most 0 um off
+    >>> skeleton(RSSR(crank=0.02)).what
+    '3 links and 2 axes'
     """
     unit, analysis = length_unit(unit), analysis_of(given)
     lines = list(title.lines(type(design_of(given)).__name__, unit))
@@ -61,15 +59,17 @@ def skeleton(given: object, *, unit: str = "mm", title: TitleBlock = TitleBlock(
         lines += _sizes(analysis, unit)
     elif isinstance(analysis, ShaftAnalysis):
         drawn, what = [*_tube(analysis)], "a tube between two joints"
-        lines += tube_callout(analysis)
     else:
         raise ValueError(f"{type(design_of(given)).__name__} has no lengths in space to be drawn")
-    data = _dxf(drawn, lines, unit)
-    return Made(data, what, _deviation(data, drawn, unit))
+    said = tube_callout(analysis)
+    data = _dxf(drawn, [*lines, *said], unit)
+    return Made(data, what, _deviation(data, drawn, unit), tuple(said))
 
 
-def tube_callout(analysis: ShaftAnalysis) -> list[str]:
+def tube_callout(analysis: object) -> list[str]:
     """Which tube a shaft has, in sentences: a standard one, or the nearest of each series that keeps every limit.
+
+    Of anything else nothing is said.
 
     >>> from camkit import UniversalJointShaft
     >>> for line in tube_callout(UniversalJointShaft().analyse()):
@@ -78,6 +78,8 @@ def tube_callout(analysis: ShaftAnalysis) -> list[str]:
     nearest that keeps every limit: EN 10210-2 139.7 x 12.5
     nearest that keeps every limit: GB/T 17395 133 x 16
     """
+    if not isinstance(analysis, ShaftAnalysis):
+        return []
     here = analysis.here
     tube = _designation(here)
     standard = [series for series in TUBE_FILES if abs(standard_tubes(series) - here).max(-1).min() < SAME]

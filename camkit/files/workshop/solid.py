@@ -1,20 +1,21 @@
-"""Cams and tubes as solids for CAD: STEP files, read back and compared with the exact flanks."""
+"""Cams, links and tubes as solids for CAD: STEP files, read back and compared with the exact flanks."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...quantities.extras import extra
-from ...quantities.types import Array
 from ...units import mm, um
 from .arcs import distances
+from .bars import BAR, Round, Tube, tubes_of
 from .blank import Blank
 from .prisms import Part, parts
-from .subject import design_of
+from .skeleton import tube_callout
+from .subject import DRAWN, analysis_of, design_of
 from .title import TitleBlock
 from .written import Made, Written, length_unit, written
 
@@ -33,9 +34,10 @@ def write_step(
     unit: str = "mm",
     title: TitleBlock = TitleBlock(),
     blank: Blank = Blank(),
+    link: Round = BAR,
 ) -> Written:
-    """Write a cam as a solid for CAD; it needs the extra ``step``.  What is in it: see `step`."""
-    return written(step(cam, tolerance=tolerance, unit=unit, title=title, blank=blank), path)
+    """Write a cam, a linkage or a shaft as solids for CAD; it needs the extra ``step``.  What is in it: see `step`."""
+    return written(step(cam, tolerance=tolerance, unit=unit, title=title, blank=blank, link=link), path)
 
 
 def step(
@@ -45,16 +47,23 @@ def step(
     unit: str = "mm",
     title: TitleBlock = TitleBlock(),
     blank: Blank = Blank(),
+    link: Round = BAR,
 ) -> Made:
     """A cam as a STEP file (AP214): one solid, its flanks cylinders that keep the tolerance (m).
 
     ``cam`` is a design, an analysis or a panel.  The cam's axis is z; its disk stands on the plane z = 0, with angle 0
     along x; a groove is a pocket from above, the hub is below.  The cams of a pair are an assembly on one shaft.
 
+    Of a linkage the links as bars, ``CRANK``, ``COUPLER`` and ``ROCKER``, at the first position of its analysis, in the
+    frame of its tables; ``link`` is their diameter, or an outer and an inner one (m).  Of a shaft its tube, along x
+    from the first joint.
+
     Raises ``ValueError`` in a sentence for a drum, an open profile, a bore that comes through the cam, and
     ``ModuleNotFoundError`` where Open CASCADE is not installed.
     """
     unit, kind = length_unit(unit), type(design_of(cam)).__name__
+    if isinstance(analysis := analysis_of(cam), DRAWN):
+        return tubes_step(tubes_of(analysis, link), kind, unit=unit, title=title, remarks=tube_callout(analysis))
     with extra("a STEP file", "step"):
         import OCP  # noqa: F401
 
@@ -103,21 +112,17 @@ def _what(solids: Sequence[TopoDS_Solid]) -> str:
     return f"{len(solids)} solid{'s' * (len(solids) != 1)} of {faces} faces, {whole / mm**3:.6g} mm3"
 
 
-class Tube(NamedTuple):
-    """A round bar along a straight line in space, m; with an inner diameter above 0 it is a tube."""
-
-    name: str
-    start: Array
-    end: Array
-    outer: float
-    """Diameter."""
-    inner: float = 0.0
-
-
-def tubes_step(tubes: Sequence[Tube], kind: str, *, unit: str = "mm", title: TitleBlock = TitleBlock()) -> Made:
+def tubes_step(
+    tubes: Sequence[Tube],
+    kind: str,
+    *,
+    unit: str = "mm",
+    title: TitleBlock = TitleBlock(),
+    remarks: Sequence[str] = (),
+) -> Made:
     """Bars and tubes in space as a STEP file: an assembly of named solids; the deviation is that of their ends.
 
-    ``kind`` is the name of the design's class, the title where there is none.
+    ``kind`` is the name of the design's class, the title where there is none; ``remarks`` stand in the file's head.
     """
     unit = length_unit(unit)
     for tube in tubes:
@@ -127,14 +132,15 @@ def tubes_step(tubes: Sequence[Tube], kind: str, *, unit: str = "mm", title: Tit
         from .step_file import Named, step_file
 
         solids = [Named(tube.name, round_bar(*tube[1:])) for tube in tubes]
-    data = step_file(title.marked(kind), solids, unit, title, title.lines(kind, unit))
+    *lines, made = title.lines(kind, unit)
+    data = step_file(title.marked(kind), solids, unit, title, [*lines, *remarks, made])
     read = _solids_read(data, [_tube_volume(tube) for tube in tubes])
     ends = [np.stack([tube.start, tube.end], axis=1) for tube in tubes]
     away = [
         np.linalg.norm(at[:, :, None] - flat_centres(one)[:, None], axis=0).min(1).max()
         for at, one in zip(ends, read, strict=True)
     ]
-    return Made(data, _what(read), float(max(away)))
+    return Made(data, _what(read), float(max(away)), tuple(remarks))
 
 
 def _tube_volume(tube: Tube) -> float:

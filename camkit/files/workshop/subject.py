@@ -10,12 +10,18 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
+from ...linkage import DoubleUniversalJointAnalysis, DrivelineAnalysis, RSSRAnalysis, UniversalJointAnalysis
+from ...machines.shaft_analysis import ShaftAnalysis
 from ...quantities import words
 from ...quantities.kinds import columns, shown
 from ...quantities.types import Array
 
 P = ParamSpec("P")
 T = TypeVar("T")
+DRAWN = RSSRAnalysis, ShaftAnalysis
+"""The analyses of what has no profile, but lengths in space."""
+JOINTED = *DRAWN, DrivelineAnalysis, DoubleUniversalJointAnalysis, UniversalJointAnalysis
+"""The analyses of what has joints; the shafts of universal joints have no lengths."""
 LAST: deque[tuple[object, Any]] = deque(maxlen=2)
 """Designs that were analysed last: of one order every export asks for the same, and its contours take seconds."""
 
@@ -87,17 +93,28 @@ def subjects(given: Any) -> tuple[Subject, ...]:
     >>> subjects(UniversalJointShaft())
     Traceback (most recent call last):
         ...
-    ValueError: UniversalJointShaft has no cam profile; tables, a report and its JSON file can be written of it
+    ValueError: UniversalJointShaft has no cam profile; there are its joints (write_table, kind="joints"), its \
+skeleton (write_dxf), its solid (write_step), a report and its JSON file
     """
-    design, analysis = design_of(given), analysis_of(given)
+    return cams_of(design_of(given), analysis_of(given))
+
+
+def cams_of(design: Any, analysis: Any) -> tuple[Subject, ...]:
+    """The cams of a design, or of a population, in its analysis."""
     if not hasattr(analysis, "profile"):
         parts = {name: part for name, part in getattr(analysis, "curves", {}).items() if hasattr(part, "profile")}
         if not parts:
-            kind = type(design).__name__
-            raise ValueError(f"{kind} has no cam profile; tables, a report and its JSON file can be written of it")
+            raise ValueError(f"{type(design).__name__} has no cam profile; {_instead(analysis)}")
         return tuple(Subject(f"{words(name)} cam", design, part) for name, part in parts.items())
     analysis = getattr(analysis, "whole", analysis)
     return (Subject("", design, analysis),)
+
+
+def _instead(analysis: object) -> str:
+    """What there is of a mechanism without a profile, in words."""
+    joints = ('its joints (write_table, kind="joints")',) if isinstance(analysis, JOINTED) else ()
+    drawn = ("its skeleton (write_dxf)", "its solid (write_step)") if isinstance(analysis, DRAWN) else ()
+    return f"there are {', '.join((*joints, *drawn, 'a report and its JSON file'))}"
 
 
 def analysis_of(given: Any) -> Any:

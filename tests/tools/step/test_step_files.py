@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from camkit import (
+    RSSR,
     DoorHandleCam,
     MotionProgram,
     OscillatingFlatCam,
@@ -17,6 +18,7 @@ from camkit import (
     Rise,
     TranslatingFlatCam,
     TranslatingRollerCam,
+    UniversalJointShaft,
     deg,
     inch,
     mm,
@@ -25,6 +27,7 @@ from camkit import (
 from camkit.cam import BarrelCam, ConjugatePair
 from camkit.files import Blank, TitleBlock, write_step
 from camkit.files.workshop.solid import Tube, step, tubes_step
+from camkit.machines import CabinDoorLinkage
 from camkit.motion import SimpleHarmonic
 
 READER = """
@@ -218,3 +221,47 @@ def test_tubes_in_space(tmp_path):
     assert made.deviation < 1e-9
     with pytest.raises(ValueError, match="pin is 0 mm long"):
         tubes_step([tubes[1]._replace(start=tubes[1].end)], "Shaft")
+
+
+@pytest.mark.parametrize(("link", "section"), [(12 * mm, np.pi * 6**2), ((20 * mm, 16 * mm), np.pi * (10**2 - 8**2))])
+@pytest.mark.parametrize("linkage", [CabinDoorLinkage(), RSSR(crank=20 * mm, axis_distance=30 * mm)])
+def test_the_links_of_a_linkage_are_bars_between_its_joints(tmp_path, linkage, link, section):
+    """Volumes are lengths by areas; the closure alone says where the rocker is, each link that it is as long."""
+    written = write_step(linkage, tmp_path / "linkage.step", link=link)
+    bars, _ = read(written.path)
+    lengths = [linkage.crank / mm, linkage.coupler / mm, linkage.rocker / mm]
+    assert all(bar["valid"] for bar in bars)
+    assert [bar["volume"] for bar in bars] == pytest.approx([section * length for length in lengths], rel=1e-9)
+    analysis, root = linkage.analyse(), np.array([0.0, 0.0, linkage.crank_offset])
+    phi = analysis.crank_angle[0]
+    pin = root + linkage.crank * np.array([np.cos(phi), np.sin(phi), 0.0])
+    assert bars[0]["centre"] == pytest.approx((root + pin) / 2 / mm, abs=1e-9)
+    other = 2 * np.array(bars[1]["centre"]) * mm - pin
+    far = 2 * np.array(bars[2]["centre"]) * mm - other
+    axis = np.array([0.0, np.sin(linkage.axis_angle), np.cos(linkage.axis_angle)])
+    assert far == pytest.approx([linkage.axis_distance, 0, 0] + linkage.rocker_offset * axis, abs=1e-9)
+    assert np.linalg.norm(other - pin) == pytest.approx(linkage.coupler)
+    assert np.linalg.norm(other - far) == pytest.approx(linkage.rocker)
+    assert (other - far) @ axis == pytest.approx(0, abs=1e-9)
+    from camkit.files.workshop.step_file import read_step
+
+    assert [bar.name for bar in read_step(written.path.read_bytes())[1]] == ["CRANK", "COUPLER", "ROCKER"]
+    assert written.deviation < 1e-9
+
+
+def test_a_shaft_is_its_tube_and_says_which_standard_one(tmp_path):
+    shaft = UniversalJointShaft(outer_diameter=139.7 * mm, inner_diameter=114.7 * mm, length=1.5)
+    written = write_step(shaft, tmp_path / "shaft.step")
+    ((tube,), _) = read(written.path)
+    assert tube["valid"]
+    assert tube["volume"] == pytest.approx(np.pi / 4 * (139.7**2 - 114.7**2) * 1500, rel=1e-9)
+    assert tube["centre"] == pytest.approx([750, 0, 0], abs=1e-9)
+    assert written.remarks == ("tube EN 10210-2 139.7 x 12.5",)
+    assert "tube EN 10210-2 139.7 x 12.5" in written.path.read_text()
+    assert written.deviation < 1e-9
+
+
+@pytest.mark.parametrize("link", [0.0, -1 * mm, (10 * mm, 12 * mm), (1 * mm,) * 3, float("nan"), "thick"])
+def test_links_of_no_diameter_are_refused(link):
+    with pytest.raises(ValueError, match="the diameter of the links"):
+        step(CabinDoorLinkage(), link=link)
