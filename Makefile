@@ -4,6 +4,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 # The small matrices of these searches are slower on two threads than on one.
 export OPENBLAS_NUM_THREADS := 1
+# Native code that tests make is not kept with that of the user.
+test test-tools bench notebooks: export CAMKIT_CACHE := $(CURDIR)/.native
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
@@ -124,7 +126,7 @@ constraints: $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
 	touch $(VENV)/.lab $(VENV)/.app $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
 
 clean:
-	rm -rf build dist .browser .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build dist .browser .native .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find camkit tests benchmarks notebooks -name __pycache__ -o -name .ipynb_checkpoints | xargs rm -rf
 
 

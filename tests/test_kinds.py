@@ -179,7 +179,7 @@ NOT_MADE_BY_HAND |= {
     "TorqueBalance",
     "WeightedSum",
 }
-NOT_MADE_BY_HAND |= {"WinnerMap", "Written"}
+NOT_MADE_BY_HAND |= {"ToolPath", "WinnerMap", "Written"}
 WINGS = [camkit, *(import_module(f"camkit.{wing}") for wing in ("motion", "cam", "linkage", "machines", "study"))]
 WINGS += [camkit.decision, camkit.files]
 NAMES = {name: wing for wing in WINGS for name in wing.__all__ if name not in NOT_MADE_BY_HAND}

@@ -169,7 +169,7 @@ def test_the_groove_of_a_door_handle_is_one_closed_path():
             "outside",
             "is 9 mm; into the groove goes one of at most that of",
         ),
-        (TranslatingRollerCam(), 0, "outside", "the tool radius is 0; it must be a finite number above 0"),
+        (TranslatingRollerCam(), 0, "outside", "the tool radius is 0; it must be above 0 and at most 10 m"),
         (TranslatingRollerCam(), "big", "outside", "the tool radius is 'big'"),
         (TranslatingRollerCam(), np.inf, "outside", "the tool radius is inf"),
         (ECCENTRIC, 5 * mm, "left", "the side is 'left'; it must be 'outside' or 'inside'"),

@@ -28,6 +28,8 @@ from .curves import Contour, Stretch, arc, joined
 from .subject import Subject, subjects
 
 OUTSIDE, INSIDE = "outside", "inside"
+LARGEST = 10.0
+"""No cutter and no grinding wheel has a larger radius, m."""
 CLEAR = 1e-9
 """A point that lies less deep in the tool (m) is clear of it."""
 SHARES = np.array([0.237, 0.741])
@@ -95,7 +97,7 @@ def tool_path(cam: object, tool_radius: float, side: str = OUTSIDE) -> ToolPath:
 
 def path_of(subject: Subject, tool_radius: float, side: str = OUTSIDE) -> ToolPath:
     """`tool_path` of one cam."""
-    r = one_number(tool_radius, "the tool radius", "be a finite number above 0", lambda r: 0 < r < np.inf)
+    r = one_number(tool_radius, "the tool radius", "be above 0 and at most 10 m", lambda r: 0 < r <= LARGEST)
     if side not in (OUTSIDE, INSIDE):
         raise ValueError(f"the side is {side!r:.40}; it must be {OUTSIDE!r} or {INSIDE!r}")
     if subject.drum:
