@@ -293,7 +293,7 @@ def test_a_drawing_is_written_and_the_same_again(tmp_path):
     first = write_drawing(PLATE, tmp_path / "cam.SVG", title=DATED)
     again = write_drawing(PLATE.analyse(), tmp_path / "again.svg", title=DATED)
     assert first.path.read_bytes() == again.path.read_bytes()
-    assert str(first).startswith("cam.SVG: 1 sheet A3, scale 1:1; read back, at most 0.5")
+    assert re.fullmatch(r"cam\.SVG: 1 sheet A3, scale 1:1; read back, at most 0\.\d+ um off", str(first))
 
 
 @pytest.mark.parametrize("name", with_profile())

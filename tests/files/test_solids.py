@@ -19,8 +19,9 @@ from camkit.cam import BarrelCam
 from camkit.files import Blank, write_3mf, write_step, write_stl
 from camkit.files.workshop.arcs import ArcPath
 from camkit.files.workshop.mesh import Mesh, chords, off
+from camkit.files.workshop.plan import bore_path, circle
 from camkit.files.workshop.printing import STL, read_stl
-from camkit.files.workshop.prisms import area, bore_path, circle, parts
+from camkit.files.workshop.prisms import area, parts
 from camkit.files.workshop.step_file import quoted
 from camkit.motion import SimpleHarmonic
 

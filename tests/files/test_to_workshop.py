@@ -1,13 +1,15 @@
 """One zip with all that a workshop takes, the same for the same design; a faulty one only if somebody insists."""
 
+import csv
 import io
 import json
+import re
 import zipfile
 
 import numpy as np
 import pytest
 
-from camkit import DoorHandleCam, TranslatingRollerCam, UniversalJointShaft, to_workshop
+from camkit import DoorHandleCam, TranslatingFlatCam, TranslatingRollerCam, UniversalJointShaft, mm, to_workshop
 from camkit.cam import ConjugatePair
 from camkit.files import TitleBlock, from_json
 from camkit.files.workshop import exports
@@ -119,3 +121,13 @@ def test_what_makes_no_sense_is_refused_in_a_sentence(tmp_path, given, said):
 
 def test_the_schema_of_the_design_in_the_zip_is_that_of_designs(roller):
     assert json.loads(opened(roller.data)["TranslatingRollerCam.json"])["schema"] == "camkit/1"
+
+
+@pytest.mark.parametrize(("halves", "half"), [({"base_radius": 0.1 * mm}, 0.1), (None, 0.025)])
+def test_the_inspection_asks_for_what_the_drawing_asks_for(halves, half):
+    order = Order(TranslatingFlatCam(), title=DATED, tolerances=halves)
+    made = {export.key: export.make for export in EXPORTS if export.key in ("inspection", "picture")}
+    heads, first, *_ = csv.reader(made["inspection"](order).data.decode("utf-8-sig").splitlines())
+    limits = [float(first[heads.index(f"{side} limit [mm]")]) for side in ("lower", "upper")]
+    assert limits == pytest.approx([-half, half])
+    assert f"in a zone {2 * half:g} wide" in " ".join(re.findall(">([^<>]+)<", made["picture"](order).data.decode()))

@@ -12,7 +12,6 @@ from camkit.files import tool_path
 from camkit.files.workshop.curves import Contour, Stretch
 from camkit.files.workshop.subject import subjects
 from camkit.files.workshop.toolpath import around, path_of
-from camkit.files.workshop.wheel import wheel_path
 from camkit.motion import MotionProgram, Return, Rise, SimpleHarmonic
 
 ECCENTRIC = TranslatingFlatCam(
@@ -181,29 +180,6 @@ def test_the_groove_of_a_door_handle_is_one_closed_path():
 def test_a_tool_that_cannot_be(cam, radius, side, said):
     with pytest.raises(ValueError, match=said):
         tool_path(cam, radius, side)
-
-
-def test_a_cam_grinder_follows_a_circle():
-    """A circle of R 110 mm about (0, -25) mm, in polar coordinates about the axis."""
-    direction = np.radians(np.arange(-180, 541, 7.5))
-    path = wheel_path(ECCENTRIC, 60 * mm, direction)
-    away = -25 * mm * np.sin(direction)
-    assert np.allclose(path["distance"], away + np.sqrt(away**2 - (25 * mm) ** 2 + (110 * mm) ** 2), rtol=0, atol=1e-9)
-    assert np.allclose(np.hypot(path["x"], path["y"] + 25 * mm), 110 * mm, rtol=0, atol=1e-9)
-
-
-def test_a_wheel_keeps_its_radius_from_the_cam_in_every_direction():
-    cam = TranslatingRollerCam(groove=False)
-    path = wheel_path(cam, 80 * mm, np.radians(np.arange(360)))
-    near = cKDTree(cam.analyse(40_001).profile.T).query(np.stack([path["x"], path["y"]], axis=-1))[0]
-    assert abs(near - 80 * mm).max() < 0.01 * um
-
-
-def test_a_grinder_cannot_go_around_an_open_cam():
-    half = TranslatingRollerCam(MotionProgram((Rise(120 * deg, 20 * mm, SimpleHarmonic()),)), groove=False)
-    assert not tool_path(half, 60 * mm).contours[0].closed
-    with pytest.raises(ValueError, match=r"the wheel does not come past .* deg: its path does not go around the cam"):
-        wheel_path(half, 60 * mm, np.radians(np.arange(360)))
 
 
 def test_both_cams_of_a_pair_name_their_hollows_at_their_cam_angles():

@@ -130,6 +130,21 @@ def test_the_centre_of_a_wheel_goes_around_a_circle_below_the_axis():
     assert re.match("at .* the hollow is narrower than the tool", hollow.remarks[0])
 
 
+def test_a_wheel_keeps_its_radius_from_the_cam_in_every_direction():
+    cam = TranslatingRollerCam(groove=False)
+    found = columns(table(cam, "wheel", tool_radius=80 * mm))
+    centre = np.stack([found[f"centre {axis} [mm]"] for axis in "xy"], axis=-1) * mm
+    assert_allclose(cKDTree(cam.analyse(40_001).profile.T).query(centre)[0], 80 * mm, rtol=0, atol=0.01 * um)
+
+
+def test_a_grinder_goes_around_the_axis_once():
+    rise = MotionProgram((Rise(120 * deg, 20 * mm, Cycloidal()),))
+    with pytest.raises(ValueError, match=r"the tool's centre does not come past \d+ deg"):
+        table(TranslatingRollerCam(rise, groove=False), "wheel", tool_radius=60 * mm)
+    with pytest.raises(ValueError, match=r"the tool's centre comes more than once past 0 deg"):
+        table(TranslatingRollerCam(), "wheel", tool_radius=5 * mm)  # along both walls of the groove
+
+
 def hollow_cam():
     """With a hollow flank under a small roller."""
     up, down = (move(60 * deg, 20 * mm, Cycloidal()) for move in (Rise, Return))

@@ -86,9 +86,9 @@ def arc_path(contour: Contour, tolerance: float) -> ArcPath:
     return ArcPath(contour.layer, np.hstack([*corners, *last]), np.concatenate(bulges), contour.closed)
 
 
-def dense_path(contour: Contour) -> ArcPath:
-    """The contour as many arcs, a nanometre from it at most."""
-    corners, bulges = zip(*(biarcs(stretch.finer(3)) for stretch in contour.stretches), strict=True)
+def dense_path(contour: Contour, steps: int = 3) -> ArcPath:
+    """The contour as many arcs, a nanometre from it at most: ``2 * steps`` from each point to the next."""
+    corners, bulges = zip(*(biarcs(stretch.finer(steps)) for stretch in contour.stretches), strict=True)
     last = [] if contour.closed else [corners[-1][:, -1:]]
     return ArcPath(
         contour.layer, np.hstack([*(c[:, :-1] for c in corners), *last]), np.concatenate(bulges), contour.closed

@@ -15,7 +15,7 @@ from ...motion.closing import TURN
 from ...motion.controller import MOST_ROWS
 from ...quantities.kinds import a_number
 from ...quantities.types import Array, Value
-from ...units import in_unit
+from ...units import deg, in_unit
 from ..motion_tables import derived_unit
 from .polar import polar, radii
 from .sheets import Column
@@ -24,6 +24,8 @@ from .toolpath import ToolPath
 
 STRAIGHT = 1e-6
 """A curve of less curvature (1/m) has no radius."""
+ONCE = 1e-8
+"""Places on a ray that are nearer (m) to each other are one."""
 SAME_ANGLE = 1e-9
 """A row nearer (rad) to the last one than this is that row."""
 
@@ -135,10 +137,15 @@ def polar_columns(subject: Subject, units: Units, step: float) -> Table:
 def wheel_columns(path: ToolPath, units: Units, step: float) -> Table:
     """Where the centre of a tool stands: its distance from the cam's axis in every direction, and its place.
 
-    A grinder turns the cam against its x axis by the direction (C) and has the wheel at the distance (X).
+    A grinder with its wheel on the x axis turns the cam back by the direction (C) and has the wheel at the distance
+    (X).  ``ValueError`` for a path that does not go around the axis, or past a direction more than once.
     """
     direction = rows_between(0.0, TURN, step)[:-1]
-    _, distance = radii([stretch for contour in path.contours for stretch in contour.stretches], direction)
+    inner, distance = radii([stretch for contour in path.contours for stretch in contour.stretches], direction)
+    for wrong, said in ((np.isnan(distance), "does not come"), (distance - inner > ONCE, "comes more than once")):
+        if wrong.any():
+            place = f"{direction[wrong][0] / deg:.4g} deg"
+            raise ValueError(f"the tool's centre {said} past {place}; its path has to go around the cam's axis once")
     columns = dict(units.column("direction", "angle", direction))
     columns |= units.column("distance of the centre", "length", distance)
     return columns | units.points("centre", distance * np.stack([np.cos(direction), np.sin(direction)]))

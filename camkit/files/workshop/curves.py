@@ -89,20 +89,28 @@ class Contour:
         return self if swept >= 0 else self.backwards
 
 
-def hermite(start: Array, leaving: Array, end: Array, arriving: Array, share: Array) -> Stretch:
-    """Points at shares of the cubics from ``start`` to ``end``, ``(2, n)``, with unit tangents at both.
+def tangent_length(start: Array, leaving: Array, end: Array, arriving: Array) -> Array:
+    """Of the derivatives (m) at both ends of the cubic that is nearest to an arc from ``start`` to ``end``, ``(2, n)``.
 
-    The tangents are as long as makes the cubic of an arc nearest to it: the chord over ``cos^2(theta / 4)``, for
-    tangents that turn by ``theta``.
+    The chord over ``cos^2(theta / 4)``, for unit tangents that turn by ``theta``.
     """
     half = np.sqrt(np.clip((1 + (leaving * arriving).sum(0)) / 2, 0, 1))
-    size = np.hypot(*(end - start)) * 2 / (1 + half)
-    u, a, b = share, size * leaving, size * arriving
-    along = end - start
-    points = start + u * a + u**2 * (3 * along - 2 * a - b) + u**3 * (a + b - 2 * along)
-    ways = a + 2 * u * (3 * along - 2 * a - b) + 3 * u**2 * (a + b - 2 * along)
+    return np.hypot(*(end - start)) * 2 / (1 + half)
+
+
+def cubics(start: Array, leaving: Array, end: Array, arriving: Array) -> Array:
+    """From ``start`` to ``end``, ``(2, n)``, with unit tangents at both, as powers of a share: ``(4, 2, n)``, m."""
+    size, along = tangent_length(start, leaving, end, arriving), end - start
+    a, b = size * leaving, size * arriving
+    return np.stack([start, a, 3 * along - 2 * a - b, a + b - 2 * along])
+
+
+def hermite(start: Array, leaving: Array, end: Array, arriving: Array, share: Array) -> Stretch:
+    """Points and unit tangents at shares of the `cubics` from ``start`` to ``end``, ``(2, n)``."""
+    u, (p, a, b, c) = share, cubics(start, leaving, end, arriving)
+    ways = a + 2 * u * b + 3 * u**2 * c
     long = np.hypot(*ways)
-    return Stretch(points, np.where(long > 0, ways / np.where(long > 0, long, 1.0), leaving))
+    return Stretch(p + u * a + u**2 * b + u**3 * c, np.where(long > 0, ways / np.where(long > 0, long, 1.0), leaving))
 
 
 def from_cubic(start: Stretch, end: Stretch, points: Array) -> Array:
@@ -116,10 +124,10 @@ def from_cubic(start: Stretch, end: Stretch, points: Array) -> Array:
     return np.hypot(*(points - hermite(*start, *end, share).points))
 
 
-def smooth_runs(contour: Contour) -> list[Stretch]:
+def smooth_runs(contour: Contour, angle: float = TURNED) -> list[Stretch]:
     """The contour from corner to corner; one that has none in one run, which then ends where it begins."""
     parts = list(contour.stretches)
-    corner = [not smooth(parts[k - 1], parts[k]) for k in range(len(parts))]
+    corner = [not smooth(parts[k - 1], parts[k], angle) for k in range(len(parts))]
     if contour.closed and any(corner):
         first = corner.index(True)
         parts, corner = parts[first:] + parts[:first], corner[first:] + corner[:first]

@@ -86,9 +86,9 @@ def drawing(
     if ending not in ENDINGS:
         raise ValueError(f"a drawing ends in {' or '.join(ENDINGS)}, not in {ending!r:.40}")
     parts = subjects(cam)
-    given = _half_widths(parts[0].design, tolerances)
+    given = half_widths(parts[0].design, tolerances)
     said_as = Words(length_unit(unit), given)
-    zone = _above_0(profile_tolerance, "the profile tolerance", least=0.0) or _zone(given)
+    zone = _above_0(profile_tolerance, "the profile tolerance", least=0.0) or profile_zone(given)
     plan = Plan(parts, said_as, title, blank, sheet, None if scale is None else _above_0(scale, "the scale"), zone)
     sheets = sheets_of(plan)
     deviation = max(_read_back(sheet) for sheet in sheets if sheet.seen is not None)
@@ -102,7 +102,7 @@ def drawing(
     return Made(data, what, deviation, remarks)
 
 
-def _half_widths(design: object, given: Tolerances | Mapping[str, object] | None) -> dict[str, float]:
+def half_widths(design: object, given: Tolerances | Mapping[str, object] | None) -> dict[str, float]:
     """Half widths of tolerances by path, SI; ``ValueError`` in a sentence for a path that the design does not have."""
     halves: Mapping[str, object] = given.half_widths if isinstance(given, Tolerances) else given or {}
     Paths(design, halves, Quantity)
@@ -113,7 +113,7 @@ def _above_0(value: object, what: str, least: float = 1e-6) -> float:
     return one_number(value, what, f"be finite and at least {least:g}", lambda x: least <= x < np.inf)
 
 
-def _zone(given: Mapping[str, float]) -> float:
+def profile_zone(given: Mapping[str, float]) -> float:
     """Twice the tolerance of the base radius, m; 0: it has none."""
     return 2 * max((half for path, half in given.items() if path.rpartition(".")[2] == "base_radius"), default=0.0)
 

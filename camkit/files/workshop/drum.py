@@ -10,7 +10,8 @@ from ...quantities.types import Array
 from ...units import mm
 from .blank import Blank
 from .mesh import Mesh, as_mesh, body
-from .prisms import Prism, bore_path, circle
+from .plan import bore_path, circle
+from .prisms import Prism
 from .subject import Subject
 
 if TYPE_CHECKING:

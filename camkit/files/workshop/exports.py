@@ -16,7 +16,7 @@ from ...units import mm
 from .blank import Blank
 from .faults import has_profile
 from .subject import DRAWN, JOINTED, analysis_of, design_of, subjects
-from .tables import table
+from .tables import LIMIT, table
 from .title import TitleBlock
 from .written import Made, length_unit
 
@@ -38,6 +38,14 @@ class Order:
     def __post_init__(self) -> None:
         object.__setattr__(self, "unit", length_unit(self.unit))
         one_number(self.tool_radius, "the radius of the tool", "lie above 0 and be finite", lambda r: 0 < r < np.inf)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """How far a point of the profile may be off, m: the same in the drawing and in the inspection file."""
+        from .drawing import half_widths, profile_zone
+
+        half = profile_zone(half_widths(self.design, self.tolerances)) / 2 or LIMIT
+        return -half, half
 
     @property
     def design(self) -> Analysable:
@@ -151,7 +159,15 @@ def _solid(order: Order) -> bool:
 
 def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], bool], key: str = "") -> Export:
     def make(order: Order) -> Made:
-        return table(order.analysis, kind, ending, unit=order.unit, title=order.title, tool_radius=order.tool_radius)
+        return table(
+            order.analysis,
+            kind,
+            ending,
+            unit=order.unit,
+            title=order.title,
+            tool_radius=order.tool_radius,
+            limits=order.limits,
+        )
 
     return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", words, use, make, of)
 
@@ -179,8 +195,15 @@ TABLES = (
 def _drawing(order: Order, ending: str) -> Made:
     from .drawing import drawing
 
-    tolerances, blank = order.tolerances, order.blank
-    return drawing(order.cam, ending, tolerances=tolerances, blank=blank, unit=order.unit, title=order.title)
+    return drawing(
+        order.cam,
+        ending,
+        tolerances=order.tolerances,
+        profile_tolerance=2 * order.limits[1],
+        blank=order.blank,
+        unit=order.unit,
+        title=order.title,
+    )
 
 
 def _report(order: Order, ending: str) -> Made:

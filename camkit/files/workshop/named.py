@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ...quantities.types import Array
 from ...units import deg
 from .contours import Contour, contours
-from .curves import SAME, Stretch, smooth
+from .curves import SAME, Stretch, smooth, smooth_runs
 from .subject import Subject
 
 LOST, CORNER = "FAULT", 0.1 * deg
@@ -53,22 +51,16 @@ def curves_of(subject: Subject) -> dict[str, list[Array]]:
 
 def smooth_parts(contour: Contour) -> list[Array]:
     """Points ``(2, n)`` of a contour from corner to corner; a closed one without is one part, with one corner two."""
-    stretches = list(contour.stretches)
-    last = [*stretches[-1:], *stretches[:-1]]
-    starts = [k for k, (one, other) in enumerate(zip(last, stretches, strict=True)) if not smooth(one, other, CORNER)]
-    if contour.closed and starts:
-        stretches = [*stretches[starts[0] :], *stretches[: starts[0]]]
-        starts = [k - starts[0] for k in starts]
-    ends = [*[k for k in starts if k], len(stretches)]
-    parts = [_run(stretches[first:end]) for first, end in zip([0, *ends], ends, strict=False)]
-    if contour.closed and len(starts) == 1:
-        half = parts[0].shape[1] // 2
-        return [parts[0][:, : half + 1], parts[0][:, half:]]
-    return parts
+    first, *others = runs = smooth_runs(contour, CORNER)
+    if contour.closed and not others and not smooth(first, first, CORNER):
+        points, half = _points(first), first.points.shape[1] // 2
+        return [points[:, : half + 1], points[:, half:]]
+    return [_points(run) for run in runs]
 
 
-def _run(stretches: Sequence[Stretch]) -> Array:
-    points = np.hstack([stretches[0].points[:, :1], *(stretch.points[:, 1:] for stretch in stretches)])
+def _points(run: Stretch) -> Array:
+    """Of a run; where it ends at its start, that point again to the last digit."""
+    points = run.points.copy()
     if np.hypot(*(points[:, 0] - points[:, -1])) <= SAME:
         points[:, -1] = points[:, 0]
     return points

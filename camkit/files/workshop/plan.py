@@ -5,16 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from ...geometry import rotated
-from ...quantities.types import Array
 from .arcs import ArcPath
 from .blank import Blank
 
 BORE, KEYWAY, HUB = "BORE", "KEYWAY", "HUB"
 
 
-def circle(layer: str, radius: float) -> ArcPath:
-    """A circle about the cam axis."""
-    return ArcPath(layer, np.array([[radius, -radius], [0.0, 0.0]]), np.array([1.0, 1.0]), True)
+def circle(radius: float, layer: str = "") -> ArcPath:
+    """A circle about the cam axis, as two arcs."""
+    return ArcPath(layer, radius * np.array([[1.0, -1.0], [0.0, 0.0]]), np.ones(2), True)
+
+
+def bore_path(blank: Blank) -> ArcPath:
+    """The outline of the bore, counter-clockwise from its keyway on, if it has one."""
+    radius, keyway = blank.bore / 2, blank.keyway
+    if keyway is None:
+        return circle(radius, BORE)
+    half, floor = keyway.width / 2, radius + keyway.depth
+    mouth, arc = np.sqrt(radius**2 - half**2), np.tan((np.pi - np.arcsin(half / radius)) / 4)
+    corners = np.array([[mouth, floor, floor, mouth, -radius], [-half, -half, half, half, 0.0]])
+    return ArcPath(KEYWAY, rotated(corners, blank.key_angle), np.array([0.0, 0.0, 0.0, arc, arc]), True)
 
 
 def plan(blank: Blank) -> list[ArcPath]:
@@ -24,23 +34,11 @@ def plan(blank: Blank) -> list[ArcPath]:
     >>> [(path.layer, path.closed) for path in plan(Blank(bore=20 * mm, key="DIN 6885-1"))]
     [('BORE', False), ('KEYWAY', False)]
     """
-    radius, keyway = blank.bore / 2, blank.keyway
-    hub = [circle(HUB, blank.hub_diameter / 2)] if blank.hub_diameter else []
-    if not radius:
+    hub = [circle(blank.hub_diameter / 2, HUB)] if blank.hub_diameter else []
+    if not blank.bore:
         return hub
-    if keyway is None:
-        return [circle(BORE, radius), *hub]
-    half = keyway.width / 2
-    mouth, floor = np.sqrt(radius**2 - half**2), radius + keyway.depth
-    slot = np.array([[mouth, floor, floor, mouth], [-half, -half, half, half]])
-    around = 2 * np.pi - 2 * np.arcsin(half / radius)
-    bore = np.array([[mouth, -radius, mouth], [half, 0.0, -half]])
-    return [
-        ArcPath(BORE, _at(bore, blank), np.full(2, np.tan(around / 8)), False),
-        ArcPath(KEYWAY, _at(slot, blank), np.zeros(3), False),
-        *hub,
-    ]
-
-
-def _at(points: Array, blank: Blank) -> Array:
-    return rotated(points, blank.key_angle)
+    whole = bore_path(blank)
+    if blank.keyway is None:
+        return [whole, *hub]
+    bore = ArcPath(BORE, whole.corners[:, [3, 4, 0]], whole.bulges[3:], False)
+    return [bore, ArcPath(KEYWAY, whole.corners[:, :4], whole.bulges[:3], False), *hub]

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from ...quantities.types import Array
-from .contours import Stretch, contours
+from .contours import contours
+from .curves import Stretch, cubics
 from .subject import Subject
 
 NAMES = {"CAM": ("profile",), "GROOVE": ("inner wall", "outer wall"), "PITCH": ("pitch curve",)}
@@ -61,24 +62,12 @@ def radii(stretches: Iterable[Stretch], direction: Array) -> tuple[Array, Array]
     """
     inner, outer = np.full(len(direction), np.inf), np.full(len(direction), -np.inf)
     for stretch in stretches:
-        ray, radius = _crossings(_cubics(stretch), direction)
+        ends = (each[:, part] for part in (slice(None, -1), slice(1, None)) for each in stretch)
+        ray, radius = _crossings(cubics(*ends), direction)
         np.minimum.at(inner, ray, radius)
         np.maximum.at(outer, ray, radius)
     met = np.isfinite(outer)
     return np.where(met, inner, np.nan), np.where(met, outer, np.nan)
-
-
-def _cubics(stretch: Stretch) -> Array:
-    """From point to point the cubic with their points and tangents, as powers of a share, ``(4, 2, n)``, lowest first.
-
-    The tangents are as long as those of the cubic that is nearest to an arc of a circle: ``chord / cos(turn / 4)^2``.
-    """
-    points, tangents = stretch
-    chord = np.diff(points)
-    cosine = np.clip((tangents[:, :-1] * tangents[:, 1:]).sum(0), -1, 1)
-    length = np.hypot(*chord) * 2 / (1 + np.sqrt((1 + cosine) / 2))
-    first, last = length * tangents[:, :-1], length * tangents[:, 1:]
-    return np.stack([points[:, :-1], first, 3 * chord - 2 * first - last, first + last - 2 * chord])
 
 
 def _crossings(cubics: Array, direction: Array) -> tuple[Array, Array]:

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...geometry import rotated, vector
 from ...units import mm
 from .arcs import ArcPath, arc_path
 from .blank import Blank
 from .contours import Contour, contours
+from .plan import bore_path, circle
 from .subject import Subject, subjects
 
 
@@ -111,23 +111,6 @@ def outer_diameter(flanks: tuple[Contour, ...], blank: Blank) -> float:
             f"the outer diameter is {blank.outer_diameter / mm:.4g} mm; the groove takes {largest / mm:.4g} mm"
         )
     return blank.outer_diameter or largest + 2 * blank.groove_depth
-
-
-def circle(radius: float, layer: str = "") -> ArcPath:
-    """A circle around the axis, as two arcs."""
-    return ArcPath(layer, radius * np.array([[1.0, -1.0], [0.0, 0.0]]), np.ones(2), True)
-
-
-def bore_path(blank: Blank) -> ArcPath:
-    """The outline of the bore with its keyway, counter-clockwise."""
-    radius, keyway = blank.bore / 2, blank.keyway
-    if keyway is None:
-        return circle(radius, "BORE")
-    half, floor = keyway.width / 2, radius + keyway.depth
-    mouth, wide = np.sqrt(radius**2 - half**2), np.arcsin(half / radius)
-    corners = vector(np.array([floor, floor, mouth, mouth]), np.array([-half, half, half, -half]))
-    bulges = np.array([0.0, 0.0, np.tan((np.pi - wide) / 2), 0.0])
-    return ArcPath("KEYWAY", rotated(corners, blank.key_angle), bulges, True)
 
 
 def area(path: ArcPath) -> float:

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...units import um
-from .arcs import ArcPath, distances
+from .arcs import ArcPath, dense_path, distances
 from .nc import LINE, RAPID, Move, moves
-from .toolpath import ToolPath, fine
+from .toolpath import ToolPath
 
 ON_ARC = 16
 """Places on each line or arc that are looked at."""
@@ -74,7 +74,7 @@ def astray(way: ArcPath, want: Wanted) -> float:
     """How far (m) a pass without its leads lies from the exact path, or that from the pass."""
     lead = slice(1, -1) if want.led else slice(None)
     cut = ArcPath("", way.corners[:, lead], way.bulges[lead], False)
-    exact = fine(want.path.contours[want.number])
+    exact = dense_path(want.path.contours[want.number], 1)
     return max(float(distances(exact, cut.points(ON_ARC)).max()), float(distances(cut, exact.corners).max()))
 
 

@@ -10,6 +10,7 @@ from ...quantities.types import Array
 from ...units import in_unit, mm
 from .blank import Blank
 from .dimensions import Words, across, upright
+from .plan import bore_path
 from .svg import Box, Paper, arcs_data
 from .view import View, datum, largest_scale
 
@@ -142,26 +143,8 @@ def draw_bore(view: View, blank: Blank, key_angle: float) -> None:
     """The bore's circle with its keyway in a direction, one closed line."""
     if not blank.bore:
         return
-    keyway, radius = blank.keyway, blank.bore / 2
-    if keyway is None:
-        view.circle((0.0, 0.0), radius, "visible")
+    if blank.keyway is None:
+        view.circle((0.0, 0.0), blank.bore / 2, "visible")
         return
-    half, out = keyway.width / 2, radius + keyway.depth
-    begins = float(np.arcsin(half / radius))
-    around = 2 * np.pi - 2 * begins
-    turns = begins + around * np.linspace(0, 1, 5)
-    along = [np.array([np.cos(turn), np.sin(turn)]) * radius for turn in turns]
-    corners = np.array([*along, (out, -half), (out, half)]).T
-    c, s = np.cos(key_angle), np.sin(key_angle)
-    bulges = np.array([np.tan(around / 16)] * 4 + [0.0] * 3)
-    drawn = view.at(np.array([[c, -s], [s, c]]) @ corners)
-    view.paper.path(arcs_data(drawn, bulges, True), "visible", name="BORE")
-
-
-def walls_at(radii: Sequence[float], rim: float) -> list[float]:
-    """What a cut meets on one side: the sides of the groove in pairs, and the ``rim``.
-
-    >>> walls_at([0.046, 0.030], 0.05), walls_at([], 0.05)
-    ([0.03, 0.046, 0.05], [0.05])
-    """
-    return [*sorted(r for r in radii if r < rim), rim]
+    path = bore_path(blank.replace(key_angle=key_angle))
+    view.paper.path(arcs_data(view.at(path.corners), path.bulges, True), "visible", name="BORE")

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...quantities.types import Array
 from .arcs import FINE, spans
-from .curves import SAME, Contour, Stretch, from_cubic, smooth_runs
+from .curves import SAME, Contour, Stretch, from_cubic, smooth_runs, tangent_length
 
 
 class Spline(NamedTuple):
@@ -46,8 +46,7 @@ def _spline(layer: str, run: Stretch, tolerance: float) -> Spline:
 
     at = list(spans(fine.points.shape[1] - 1, off, tolerance))
     points, tangents = fine.points[:, at], fine.tangents[:, at]
-    half = np.sqrt((1 + (tangents[:, 1:] * tangents[:, :-1]).sum(0)) / 2)
-    size = np.hypot(*np.diff(points)) * 2 / (1 + half)
+    size = tangent_length(points[:, :-1], tangents[:, :-1], points[:, 1:], tangents[:, 1:])
     ahead, behind = points[:, :-1] + size / 3 * tangents[:, :-1], points[:, 1:] - size / 3 * tangents[:, 1:]
     between = np.stack([ahead, behind], axis=2).reshape(2, -1)
     knots = np.repeat(np.append(0.0, np.cumsum(size)), 2)

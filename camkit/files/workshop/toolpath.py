@@ -22,7 +22,7 @@ from ...motion.closing import TURN
 from ...quantities.kinds import one_number
 from ...quantities.types import Array
 from ...units import deg, mm
-from .arcs import ArcPath, biarcs
+from .arcs import dense_path
 from .contours import Swept, contours
 from .curves import Contour, Stretch, arc, joined
 from .subject import Subject, subjects
@@ -200,14 +200,7 @@ def _finer(line: Contour) -> Contour:
 
 def _tool(walls: Sequence[Contour], radius: float) -> Swept:
     """The tool with its centre everywhere on the walls: where its own centre must not be."""
-    return Swept(np.hstack([wall.points for wall in walls]), radius, tuple(map(fine, walls)))
-
-
-def fine(line: Contour) -> ArcPath:
-    """A line of points as dense as these are, as arcs that lie on it."""
-    parts = [biarcs(part) for part in line.stretches]
-    corners = np.hstack([*(each[:, :-1] for each, _ in parts), parts[-1][0][:, -1:]])
-    return ArcPath(line.layer, corners, np.concatenate([bulges for _, bulges in parts]), False)
+    return Swept(np.hstack([wall.points for wall in walls]), radius, tuple(dense_path(wall, 1) for wall in walls))
 
 
 def _parallel(wall: Contour, away: float) -> _Parallel:
