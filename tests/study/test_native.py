@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from camkit import Measure, Study, TranslatingRollerCam, deg, mm
+from camkit import Measure, Study, TranslatingRollerCam, deg, mm, quick_front
 from camkit.cam import base_radius, max_pressure_angle, min_convex_radius, peak_force
 from camkit.motion import Cycloidal, ModifiedSine
+from camkit.search.fast_front import _roughly
 from camkit.study import native, weighted
 
 pytest.importorskip("llvmlite")
@@ -154,3 +155,15 @@ def test_where_a_last_digit_may_lead_elsewhere_numpy_answers():
         found = of.evaluate(x)
     expected = np.concatenate([by_numpy(of, x[k : k + 64]).f for k in range(0, 300, 64)])
     assert_array_equal(found.f, expected)
+
+
+def test_a_quick_front_is_the_same_whoever_answers():
+    free = {"base_radius": (25 * mm, 60 * mm), "roller_radius": (4 * mm, 8 * mm)}
+    of = study().replace(free=free, minimise=(base_radius, peak_force), at_least={base_radius: 42.5 * mm})
+    with native.numpy_alone():
+        alone = quick_front(of)
+    ready(_roughly(of))
+    ready(of)
+    both = quick_front(of)
+    assert_array_equal(both.x, alone.x)
+    assert_array_equal(both.f, alone.f)
