@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from ...quantities import Paths, Quantity, words
 from ...quantities.kinds import one_number, refuse_arguments
-from ...study.tolerances import Tolerances
 from ...units import um
 from .arcs import distances
 from .blank import Blank
 from .contours import STEPS, contours
+from .deviations import Within, half_widths
 from .dimensions import Words
+from .inspection import largest_deviation
 from .layout import Plan, Sheet, sheets_of
 from .pdf import pdf_of
 from .subject import subjects
@@ -34,7 +33,7 @@ def write_drawing(
     path: str | Path,
     *,
     blank: Blank = Blank(),
-    tolerances: Tolerances | Mapping[str, object] | None = None,
+    tolerances: Within | None = None,
     profile_tolerance: float = 0.0,
     sheet: str = "A3",
     scale: float | None = None,
@@ -75,7 +74,7 @@ def drawing(
     ending: str,
     *,
     blank: Blank = Blank(),
-    tolerances: Tolerances | Mapping[str, object] | None = None,
+    tolerances: Within | None = None,
     profile_tolerance: float = 0.0,
     sheet: str = "A3",
     scale: float | None = None,
@@ -88,7 +87,7 @@ def drawing(
     parts = subjects(cam)
     given = half_widths(parts[0].design, tolerances)
     said_as = Words(length_unit(unit), given)
-    zone = _above_0(profile_tolerance, "the profile tolerance", least=0.0) or profile_zone(given)
+    zone = _above_0(profile_tolerance, "the profile tolerance", least=0.0) or 2 * largest_deviation(parts, given)
     plan = Plan(parts, said_as, title, blank, sheet, None if scale is None else _above_0(scale, "the scale"), zone)
     sheets = sheets_of(plan)
     deviation = max(_read_back(sheet) for sheet in sheets if sheet.seen is not None)
@@ -102,20 +101,8 @@ def drawing(
     return Made(data, what, deviation, remarks)
 
 
-def half_widths(design: object, given: Tolerances | Mapping[str, object] | None) -> dict[str, float]:
-    """Half widths of tolerances by path, SI; ``ValueError`` in a sentence for a path that the design does not have."""
-    halves: Mapping[str, object] = given.half_widths if isinstance(given, Tolerances) else given or {}
-    Paths(design, halves, Quantity)
-    return {path: _above_0(half, f"the tolerance of the {words(path)}", least=0.0) for path, half in halves.items()}
-
-
 def _above_0(value: object, what: str, least: float = 1e-6) -> float:
     return one_number(value, what, f"be finite and at least {least:g}", lambda x: least <= x < np.inf)
-
-
-def profile_zone(given: Mapping[str, float]) -> float:
-    """Twice the tolerance of the base radius, m; 0: it has none."""
-    return 2 * max((half for path, half in given.items() if path.rpartition(".")[2] == "base_radius"), default=0.0)
 
 
 def _read_back(sheet: Sheet) -> float:

@@ -14,7 +14,9 @@ from ...quantities.kinds import one_number
 from ...study.study import Study
 from ...units import mm
 from .blank import Blank
+from .deviations import half_widths
 from .faults import has_profile
+from .inspection import largest_deviation
 from .subject import DRAWN, JOINTED, analysis_of, design_of, subjects
 from .tables import LIMIT, table
 from .title import TitleBlock
@@ -39,12 +41,10 @@ class Order:
         object.__setattr__(self, "unit", length_unit(self.unit))
         one_number(self.tool_radius, "the radius of the tool", "lie above 0 and be finite", lambda r: 0 < r < np.inf)
 
-    @property
+    @cached_property
     def limits(self) -> tuple[float, float]:
         """How far a point of the profile may be off, m: the same in the drawing and in the inspection file."""
-        from .drawing import half_widths, profile_zone
-
-        half = profile_zone(half_widths(self.design, self.tolerances)) / 2 or LIMIT
+        half = largest_deviation(subjects(self.cam), half_widths(self.design, self.tolerances)) or LIMIT
         return -half, half
 
     @property
@@ -166,7 +166,7 @@ def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], b
             unit=order.unit,
             title=order.title,
             tool_radius=order.tool_radius,
-            limits=order.limits,
+            limits=order.limits if kind == "inspection" else (-LIMIT, LIMIT),
         )
 
     return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", words, use, make, of)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
 from ...geometry import rotated
-from ...quantities.types import Array
+from ...quantities.types import Array, Value
 from .columns import Table, Units, stacked
 from .curves import Contour, Stretch
+from .deviations import NOTHING, deviations
 from .named import named_contours
 from .sheets import Column
 from .subject import Subject
@@ -18,30 +20,55 @@ POINTS = 360
 """Of every contour."""
 
 
-def inspection_columns(subject: Subject, units: Units, limits: tuple[float, float], count: int = POINTS) -> Table:
+def inspection_columns(
+    subject: Subject,
+    units: Units,
+    limits: tuple[float, float],
+    halves: Mapping[str, float] = MappingProxyType({}),
+    count: int = POINTS,
+) -> Table:
     """Points of every contour that is cut at even distances, with unit normals and the limits of their deviation.
 
     X, Y, Z are nominal, I, J, K the normal, out of the material; a deviation is measured along it, above 0 where there
-    is too much.  ``limits`` are the lower and the upper one, m.
+    is too much.  ``limits`` are the lower and the upper one, m; with the half widths of tolerances that move the cam
+    every point has limits of its own (see `deviations`).
     """
     probed = _of_a_drum(subject, count) if subject.drum else _of_a_disk(subject, count)
-    tables = {name: _columns(points, normals, units, limits) for name, (points, normals) in probed.items()}
+    within = {name: deviations(subject, halves, *both) for name, both in probed.items()}
+    moved = any(abs(each).max() > NOTHING for both in within.values() for each in both)
+    tables = {name: _columns(*both, units, within[name] if moved else limits) for name, both in probed.items()}
     table = stacked(tables, "curve")
     return {"point": np.arange(1.0, 1 + len(table["curve"])), **table}
 
 
-def _columns(points: Array, normals: Array, units: Units, limits: tuple[float, float]) -> Table:
+def largest_deviation(cams: Sequence[Subject], halves: Mapping[str, float]) -> float:
+    """Of any point of some cams along its normal, to either side, with sizes within half widths (see `deviations`), m.
+
+    >>> from camkit import TranslatingRollerCam, um
+    >>> from .subject import subjects
+    >>> round(largest_deviation(subjects(TranslatingRollerCam()), {"base_radius": 20 * um}) / um, 2)
+    20.0
+    """
+    found = [deviations(cam, halves, *both) for cam in cams for both in _probed(cam, POINTS).values()]
+    return float(np.max(np.abs(found)))
+
+
+def _columns(points: Array, normals: Array, units: Units, limits: tuple[Value, Value]) -> Table:
     columns: dict[str, Column] = {}
     for name, values in zip("XYZ", points, strict=True):
         columns |= units.column(name, "length", values)
     columns |= dict(zip("IJK", normals, strict=True))
     for name, limit in zip(("lower limit", "upper limit"), limits, strict=True):
-        columns |= units.column(name, "length", np.full(points.shape[1], limit))
+        columns |= units.column(name, "length", limit + np.zeros(points.shape[1]))
     return columns
 
 
 Probed = dict[str, tuple[Array, Array]]
 """Points and normals in space, ``(3, n)``, by the name of their curve."""
+
+
+def _probed(subject: Subject, count: int) -> Probed:
+    return _of_a_drum(subject, count) if subject.drum else _of_a_disk(subject, count)
 
 
 def _of_a_disk(subject: Subject, count: int) -> Probed:

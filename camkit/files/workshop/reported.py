@@ -19,9 +19,9 @@ from ...study.study import Study
 from ...study.tolerances import CONFIDENCE, Tolerances
 from ..decisions import Decision
 from ..sessions import Session
+from .deviations import Within
 from .subject import analysis_of, design_of
 
-Within = Tolerances | Mapping[str, object]
 """Parts that are made, or half widths by path (SI)."""
 Limit = tuple[Measure, float, int]
 """A measure without its sign, its limit (SI), and +1 for at most, -1 for at least."""

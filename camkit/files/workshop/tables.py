@@ -16,6 +16,7 @@ from ...units import deg, in_unit, mm, um
 from .cad_curves import CAD, cad_curve
 from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked, wheel_columns
 from .controllers import FORMS, controller_table
+from .deviations import Within, half_widths
 from .inspection import inspection_columns
 from .joints import joint_columns
 from .named import curves_of
@@ -52,6 +53,7 @@ def write_table(
     curve: str = "",
     tool_radius: float = 5 * mm,
     limits: tuple[float, float] = (-LIMIT, LIMIT),
+    tolerances: Within | None = None,
     decimal: str = ".",
 ) -> Written:
     """Write a table of a design, an analysis or a panel, of one of `KINDS`; as CSV or XLSX, by the ending of ``path``.
@@ -59,7 +61,8 @@ def write_table(
     ``unit`` is ``"mm"`` or ``"in"``; with inches forces are in lbf and torques in lbf in.  ``step`` (rad) is that of
     the rows of ``polar``, ``wheel``, ``motion`` and cam tables, which also have rows where the motion needs them.
     ``tool_radius`` (m) is that of the wheel (see `tool_path`), ``limits`` (m) are those of the deviation of every
-    probed point.  The first row are headings with units, the last column's says
+    probed point; with ``tolerances`` (half widths by path, SI, or `Tolerances`) that move the cam they are what the
+    worst part within them deviates by, point by point.  The first row are headings with units, the last column's says
     where the table comes from (`title`) and is empty below; a decimal comma goes with semicolons.  Both cams of a pair
     stand below each other, as they are on their shaft.
 
@@ -87,6 +90,7 @@ def write_table(
         curve=curve,
         tool_radius=tool_radius,
         limits=limits,
+        tolerances=tolerances,
         decimal=decimal,
     )
     return written(more, path)
@@ -103,6 +107,7 @@ def table(
     curve: str = "",
     tool_radius: float = 5 * mm,
     limits: tuple[float, float] = (-LIMIT, LIMIT),
+    tolerances: Within | None = None,
     decimal: str = ".",
 ) -> Made:
     """The same as bytes, with the ``ending`` of the file's name."""
@@ -117,7 +122,11 @@ def table(
         motion = _one_of(_motions(cam), curve, "motion")
         return controller_table(motion.cam.motion, kind, unit if slides(motion) else "deg", step)
     path = tool_path(cam, tool_radius) if kind == "wheel" else None
-    columns = {"": wheel_columns(path, Units(unit), step)} if path else _columns(cam, kind, Units(unit), step, limits)
+    columns = (
+        {"": wheel_columns(path, Units(unit), step)}
+        if path
+        else _columns(cam, kind, Units(unit), step, limits, tolerances)
+    )
     whole = stacked(columns, "cam")
     data = Sheet(whole, lines).written(ending, decimal)
     rows = len(next(iter(whole.values())))
@@ -126,7 +135,9 @@ def table(
     return Made(data, f"{rows} rows of {kind}", away, remarks)
 
 
-def _columns(cam: object, kind: str, units: Units, step: float, limits: tuple[float, float]) -> Mapping[str, Table]:
+def _columns(
+    cam: object, kind: str, units: Units, step: float, limits: tuple[float, float], tolerances: Within | None
+) -> Mapping[str, Table]:
     """The columns of a table of every cam by name, or of the one mechanism."""
     if kind == "joints":
         joints = joint_columns(analysis_of(cam), units)
@@ -137,7 +148,7 @@ def _columns(cam: object, kind: str, units: Units, step: float, limits: tuple[fl
         "profile": lambda one: profile_columns(one, units),
         "polar": lambda one: polar_columns(one, units, step),
         "motion": lambda one: motion_columns(one, units, step),
-        "inspection": lambda one: inspection_columns(one, units, _limits(limits)),
+        "inspection": lambda one: inspection_columns(one, units, _limits(limits), half_widths(one.design, tolerances)),
     }[kind]
     return {one.name: make(one) for one in subjects(cam)}
 
