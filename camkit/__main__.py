@@ -24,7 +24,7 @@ from .files.schema import text as schema_text
 from .files.workshop.exports import EXPORTS, Export, Order, exports_of
 from .files.workshop.faults import verdicts
 from .files.workshop.written import length_unit, written
-from .quantities import Analysable, choices_of, measures_of, quantities_of
+from .quantities import Analysable, choices_of, measures_of, quantities_of, words
 from .quantities.applied import a_new_file
 from .search import Front, Step, front_of, search
 from .search.checkpoint import remove_parts, write_whole
@@ -284,7 +284,9 @@ def _ask_export(one: argparse.ArgumentParser) -> None:
     for name in _titles():
         one.add_argument(f"--{name}", default="", help=f"{name} in the title block")
     for name, declared in quantities_of(Blank()).items():
-        one.add_argument(f"--{name.replace('_', '-')}", dest=name, help=f"of the blank, {declared.meaning}")
+        one.add_argument(
+            f"--{name.replace('_', '-')}", dest=name, help=f"{words(name)} of the blank: {declared.meaning}"
+        )
     for name, choice in choices_of(Blank()).items():
         one.add_argument(f"--{name}", dest=name, help=f"{choice.meaning}: {', '.join(choice.named)}")
 

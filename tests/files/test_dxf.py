@@ -238,6 +238,12 @@ def test_a_pair_is_one_drawing_with_numbered_layers():
     assert {"CAM1", "PITCH1", "CAM2", "PITCH2"} <= layers
 
 
+def test_a_drum_says_from_where_it_is_seen_and_how_it_turns():
+    told = " ".join(dxf(BarrelCam(rotation=-1), unit="in").remarks)
+    assert "unrolled at the mean radius 2.3622 in, seen from outside" in told
+    assert told.endswith("the drum turns clockwise as seen from below, along the rise")
+
+
 def test_a_drum_is_unrolled():
     document = opened(made("drum").data)
     walls = document.modelspace().query('LWPOLYLINE[layer=="GROOVE"]')

@@ -69,7 +69,7 @@ def controller_table(program: MotionProgram, form: str, unit: str, step: float =
     place = (rows.angle[:-1] + np.diff(rows.angle) * np.linspace(0, 1, EVERY)[:, None]).ravel()
     away = form_of.read(data, slopes)(in_unit(place, "deg")) * factor(unit) - program(place).s
     remarks = (form_of.remark.format(*slopes),) if form_of.remark else ()
-    return Made(data, f"{len(master)} rows for {form}", float(abs(away).max()), remarks)
+    return Made(data, f"{len(master)} rows for {form}, master in deg, slave in {unit}", float(abs(away).max()), remarks)
 
 
 def _csv(rows: Iterable[Iterable[object]], delimiter: str = ",") -> str:

@@ -118,4 +118,4 @@ def scale_bar(paper: Paper, place: tuple[float, float], scale: float, unit: str,
         paper.polygon(corners, "thin", INK if i % 2 == 0 else "#ffffff", name="SCALE")
     for value, at in zip((0, length), places[[0, -1]], strict=True):
         paper.text((float(at), y - 1), f"{value:g}", 2.5, "middle")
-    paper.text((float(places[-1]) + 4, y + 1.4), f"{unit} on the cam", 2.5)
+    paper.text((float(places[-1]) + 4, y + 1.4), f"{'inches' if unit == 'in' else unit} on the cam", 2.5)

@@ -16,6 +16,8 @@ from ...units import inch, mm, um
 
 LENGTHS = {"mm": mm, "in": inch}
 """The units in which a workshop works, and what each is worth, m."""
+FINEST = 0.001
+"""Less of a deviation, um, is rounding, and is not said."""
 EARLIEST = (1980, 1, 1, 0, 0, 0)
 """The time of every file in a zip, so that a design gives the same zip again."""
 
@@ -33,8 +35,10 @@ class Made:
     """What whoever uses it should know, in sentences."""
 
     def __str__(self) -> str:
-        away = "" if np.isnan(self.deviation) else f"; read back, at most {self.deviation / um:.2g} um off"
-        return f"{self.what}{away}"
+        if np.isnan(self.deviation):
+            return self.what
+        away = max(self.deviation / um, FINEST) if self.deviation else 0
+        return f"{self.what}; read back, at most {away:.2g} um off"
 
 
 @dataclass(frozen=True)
