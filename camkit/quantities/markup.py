@@ -114,6 +114,15 @@ def _one_line(text: object) -> str:
     return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+", " ", _visible(text))
 
 
+def plain(text: object) -> str:
+    """``text`` in one line of letters that show, which a file of any kind can hold.
+
+    >>> plain("two\\nlines\\ud800 \u51f8\u8f6e")
+    'two lines \u51f8\u8f6e'
+    """
+    return " ".join("".join(c if c.isprintable() else " " for c in _visible(text)).split())
+
+
 def _visible(text: object) -> str:
     """``text`` without what shows nothing but changes what is around it, such as the direction of writing."""
     said = str(text)

@@ -639,3 +639,9 @@ def test_names_of_curves():
     assert list(curves_of(subjects(BarrelCam(groove=False))[0])) == [
         *BarrelCam(groove=False).analyse(31).points_in_space
     ]
+
+
+def test_words_of_a_skeleton_are_no_codes_of_cad():
+    data = skeleton(RSSR(crank=0.02), title=TitleBlock(title="100%%d\n^I \\U+00B0")).data.decode()
+    assert "100% %d ^ I \\ U+00B0" in data
+    assert "%%" not in data

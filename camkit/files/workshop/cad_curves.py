@@ -20,10 +20,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...quantities.kinds import shown
+from ...quantities.markup import plain
 from ...quantities.types import Array
 from ...units import in_unit, um
 from .distance import from_curve
-from .sheets import plain, read_workbook, workbook
+from .sheets import read_workbook, workbook
 from .written import LENGTHS, Made
 
 CAD = {"solidworks": ("sldcrv", "txt"), "inventor": ("xlsx", "csv"), "creo": ("ibl",), "nx": ("dat", "txt")}

@@ -22,7 +22,7 @@ from .blank import Blank
 from .contours import contours
 from .curves import Contour
 from .dxf_read import paths_of
-from .dxf_sheet import Sheet, drawing
+from .dxf_sheet import Sheet, drawing, without_codes
 from .plan import plan
 from .skeleton import skeleton
 from .splines import Spline, splines
@@ -208,7 +208,7 @@ def _sheet(
     left = float(points[0].min()) if cams[0].drum else -size
     about, texts = (_beside_drum if cams[0].drum else _around)(cams[0], points, blank, height)
     lines = [("FAULT", f"FAULTY: {line}") for line in faults] + [("NOTES", line) for line in notes]
-    rows = [(layer, row) for layer, line in lines for row in textwrap.wrap(_plain(line), WRAPPED)]
+    rows = [(layer, row) for layer, line in lines for row in textwrap.wrap(without_codes(line), WRAPPED)]
     at = below - 4 * height
     texts += [(layer, row, left, at - 1.7 * height * k) for k, (layer, row) in enumerate(rows)]
     return Sheet(drawn, about, texts, height)
@@ -251,9 +251,3 @@ def _beside_drum(subject: Subject, points: Array, blank: Blank, height: float) -
 def _line(layer: str, corners: Sequence[object]) -> ArcPath:
     points = np.array(corners, dtype=float).T
     return ArcPath(layer, points, np.zeros(points.shape[1] - 1), False)
-
-
-def _plain(words: str) -> str:
-    """One line of text without the codes that CAD reads in it."""
-    letters = "".join(letter if letter.isprintable() else " " for letter in words)
-    return letters.replace("%%", "% %").replace("^", "^ ").replace("\\U+", "\\ U+").replace("\\M+", "\\ M+")

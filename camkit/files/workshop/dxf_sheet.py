@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...quantities.extras import extra
+from ...quantities.markup import plain
 from ...quantities.types import Array
 from .arcs import ArcPath
 from .splines import Spline
@@ -82,6 +83,16 @@ def _declare(file: Drawing, layers: Iterable[str]) -> None:
     for name in layers:
         look = LAYERS[name.rstrip("12")]
         file.layers.add(name, color=look.colour, linetype=look.line, lineweight=look.weight)
+
+
+def without_codes(words: str) -> str:
+    """One line of text without the codes that CAD reads in it, such as ``%%d`` for a degree.
+
+    >>> without_codes("100%%d")
+    '100% %d'
+    """
+    line = plain(words)
+    return line.replace("%%", "% %").replace("^", "^ ").replace("\\U+", "\\ U+").replace("\\M+", "\\ M+")
 
 
 @contextmanager

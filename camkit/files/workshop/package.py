@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...quantities.kinds import refuse_arguments
+from ...quantities.markup import plain
 from ...study.study import Study
 from ...units import mm
 from .blank import Blank
@@ -86,12 +87,12 @@ def _made(order: Order) -> tuple[list[tuple[Export, Made]], list[str]]:
 
 def _readme(order: Order, made: Sequence[tuple[Export, Made]], lacking: Sequence[str]) -> str:
     """What each file is for, and how far it is off."""
-    lines = [*map(_one_line, order.title.lines(order.kind, order.unit)), *_frame(order), "", "FILES"]
+    lines = [*map(plain, order.title.lines(order.kind, order.unit)), *_frame(order), "", "FILES"]
     for export, each in made:
         told = (f"{export.words}, {export.use}", str(each), *each.remarks)
-        lines += ["", f"{order.kind}{export.ending}", *(f"  {_one_line(line)}" for line in told)]
+        lines += ["", f"{order.kind}{export.ending}", *(f"  {plain(line)}" for line in told)]
     if lacking:
-        lines += ["", "NOT MADE", "", *(f"  {_one_line(line)}" for line in lacking)]
+        lines += ["", "NOT MADE", "", *(f"  {plain(line)}" for line in lacking)]
     return "\n".join(lines) + "\n"
 
 
@@ -101,7 +102,3 @@ def _frame(order: Order) -> list[str]:
         return []
     first, *_ = subjects(order.design)
     return [(UNROLLED if first.drum else FRAME).format(first.turns)]
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())

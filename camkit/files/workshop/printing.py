@@ -13,7 +13,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ...quantities.extras import extra
-from ...quantities.markup import escaped
+from ...quantities.markup import escaped, plain
 from ...quantities.types import Array
 from ...units import mm, um
 from .blank import Blank
@@ -121,7 +121,7 @@ def _object(number: int, body: Body, unit: float) -> str:
     points = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in body.mesh.points / unit)
     triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in body.mesh.triangles)
     mesh = f"<mesh><vertices>{points}</vertices><triangles>{triangles}</triangles></mesh>"
-    return f'<object id="{number}" type="model" name={quoteattr(_plain(body.name))}>{mesh}</object>'
+    return f'<object id="{number}" type="model" name={quoteattr(plain(body.name))}>{mesh}</object>'
 
 
 def read_3mf(data: bytes) -> Mesh:
@@ -192,10 +192,5 @@ def _read_back(data: bytes, read: Mesh, bodies: Sequence[Body], tolerance: float
     return Made(data, f"{pieces} of {len(read.triangles)} triangles, {read.volume / mm**3:.6g} mm3{said}", away)
 
 
-def _plain(text: str) -> str:
-    """Without characters that no XML file may hold."""
-    return "".join(c if c.isprintable() else " " for c in text)
-
-
 def _text(text: str) -> str:
-    return escaped(_plain(text))
+    return escaped(plain(text))

@@ -19,7 +19,7 @@ import numpy as np
 
 from ...quantities.extras import extra
 from ...quantities.kinds import shown
-from ...quantities.markup import csv_cell
+from ...quantities.markup import csv_cell, plain
 from ...quantities.types import Array
 from .written import zipped
 
@@ -57,17 +57,8 @@ class Sheet:
         return workbook([self.headings, *self.rows]) if ending == "xlsx" else _text(self, decimal)
 
 
-def plain(words: object) -> str:
-    """Words in one line of letters that show, which every file can hold.
-
-    >>> plain("two\\nlines\\ud800 凸轮")
-    'two lines 凸轮'
-    """
-    return " ".join("".join(c if c.isprintable() else " " for c in str(words)).split())
-
-
 def cell(words: object) -> str:
-    """The same, and nothing that a spreadsheet takes for a formula.
+    """Plain words, and nothing that a spreadsheet takes for a formula.
 
     >>> cell("=1+1")
     "'=1+1"

@@ -15,7 +15,7 @@ from ...quantities import Quantity, declarations, words
 from ...quantities.extras import extra
 from ...quantities.types import Array
 from ...units import in_unit, mm
-from .sheets import plain
+from .dxf_sheet import without_codes
 from .subject import analysis_of, design_of
 from .title import TitleBlock
 from .written import LENGTHS, Made, length_unit
@@ -154,7 +154,7 @@ def _dxf(drawn: Sequence[Drawn], lines: Sequence[str], unit: str) -> bytes:
             space.add_polyline3d(line, dxfattribs={"layer": layer})
     height = in_unit(TEXT, unit)
     corner = in_unit(np.min([points.min(-1) for _, points in drawn], axis=0), unit)
-    for k, text in enumerate(map(plain, lines), 1):
+    for k, text in enumerate(map(without_codes, lines), 1):
         where = (float(corner[0]), float(corner[1]) - 2 * k * height)
         space.add_text(text, height=height, dxfattribs={"layer": "NOTES"}).set_placement(where)
     out = io.StringIO()

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...quantities.markup import plain
 from ...units import mm
 from .title import TitleBlock
 
@@ -63,8 +64,8 @@ def quoted(text: str) -> str:
     >>> print(quoted("a 'cam' é"))
     a ''cam'' \X2\00E9\X0\
     """
-    plain = "".join(c if c.isprintable() else " " for c in text).replace("\\", "\\\\").replace("'", "''")
-    return re.sub(r"[^\x20-\x7e]", lambda c: _by_number(ord(c[0])), plain)
+    line = plain(text).replace("\\", "\\\\").replace("'", "''")
+    return re.sub(r"[^\x20-\x7e]", lambda c: _by_number(ord(c[0])), line)
 
 
 def _by_number(code: int) -> str:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...quantities.markup import Html, attribute, escaped, html
+from ...quantities.markup import Html, attribute, escaped, html, plain
 from ...quantities.types import Array
 
 INK, RED = "#000000", "#c00000"
@@ -77,15 +77,6 @@ class Box(NamedTuple):
             and self.right <= other.right
             and self.bottom <= other.bottom
         )
-
-
-def plain(text: object) -> str:
-    """``text`` in one line, without what a printer cannot set.
-
-    >>> plain("a\\nb\\x00")
-    'a b '
-    """
-    return "".join(c if c.isprintable() else " " for c in str(text) if unicodedata.category(c) != "Cf")
 
 
 def text_width(text: str, size: float = 1.0) -> float:
