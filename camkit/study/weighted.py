@@ -9,6 +9,7 @@ import numpy as np
 
 from ..quantities import CurveMeasure, Measure
 from ..quantities.kinds import finite, listed, one_number, shown
+from ..quantities.known import floats
 from ..quantities.types import Array, Value
 
 
@@ -64,7 +65,7 @@ def added(measure: Measure, values: Iterator[Array]) -> Array:
     if not isinstance(measure, WeightedSum):
         return next(values)
     told = zip(measure.weights, measure.reference, measure.parts, strict=True)
-    return np.asarray(measure.sign * sum(w * next(values) / r for w, r, _ in told))
+    return floats(measure.sign * sum(w * next(values) / r for w, r, _ in told))
 
 
 def checked_weight(value: object, of: str) -> float:
