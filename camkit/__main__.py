@@ -21,7 +21,7 @@ from .files import Blank, Decision, Session, TitleBlock, faults, to_json, to_wor
 from .files.designs import read_json
 from .files.json_file import MOST_BYTES
 from .files.schema import text as schema_text
-from .files.workshop.exports import EXPORTS, Export, Order, exports_of
+from .files.workshop.exports import EXPORTS, TABLES, Export, Order, exports_of
 from .files.workshop.faults import verdicts
 from .files.workshop.written import length_unit, written
 from .quantities import Analysable, choices_of, measures_of, quantities_of, words
@@ -42,6 +42,7 @@ EXAMPLES = """
 examples:
   camkit check cam.json                        what it measures, which limits it keeps, what is wrong with it
   camkit export cam.json --dxf --unit in       one file, beside the others of its name
+  camkit export cam.json --table radii motion  tables, by their kinds
   camkit export cam.json --all --out made      every file that can be made of it, in the folder made
   camkit export cam.json --zip --bore 20mm --key "DIN 6885-1" --author "M. Curie"
   camkit optimise study.json --seed 1 --generations 200 --out found.json
@@ -51,6 +52,8 @@ exit codes:
   0  done, and nothing is wrong     1  the design is faulty, or none keeps every limit
   2  the command or a file cannot be read     130  stopped
 """
+
+KINDS = "kinds of tables:\n" + "\n".join(f"  {each.key:10}  {each.words}, {each.use}" for each in TABLES) + "\n"
 
 
 class Opened(NamedTuple):
@@ -121,11 +124,13 @@ def export(asked: argparse.Namespace) -> int:
     """Write the files that are asked for."""
     found, folder = opened(asked.file), Path(asked.out)
     order = _order(asked, found)
-    chosen = [each for each in exports_of(order) if asked.all or getattr(asked, _flag(each))]
+    there = exports_of(order)
+    chosen = [each for each in there if asked.all or each.key in (*asked.files, *asked.table)]
+    if lacking := {*asked.files, *asked.table} - {each.key for each in there}:
+        raise ValueError(f"of a {order.kind} there is no {', '.join(sorted(lacking))}; there can be {_options(there)}")
     if not (chosen or asked.zip):
-        keys = ", ".join(f"--{each.key}" for each in exports_of(order))
-        raise ValueError(f"no file is asked for; of a {order.kind} there can be {keys}, --all or --zip")
-    wrong = faults(order.cam, order.study, order.tolerances, blank=order.blank)
+        raise ValueError(f"no file is asked for; of a {order.kind} there can be {_options(there)}, --all or --zip")
+    wrong = faults(order.design, order.study, order.tolerances, blank=order.blank)
     if wrong and not asked.insist:
         print(
             f"FAULTY: {'; '.join(wrong)}; nothing is written; --insist writes it, marked on every sheet",
@@ -143,7 +148,7 @@ def export(asked: argparse.Namespace) -> int:
 def _zip(order: Order, folder: Path, insist: bool) -> object:
     title = replace(order.title, faults=())
     return to_workshop(
-        order.cam,
+        order.analysis,
         folder / f"{order.kind}.zip",
         study=order.study,
         unit=order.unit,
@@ -194,8 +199,11 @@ def _titles() -> list[str]:
     return [field.name for field in fields(TitleBlock) if field.name != "faults"]
 
 
-def _flag(each: Export) -> str:
-    return f"export_{each.key}"
+def _options(exports: Sequence[Export]) -> str:
+    """How files are asked for."""
+    tables = [each.key for each in exports if each in TABLES]
+    flags = ", ".join(f"--{each.key}" for each in exports if each not in TABLES)
+    return f"{flags}, --table {' '.join(tables)}" if tables else flags
 
 
 # ---------------------------------------------------------------- optimise
@@ -262,7 +270,8 @@ def parser() -> argparse.ArgumentParser:
     each = top.add_subparsers(required=True, metavar="command")
     for act in (check, export, optimise, schema):
         about = (act.__doc__ or "").strip()
-        one = each.add_parser(act.__name__, help=about, description=about, epilog=EXAMPLES, formatter_class=plain)
+        more = f"{KINDS}{EXAMPLES}" if act is export else EXAMPLES
+        one = each.add_parser(act.__name__, help=about, description=about, epilog=more, formatter_class=plain)
         if act is not schema:
             one.add_argument("file", help="a JSON file that camkit saved: a design, a study, a front or a decision")
         one.set_defaults(act=act)
@@ -271,24 +280,40 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _ask_export(one: argparse.ArgumentParser) -> None:
-    for each in EXPORTS:
-        one.add_argument(f"--{each.key}", action="store_true", dest=_flag(each), help=f"{each.words}: {each.use}")
-    one.add_argument("--all", action="store_true", help="every file that can be made")
-    one.add_argument(
-        "--zip", action="store_true", help="all of them in one zip, with a text that says what each is for"
-    )
+    _ask_files(one.add_argument_group("which files"))
     one.add_argument("--out", default=".", help="the folder (default: this one)")
     one.add_argument("--unit", default="mm", help="mm or in")
-    one.add_argument("--tool-radius", default="5mm", help="of cutter or grinding wheel (default: 5mm)")
+    one.add_argument("--tool-radius", default="5mm", metavar="SIZE", help="of cutter or grinding wheel (default: 5mm)")
     one.add_argument("--insist", action="store_true", help="write a faulty design nevertheless, marked on every sheet")
+    said, blank = one.add_argument_group("what the sheets say"), one.add_argument_group("what the cam is cut from")
     for name in _titles():
-        one.add_argument(f"--{name}", default="", help=f"{name} in the title block")
+        said.add_argument(f"--{name}", default="", metavar="TEXT", help=f"{name} in the title block")
     for name, declared in quantities_of(Blank()).items():
-        one.add_argument(
-            f"--{name.replace('_', '-')}", dest=name, help=f"{words(name)} of the blank: {declared.meaning}"
-        )
+        meaning = f"{words(name)}: {declared.meaning}"
+        blank.add_argument(f"--{name.replace('_', '-')}", dest=name, metavar="SIZE", help=meaning)
     for name, choice in choices_of(Blank()).items():
-        one.add_argument(f"--{name}", dest=name, help=f"{choice.meaning}: {', '.join(choice.named)}")
+        blank.add_argument(f"--{name}", dest=name, metavar="NAME", help=f"{choice.meaning}: {', '.join(choice.named)}")
+
+
+def _ask_files(group: argparse._ArgumentGroup) -> None:
+    group.add_argument("--all", action="store_true", help="every file that can be made")
+    group.add_argument(
+        "--zip", action="store_true", help="all of them in one zip, with a text that says what each is for"
+    )
+    for each in EXPORTS:
+        if each not in TABLES:
+            told = f"{each.words}: {each.use}"
+            group.add_argument(f"--{each.key}", action="append_const", dest="files", const=each.key, help=told)
+    group.add_argument(
+        "--table",
+        nargs="+",
+        action="extend",
+        default=[],
+        choices=[each.key for each in TABLES],
+        metavar="KIND",
+        help="one or more of the kinds below",
+    )
+    group.set_defaults(files=[])
 
 
 def _ask_optimise(one: argparse.ArgumentParser) -> None:

@@ -117,6 +117,19 @@ def test_files_that_are_asked_for(files, capsys):
     assert [path.name for path in (files / "made").iterdir()] == ["TranslatingRollerCam.json"]
 
 
+def test_tables_by_their_kinds(files, capsys):
+    assert asked(capsys, "export", "cam.json", "--table", "radii", "motion", "--out", "made")[0] == 0
+    assert sorted(path.name for path in (files / "made").iterdir()) == [
+        "TranslatingRollerCam-motion.csv",
+        "TranslatingRollerCam-radii.csv",
+    ]
+    code, _, err = asked(capsys, "export", "cam.json", "--table", "joints")
+    assert code == 2
+    assert "of a TranslatingRollerCam there is no joints; there can be --json, --dxf" in err
+    assert "--table " in err
+    assert "csv radii motion workbook" in err
+
+
 def test_all_files_and_the_zip_are_the_same_files(files, capsys):
     date = ("--date", "2026-11-30")
     assert asked(capsys, "export", "cam.json", "--all", "--out", "made", *date)[0] == 0

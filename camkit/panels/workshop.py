@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ..files import Blank, TitleBlock, faults
 from ..files.workshop.exports import Order, exports_of
-from ..files.workshop.faults import has_profile
+from ..files.workshop.faults import YIELD, has_profile
 from ..files.workshop.package import package
+from ..files.workshop.reported import study_of
 from ..quantities import Quantity, choices_of, quantities_of, value_of
 from ..quantities.kinds import refuse_arguments
+from ..study.robust import RobustStudy
 from ..study.study import Study
 from ..units import mm
 from .instrument import Instrument
+from .kit.design_files import living_page
 from .kit.inputs import Check, Input, Menu, Number, Typed
 from .kit.latest_only import Debounced, LatestOnly
 from .kit.parts import Banner, Button, Group, Table, Words, bold, row
@@ -29,6 +33,10 @@ BLANK = "What the cam is cut from, and the tool:"
 SOUND = "Nothing is wrong with it."
 INSIST = "Make it nevertheless: every sheet is marked FAULTY"
 HEADS = ("file", "what it is for")
+
+
+class Stopped(Exception):
+    """Somebody has pressed Stop."""
 
 
 class WorkshopPanel(Sheet):
@@ -55,11 +63,12 @@ class WorkshopPanel(Sheet):
         self.insist = Check(description=INSIST, visible=False)
         self.insist.observe(lambda _: self._show_button(), "value")
         self.button = Button("To the workshop", self.make, primary=True, tooltip="all files in one zip")
+        self.stop = Button("Stop", self._stop, visible=False, tooltip="after the file that is being made")
         self.files, self.lacking = Table(), Words(look="hint")
         self.fold = Group(self.files, look="fold")
         self._judged = Debounced(self._judge, QUIET)
         self._wrong: tuple[str, ...] = ()
-        self._possible = True
+        self._possible, self._stopping = True, False
         self._worker = LatestOnly(lambda task: self._make(*task))
         super().__init__(*self._body(), heading="To the workshop")
         self._judge()
@@ -71,7 +80,7 @@ class WorkshopPanel(Sheet):
 
     def _body(self) -> tuple[Group, ...]:
         cam = has_profile(self.explorer.analysis)
-        said = Group(self.banner, self.verdict, self.insist, row(self.button, self.status), look="stays")
+        said = Group(self.banner, self.verdict, self.insist, row(self.button, self.stop, self.status), look="stays")
         sheets = row(*self.title.values(), self.unit, look="sheets")
         sizes = Group(*self.sizes.values(), self.tool, look="grid")
         blank = Group(row(Words(value=[BLANK], look="hint"), self.key), sizes, visible=cam)
@@ -83,9 +92,19 @@ class WorkshopPanel(Sheet):
     def order(self) -> Order:
         """What is to be made of the design in the sliders, as the form says."""
         title = TitleBlock(**{name: box.value for name, box in self.title.items()})
-        return Order(
-            self.explorer.design, str(self.unit.value), title, self.blank, self.tool.value, tolerances=self._halves
-        )
+        app, unit = self.explorer, str(self.unit.value)
+        page = (living_page(app.html),)
+        return Order(app, unit, title, self.blank, self.tool.value, self.asked, self._halves, page)
+
+    @property
+    def asked(self) -> Study | None:
+        """What is asked of the design: in a tab, such as *Study*, or else by the limits of the instrument."""
+        app = self.explorer
+        found = (study_of(sheet) for tab in app.tabs for sheet in tab["sheets"])
+        study = next(filter(None, found), app.judged)
+        if study is None or not study.limits or isinstance(study, RobustStudy) or not app.tolerances:
+            return study
+        return study.under(app.tolerances, YIELD)
 
     @property
     def _halves(self) -> dict[str, object] | None:
@@ -106,9 +125,10 @@ class WorkshopPanel(Sheet):
     def _judge(self) -> None:
         """Say what is wrong with the design, but for its yield, which takes longer; and which files there can be."""
         self.status.say()
-        study = self.explorer.judged
-        self._put_faults(faults(self.explorer.design, study and study.nominal, blank=self.blank))
-        rows = [(f"{self.order.kind}{each.ending}", each.use) for each in exports_of(self.order)]
+        order = self.order
+        study = order.study and order.study.nominal
+        self._put_faults(faults(order.design, study, blank=order.blank))
+        rows = [(f"{order.kind}{each.ending}", each.use) for each in exports_of(order)]
         with self.held():
             self.files.put(HEADS, rows)
             self.fold.description = f"The files in the zip ({len(rows)})"
@@ -128,32 +148,44 @@ class WorkshopPanel(Sheet):
     def make(self) -> None:
         """Give the page the zip as soon as it is made."""
         self._judged.settle()
-        self.banner.show_message("")
-        self.lacking.say()
-        self.status.say("The files are made and read back ...")
-        self._worker.ask((self.order, self.explorer.judged, self.insist.value))
+        html, self._stopping = self.explorer.html(), False
+        self._say("What is wrong is looked for ...", busy=True)
+        self._worker.ask((replace(self.order, more=(living_page(lambda: html),)), self.insist.value))
+
+    def _stop(self) -> None:
+        self._stopping = True
+        self.status.say("It stops after this file ...")
+
+    def _say_file(self, file: str) -> None:
+        """Which file is being made, unless somebody has pressed Stop."""
+        if self._stopping:
+            raise Stopped
+        self.status.say(f"{file} ...")
 
     def settle(self) -> None:
         """Wait until the design is judged and the zip that was asked for is made."""
         self._judged.settle()
         self._worker.wait()
 
-    def _make(self, order: Order, study: Study | None, insist: bool) -> None:
+    def _make(self, order: Order, insist: bool) -> None:
         try:
-            wrong = faults(order.cam, study, blank=order.blank)
+            wrong = faults(order.design, order.study, blank=order.blank)
             if wrong and not insist:
                 self._put_faults(wrong)
                 self._say("")
                 return
-            made = package(order, wrong, insist)
+            made = package(order, wrong, insist, self._say_file)
+        except Stopped:
+            self._say("Stopped: there is no zip.")
         except Exception as error:  # of a mechanism of somebody's own: the page stays alive
             self._say("", f"Nothing is made: {reason(error)}.")
-            return
-        self._say(f"{made}.", lacking=made.remarks[len(wrong) :])
-        self.send({"name": f"{order.kind}.zip", "mime": "application/zip"}, [made.data])
+        else:
+            self._say(f"{made}.", lacking=made.remarks[len(wrong) :])
+            self.send({"name": f"{order.kind}.zip", "mime": "application/zip"}, [made.data])
 
-    def _say(self, status: str, refusal: str = "", lacking: Sequence[str] = ()) -> None:
+    def _say(self, status: str, refusal: str = "", lacking: Sequence[str] = (), busy: bool = False) -> None:
         with self.held():
             self.status.say(status)
+            self.stop.visible = busy
             self.banner.show_message(refusal)
             self.lacking.say(*(f"Not made: {sentence}" for sentence in lacking))

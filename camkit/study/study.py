@@ -79,6 +79,10 @@ class Evaluation:
         return np.isfinite(self.f).all(-1) & (self.missed == 0).all(-1)
 
 
+NOTHING = Measure("nothing", "", lambda analysis: 0.0)
+"""To minimise where limits alone count."""
+
+
 @dataclass(frozen=True)
 class Study(Generic[D]):
     """Search space, objectives and limits around a starting design.

@@ -134,6 +134,16 @@ def test_the_page_prints_what_the_report_says(unit) -> None:
         }
 
 
+def test_a_panel_with_limits_and_tolerances_shows_them() -> None:
+    limit, within = {max_pressure_angle: 25 * deg}, {"base_radius": 0.1 * mm}
+    told = report_of(reported(explore(TranslatingRollerCam(), at_most=limit, tolerances=within)), TitleBlock(), "mm")
+    assert (told.good, told.verdict) == (True, "Feasible: keeps its limit.")
+    assert (told.measures[0].name, told.measures[0].asked) == (max_pressure_angle.name, "at most 25°")
+    (note,) = told.notes
+    assert note.rows[0] == ("made within", "base radius ±0.1 mm")
+    assert "0 of 1024 parts miss a limit" in dict(note.rows)["yield"]
+
+
 def test_limits_and_the_verdict_are_those_of_the_study() -> None:
     study = door_handle_study()
     good, bad = (report_of(reported(d, study), TitleBlock(), "mm") for d in (decided().design, DoorHandleCam()))

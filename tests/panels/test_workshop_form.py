@@ -7,13 +7,14 @@ import pytest
 from hand import ask, choose, file_of, move
 from sheets import alert, do
 
-from camkit import DoorHandleCam, TranslatingRollerCam, UniversalJointShaft, deg, explore, mm
+from camkit import DoorHandleCam, Study, TranslatingRollerCam, UniversalJointShaft, deg, explore, mm, study_panel
 from camkit.cam import max_pressure_angle
 from camkit.files import from_json
 from camkit.files.workshop import exports
 from camkit.panels.workshop import SOUND, TITLE, WorkshopPanel
 from camkit.study.spread import Tolerance
 
+EXPORTS = exports.EXPORTS
 LIMIT = {max_pressure_angle: 25 * deg}
 HOSTILE = "<script>alert(1)</script>\n=1+1 凸轮"
 
@@ -134,6 +135,46 @@ def test_a_yield_that_is_too_low_is_found_when_the_button_is_pressed():
     assert "FAULTY: the yield is" in pressed(form)[1]["README.txt"].decode()
 
 
+def test_the_zip_has_the_page_the_study_and_a_report_with_limits_and_yield(app, form, monkeypatch):
+    keys = ("json", "page", "study")
+    monkeypatch.setattr(exports, "EXPORTS", tuple(each for each in EXPORTS if each.key in keys))
+    app.tolerances = {"base_radius": 0.1 * mm}
+    files = pressed(form)[1]
+    assert "TranslatingRollerCam-study.json" not in files  # limits alone are no study
+    page = files["TranslatingRollerCam.html"].decode()
+    assert page.startswith("<!doctype html>")
+    assert len(page) > len(app.html()) / 2
+    report = files["TranslatingRollerCam-report.html"].decode()
+    assert "at most 25°" in report
+    assert "Feasible: keeps its limit." in report
+    assert "base radius ±0.1 mm" in report
+    assert "0 of 1024 parts miss a limit" in report
+    study = Study(app.design, ["base_radius"], (-max_pressure_angle,), at_most={max_pressure_angle: 30 * deg})
+    study_panel(app, study)
+    session = from_json(pressed(form)[1]["TranslatingRollerCam-study.json"])
+    assert session.study.at_most == {max_pressure_angle: 30 * deg}
+    assert session.study.tolerances == study.under(app.tolerances).tolerances
+    assert session.design == app.design
+
+
+def test_each_file_is_told_and_stop_ends_it(form, monkeypatch):
+    told = []
+    form.status.observe(lambda change: told.append(form.status.text), "value")
+    pressed(form)
+    assert "Design (JSON), 1 of 3 ..." in told
+    assert not form.stop.visible
+    first, *others = exports.EXPORTS
+
+    def stopped(order):
+        form.stop.click()
+        return first.make(order)
+
+    monkeypatch.setattr(exports, "EXPORTS", (first._replace(make=stopped), *others))
+    assert pressed(form) == ("", {})
+    assert form.status.text == "Stopped: there is no zip."
+    assert not form.stop.visible
+
+
 def test_undercut_and_a_shaft_without_a_profile():
     form = opened(explore(DoorHandleCam()))
     assert "relief groove undercut" in form.verdict.text
@@ -154,8 +195,10 @@ def test_a_design_of_another_make_is_judged_too(app, form):
 
 
 def test_what_the_menu_offers_and_a_kind_that_there_is_not(app):
-    kinds = [kind for kind, _ in app.structure["files"]]
-    assert kinds[:4] == ["json", "html", "picture-svg", "picture-pdf"]
+    kinds, _, groups = zip(*app.structure["files"], strict=True)
+    assert kinds[:3] == ("json", "html", "dxf")
+    assert list(dict.fromkeys(groups)) == [group for group in exports.GROUPS if group in groups]
+    assert dict(zip(kinds, groups, strict=True))["picture-svg"] == "Records"
     assert len(kinds) == len(set(kinds))
     assert "study" not in kinds
     assert file_of(app, "dxf").startswith(b"  0")

@@ -15,7 +15,7 @@ from .deviations import Within, half_widths
 from .dimensions import Words
 from .inspection import largest_deviation
 from .layout import Plan, Sheet, sheets_of
-from .pdf import pdf_of
+from .pdf import DRAWING, pdf_of, typst_for
 from .subject import subjects
 from .svg import document
 from .svg_path import read_paths
@@ -84,6 +84,8 @@ def drawing(
     """The file of `write_drawing`, by its ending."""
     if ending not in ENDINGS:
         raise ValueError(f"a drawing ends in {' or '.join(ENDINGS)}, not in {ending!r:.40}")
+    if ending == ".pdf":
+        typst_for(DRAWING)
     parts = subjects(cam)
     given = half_widths(parts[0].design, tolerances)
     said_as = Words(length_unit(unit), given)

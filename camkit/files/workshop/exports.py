@@ -11,7 +11,8 @@ import numpy as np
 
 from ...quantities import Analysable
 from ...quantities.kinds import one_number
-from ...study.study import Study
+from ...study.robust import RobustStudy
+from ...study.study import NOTHING, Study
 from ...units import mm
 from .blank import Blank
 from .deviations import half_widths
@@ -25,9 +26,10 @@ from .written import Made, length_unit
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be made, and how: a design, an analysis or a panel, with what its sheets are to say."""
+    """What is to be made, and how, with what its sheets are to say."""
 
-    cam: object
+    analysis: object
+    """All of it: given as a design, an analysis or a panel.  What one file has found of it the others need not find."""
     unit: str = "mm"
     """``"mm"`` or ``"in"``."""
     title: TitleBlock = TitleBlock()
@@ -36,31 +38,33 @@ class Order:
     study: Study | None = None
     tolerances: Mapping[str, object] | None = None
     """Half widths by path, SI."""
+    more: tuple[Export, ...] = ()
+    """What there is beside `EXPORTS`: a panel gives the page that it shows."""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "analysis", analysis_of(self.analysis))
         object.__setattr__(self, "unit", length_unit(self.unit))
         one_number(self.tool_radius, "the radius of the tool", "lie above 0 and be finite", lambda r: 0 < r < np.inf)
 
     @cached_property
     def limits(self) -> tuple[float, float]:
         """How far a point of the profile may be off, m: the same in the drawing and in the inspection file."""
-        half = largest_deviation(subjects(self.cam), half_widths(self.design, self.tolerances)) or LIMIT
+        half = largest_deviation(subjects(self.analysis), half_widths(self.design, self.tolerances)) or LIMIT
         return -half, half
 
     @property
     def design(self) -> Analysable:
         """The whole of it."""
-        return design_of(self.cam)
-
-    @cached_property
-    def analysis(self) -> object:
-        """All of its analysis."""
-        return analysis_of(self.cam)
+        return design_of(self.analysis)
 
     @property
     def kind(self) -> str:
         """The name of the design's class."""
         return type(self.design).__name__
+
+
+_, CAD, SOLID, MACHINE, TABLE, RECORD = GROUPS = ("", "Drawing and CAD", "3D", "Machines", "Tables", "Records")
+"""Under which headings files are offered, in this order; without one: what is asked for most."""
 
 
 class Export(NamedTuple):
@@ -70,6 +74,8 @@ class Export(NamedTuple):
     """By which a page and the command line ask for it."""
     ending: str
     """Of its name, behind the kind of the design."""
+    group: str
+    """Its heading, one of `GROUPS`."""
     words: str
     """What it is called."""
     use: str
@@ -101,38 +107,43 @@ def _study(order: Order) -> Made:
 def _dxf(order: Order) -> Made:
     from .dxf import dxf
 
-    return dxf(order.cam, unit=order.unit, blank=order.blank, title=order.title)
+    return dxf(order.analysis, unit=order.unit, blank=order.blank, title=order.title)
+
+
+def _asks(order: Order) -> bool:
+    """Whether there is more to it than limits."""
+    return order.study is not None and NOTHING not in order.study.minimise
 
 
 def _flat(order: Order) -> bool:
-    return _cam(order) and not any(subject.drum for subject in subjects(order.cam))
+    return _cam(order) and not any(subject.drum for subject in subjects(order.analysis))
 
 
 def _gcode(order: Order) -> Made:
     """With a cutter of the roller's radius where the order's is too large for a groove."""
     from .gcode import gcode
 
-    grooves = [s.analysis for s in subjects(order.cam) if np.isfinite(s.analysis.outer_profile).all()]
+    grooves = [s.analysis for s in subjects(order.analysis) if np.isfinite(s.analysis.outer_profile).all()]
     radius = min([order.tool_radius, *(float(np.ravel(each.cam.roller_radius)[0]) for each in grooves)])
-    return gcode(order.cam, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
+    return gcode(order.analysis, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
 
 
 def _step(order: Order) -> Made:
     from .solid import step
 
-    return step(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+    return step(order.analysis, unit=order.unit, title=order.title, blank=order.blank)
 
 
 def _stl(order: Order) -> Made:
     from .printing import stl
 
-    return stl(order.cam, title=order.title, blank=order.blank)
+    return stl(order.analysis, title=order.title, blank=order.blank)
 
 
 def _3mf(order: Order) -> Made:
     from .printing import three_mf
 
-    return three_mf(order.cam, unit=order.unit, title=order.title, blank=order.blank)
+    return three_mf(order.analysis, unit=order.unit, title=order.title, blank=order.blank)
 
 
 def _plate(order: Order) -> bool:
@@ -157,7 +168,9 @@ def _solid(order: Order) -> bool:
     return _flat(order) or isinstance(order.analysis, DRAWN)
 
 
-def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], bool], key: str = "") -> Export:
+def _table(
+    kind: str, ending: str, group: str, words: str, use: str, of: Callable[[Order], bool], key: str = ""
+) -> Export:
     def make(order: Order) -> Made:
         return table(
             order.analysis,
@@ -169,25 +182,36 @@ def _table(kind: str, ending: str, words: str, use: str, of: Callable[[Order], b
             limits=order.limits if kind == "inspection" else (-LIMIT, LIMIT),
         )
 
-    return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", words, use, make, of)
+    return Export(key or kind, ".csv" if key == "csv" else f"-{key or kind}.{ending}", group, words, use, make, of)
 
 
 TABLES = (
-    _table("profile", "csv", "Profile (CSV)", "for spreadsheets: points of pitch curve and profile", _cam, "csv"),
-    _table("polar", "csv", "Radii (CSV)", "for machines and gauges: radius at whole degrees", _flat, "radii"),
-    _table("motion", "csv", "Motion (CSV)", "for spreadsheets: motion, pressure angle, radii, force and torque", _cam),
-    _table("motion", "xlsx", "Motion (XLSX)", "the same as a workbook", _cam, "workbook"),
-    _table("wheel", "csv", "Path of the tool (CSV)", "for grinders: where the wheel's centre stands", _plate),
-    _table("inspection", "csv", "Inspection (CSV)", "for measuring machines: points, normals, limits", _cam),
-    _table("joints", "csv", "Joints (CSV)", "for CAD: where the joints are over the turn", _linkage),
-    _table("solidworks", "sldcrv", "Curve for SolidWorks", "Curve Through XYZ Points", _plate),
-    _table("inventor", "xlsx", "Curve for Inventor", "Import Points", _plate),
-    _table("creo", "ibl", "Curve for Creo", "Curve from File", _plate),
-    _table("nx", "dat", "Curve for NX", "Spline from Points from File", _plate),
-    _table("codesys", "csv", "Cam table for CODESYS", "rows of the cam editor", _one_motion),
-    _table("twincat", "csv", "Cam table for TwinCAT", "rows of MC_MotionFunctionPoint", _one_motion),
-    _table("kollmorgen", "csv", "Cam profile for Kollmorgen KAS", "Import Cam Profile", _one_motion),
-    _table("rockwell", "csv", "Cam array for Rockwell Logix", "MASTER, SLAVE, SegmentType for MCCP", _one_motion),
+    _table(
+        "profile", "csv", TABLE, "Profile (CSV)", "for spreadsheets: points of pitch curve and profile", _cam, "csv"
+    ),
+    _table("polar", "csv", TABLE, "Radii (CSV)", "for machines and gauges: radius at whole degrees", _flat, "radii"),
+    _table(
+        "motion",
+        "csv",
+        TABLE,
+        "Motion (CSV)",
+        "for spreadsheets: motion, pressure angle, radii, force and torque",
+        _cam,
+    ),
+    _table("motion", "xlsx", TABLE, "Motion (XLSX)", "the same as a workbook", _cam, "workbook"),
+    _table("wheel", "csv", MACHINE, "Path of the tool (CSV)", "for grinders: where the wheel's centre stands", _plate),
+    _table("inspection", "csv", MACHINE, "Inspection (CSV)", "for measuring machines: points, normals, limits", _cam),
+    _table("joints", "csv", TABLE, "Joints (CSV)", "for CAD: where the joints are over the turn", _linkage),
+    _table("solidworks", "sldcrv", CAD, "Curve for SolidWorks", "Curve Through XYZ Points", _plate),
+    _table("inventor", "xlsx", CAD, "Curve for Inventor", "Import Points", _plate),
+    _table("creo", "ibl", CAD, "Curve for Creo", "Curve from File", _plate),
+    _table("nx", "dat", CAD, "Curve for NX", "Spline from Points from File", _plate),
+    _table("codesys", "csv", MACHINE, "Cam table for CODESYS", "rows of the cam editor", _one_motion),
+    _table("twincat", "csv", MACHINE, "Cam table for TwinCAT", "rows of MC_MotionFunctionPoint", _one_motion),
+    _table("kollmorgen", "csv", MACHINE, "Cam profile for Kollmorgen KAS", "Import Cam Profile", _one_motion),
+    _table(
+        "rockwell", "csv", MACHINE, "Cam array for Rockwell Logix", "MASTER, SLAVE, SegmentType for MCCP", _one_motion
+    ),
 )
 """Tables and points of it."""
 
@@ -196,7 +220,7 @@ def _drawing(order: Order, ending: str) -> Made:
     from .drawing import drawing
 
     return drawing(
-        order.cam,
+        order.analysis,
         ending,
         tolerances=order.tolerances,
         profile_tolerance=2 * order.limits[1],
@@ -209,35 +233,20 @@ def _drawing(order: Order, ending: str) -> Made:
 def _report(order: Order, ending: str) -> Made:
     from .report import report
 
-    within = order.tolerances if order.study is not None else None  # without limits every part is good
-    return report(order.cam, ending, order.title, order.study, within, order.unit, order.blank)
+    known = order.study is None or isinstance(order.study, RobustStudy)  # without limits every part is good
+    within = None if known else order.tolerances
+    return report(order.analysis, ending, order.title, order.study, within, order.unit, order.blank)
 
 
 EXPORTS = (
-    Export("json", ".json", "Design (JSON)", "for camkit: opens again in a notebook, a page or 'camkit check'", _json),
     Export(
-        "study",
-        "-study.json",
-        "Study (JSON)",
-        "for camkit: limits and objectives",
-        _study,
-        lambda o: o.study is not None,
+        "json", ".json", "", "Design (JSON)", "for camkit: opens again in a notebook, a page or 'camkit check'", _json
     ),
-    Export("dxf", ".dxf", "Profile or skeleton (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _drawn),
-    Export("nc", ".ngc", "Tool path (G-code)", "for a milling machine: LinuxCNC, arcs, feeds to be set", _gcode, _flat),
-    Export(
-        "step",
-        ".step",
-        "Solid (STEP)",
-        "for CAD, CAM and inspection: a cam with bore, keyway and hub, links as bars, a shaft as its tube",
-        _step,
-        _solid,
-    ),
-    Export("stl", ".stl", "Mesh (STL)", "for 3D printing, in mm", _stl, _cam),
-    Export("3mf", ".3mf", "Mesh (3MF)", "for 3D printing, with its unit and title", _3mf, _cam),
+    Export("dxf", ".dxf", CAD, "Profile or skeleton (DXF)", "for laser, wire erosion, milling and CAD", _dxf, _drawn),
     Export(
         "drawing",
         "-drawing.pdf",
+        CAD,
         "Drawing (PDF)",
         "for the maker and for inspection: to scale, with dimensions and a table of radii",
         partial(_drawing, ending=".pdf"),
@@ -246,20 +255,55 @@ EXPORTS = (
     Export(
         "picture",
         "-drawing.svg",
+        CAD,
         "Drawing (SVG)",
         "for the maker: the same to be printed from a browser or opened in Inkscape",
         partial(_drawing, ending=".svg"),
         _cam,
     ),
     Export(
-        "report", "-report.pdf", "Report (PDF)", "for colleagues: one or two A4 pages", partial(_report, ending=".pdf")
+        "step",
+        ".step",
+        SOLID,
+        "Solid (STEP)",
+        "for CAD, CAM and inspection: a cam with bore, keyway and hub, links as bars, a shaft as its tube",
+        _step,
+        _solid,
     ),
-    Export("page", "-report.html", "Report (HTML)", "for colleagues, in a browser", partial(_report, ending=".html")),
+    Export("stl", ".stl", SOLID, "Mesh (STL)", "for 3D printing, in mm", _stl, _cam),
+    Export("3mf", ".3mf", SOLID, "Mesh (3MF)", "for 3D printing, with its unit and title", _3mf, _cam),
+    Export(
+        "nc",
+        ".ngc",
+        MACHINE,
+        "Tool path (G-code)",
+        "for a milling machine: LinuxCNC, arcs, feeds to be set",
+        _gcode,
+        _flat,
+    ),
     *TABLES,
+    Export(
+        "report",
+        "-report.pdf",
+        RECORD,
+        "Report (PDF)",
+        "for colleagues: one or two A4 pages",
+        partial(_report, ending=".pdf"),
+    ),
+    Export(
+        "page",
+        "-report.html",
+        RECORD,
+        "Report (HTML)",
+        "for colleagues, in a browser",
+        partial(_report, ending=".html"),
+    ),
+    Export("study", "-study.json", RECORD, "Study (JSON)", "for camkit: limits and objectives", _study, _asks),
 )
-"""In the order in which they are offered."""
+"""All files that can be made of a design alone."""
 
 
 def exports_of(order: Order) -> tuple[Export, ...]:
-    """What there can be of a design."""
-    return tuple(export for export in EXPORTS if export.of(order))
+    """What there can be of a design, in the order in which it is offered."""
+    found = (export for export in (*EXPORTS, *order.more) if export.of(order))
+    return tuple(sorted(found, key=lambda export: GROUPS.index(export.group)))

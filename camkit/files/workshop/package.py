@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -56,28 +56,35 @@ radius 2.67 mm; insist=True writes it nevertheless, marked FAULTY on every sheet
     """
     refuse_arguments(to_workshop, locals())
     order = Order(cam, unit, title, blank, tool_radius, study, tolerances)
-    return written(package(order, faults(cam, study, tolerances, least_yield, blank), insist), path)
+    return written(package(order, faults(order.design, study, tolerances, least_yield, blank), insist), path)
 
 
-def package(order: Order, found: Sequence[str] = (), insist: bool = False) -> Made:
-    """The zip of an order with the faults that were found, and the largest deviation of all that is in it."""
+def package(
+    order: Order, found: Sequence[str] = (), insist: bool = False, told: Callable[[str], object] = lambda said: None
+) -> Made:
+    """The zip of an order with the faults that were found, and the largest deviation of all that is in it.
+
+    ``told`` hears of each file before it is made: ``"Profile (DXF), 2 of 20"``.
+    """
     if found and not insist:
         raise ValueError(
             f"it is not sent to the workshop: {'; '.join(found)}; insist=True writes it nevertheless, marked FAULTY on "
             "every sheet"
         )
     order = replace(order, title=replace(order.title, faults=(*order.title.faults, *found)))
-    made, lacking = _made(order)
+    made, lacking = _made(order, told)
     files = {f"{order.kind}{export.ending}": each.data for export, each in made}
     away = [each.deviation for _, each in made if np.isfinite(each.deviation)]
     data = zipped({README: _readme(order, made, lacking).encode(), **files})
     return Made(data, f"{len(files)} files and {README}", max(away, default=np.nan), (*found, *lacking))
 
 
-def _made(order: Order) -> tuple[list[tuple[Export, Made]], list[str]]:
+def _made(order: Order, told: Callable[[str], object]) -> tuple[list[tuple[Export, Made]], list[str]]:
     """What could be made of an order, and why the rest could not, in sentences."""
     made, lacking = [], []
-    for export in exports_of(order):
+    exports = exports_of(order)
+    for k, export in enumerate(exports, 1):
+        told(f"{export.words}, {k} of {len(exports)}")
         try:
             made.append((export, export.make(order)))
         except (ValueError, ModuleNotFoundError) as refusal:
@@ -100,5 +107,5 @@ def _frame(order: Order) -> list[str]:
     """Where the drawings of a cam stand, and which way it turns."""
     if not has_profile(order.analysis):
         return []
-    first, *_ = subjects(order.design)
+    first, *_ = subjects(order.analysis)
     return [(UNROLLED if first.drum else FRAME).format(first.turns)]

@@ -3,8 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import ModuleType
 
 from ...quantities.extras import extra
+
+DRAWING = "a drawing as PDF"
+
+
+def typst_for(what: str) -> ModuleType:
+    """What makes PDFs; where it is not installed a sentence says so, before ``what`` is worked out."""
+    with extra(what, "report"):
+        import typst
+    return typst
 
 
 def pdf_of(sheets: Sequence[str], size: tuple[float, float]) -> tuple[bytes, tuple[str, ...]]:
@@ -12,8 +22,7 @@ def pdf_of(sheets: Sequence[str], size: tuple[float, float]) -> tuple[bytes, tup
 
     It is a PDF/A-2b, made to be kept, unless there is such a letter.
     """
-    with extra("a drawing as PDF", "report"):
-        import typst
+    typst = typst_for(DRAWING)
     width, height = size
     lines = [f"#set page(width: {width}mm, height: {height}mm, margin: 0pt)"]
     for i in range(len(sheets)):

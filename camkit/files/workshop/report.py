@@ -9,8 +9,9 @@ from ...quantities.applied import a_path
 from ...quantities.kinds import refuse_arguments
 from ...study.study import Study
 from .blank import Blank
+from .pdf import typst_for
 from .report_page import page
-from .report_pdf import pdf
+from .report_pdf import REPORT, pdf
 from .report_texts import BARE, report_of
 from .reported import Within, reported
 from .title import TitleBlock
@@ -32,6 +33,8 @@ def report(
     """What `write_report` writes."""
     if ending not in LAYOUTS:
         raise ValueError(f"the ending of the report is {ending!r:.40}; there are {' and '.join(LAYOUTS)}")
+    if ending == ".pdf":
+        typst_for(REPORT)
     return LAYOUTS[ending](report_of(reported(thing, study, tolerances), title, length_unit(unit), blank))
 
 

@@ -11,14 +11,17 @@ from importlib.resources import files
 from pathlib import Path
 
 from ...quantities.extras import extra
+from .pdf import typst_for
 from .report_texts import FITS, Fit, Report, shortened
 from .written import Made
+
+REPORT = "the report as PDF"
 
 
 def pdf(report: Report) -> Made:
     """The report on one or two pages, as loose as they have room; what does not fit is said."""
-    with extra("the report as PDF", "report"):
-        import typst
+    typst = typst_for(REPORT)
+    with extra(REPORT, "report"):
         from matplotlib import get_data_path
     fonts = [Path(get_data_path()) / "fonts" / "ttf"]
     template = files(__package__).joinpath("report.typ").read_bytes()

@@ -272,7 +272,7 @@ def _drawing(told: Reported, blank: Blank, lengths: str) -> Drawn | None:
     """The cam to scale; of what has none nothing."""
     if not has_profile(told.analysis):
         return None
-    drawn = figure(told.design, WIDTH_ASKED if told.asks else WIDTH, HEIGHT, blank=blank, unit=lengths)
+    drawn = figure(told.analysis, WIDTH_ASKED if told.asks else WIDTH, HEIGHT, blank=blank, unit=lengths)
     return Drawn("The cam to scale", drawn)
 
 

@@ -15,7 +15,7 @@ from ...study.failures import tolerance_texts
 from ...study.limits import keeps
 from ...study.recheck import Recheck
 from ...study.robust import RobustStudy
-from ...study.study import Study
+from ...study.study import NOTHING, Study
 from ...study.tolerances import CONFIDENCE, Tolerances
 from ..decisions import Decision
 from ..sessions import Session
@@ -45,7 +45,7 @@ class Reported:
     @property
     def objectives(self) -> tuple[Measure, ...]:
         """What is to be small or, with the sign -1, large."""
-        return self.study.minimise if self.study else ()
+        return tuple(m for m in self.study.minimise if m is not NOTHING) if self.study else ()
 
     @property
     def asks(self) -> bool:
@@ -89,7 +89,7 @@ class Reported:
 
     def asked(self) -> list[tuple[str, str]]:
         """What is free, and how it was searched."""
-        if self.study is None:
+        if self.study is None or not self.objectives:
             return []
         free = self.study.free.items()
         told = (f"{_free_name(self.study, name)} {_free_words(self.study, name, given)}" for name, given in free)
@@ -109,12 +109,13 @@ def reported(thing: Any, study: Study | None = None, tolerances: Within | None =
         decision = thing.decision
     panel = getattr(thing, "explorer", thing)
     design = thing.design if isinstance(thing, (Session, Decision)) else design_of(panel)
-    study = study or _study_of(front if isinstance(thing, Decision) else thing)
-    study, parts = _under(study, tolerances or getattr(thing, "tolerances", None), design)
+    study = study or study_of(front if isinstance(thing, Decision) else thing) or getattr(panel, "judged", None)
+    own = None if isinstance(study, RobustStudy) else getattr(thing, "tolerances", None)
+    study, parts = _under(study, tolerances or own, design)
     views = tuple(getattr(panel, "views", ()) or ())
     record = getattr(front, "record", {})
     if study is None:
-        return Reported(design, analysis_of(panel), None, _limits_of(panel), views, parts)
+        return Reported(design, analysis_of(panel), views=views, tolerances=parts)
     study.x_of(design)  # refuses a design of another kind
     analysis = thing if hasattr(thing, "offers") else study.analysis_of(design)
     limits = tuple((m if m.sign > 0 else -m, m.sign * v, m.sign * sense) for m, v, sense in study.limits)
@@ -137,20 +138,12 @@ def _under(study: Study | None, given: object, design: object) -> tuple[Study | 
     return study, None
 
 
-def _study_of(thing: object) -> Study | None:
+def study_of(thing: object) -> Study | None:
+    """What a panel or a front asks of designs; ``None``: nothing yet."""
     with suppress(ValueError):  # a panel in which nothing is asked for yet
         if isinstance(study := getattr(thing, "study", None), Study):
             return study
     return None
-
-
-def _limits_of(panel: object) -> tuple[Limit, ...]:
-    """The limits of an instrument."""
-    sides = getattr(panel, "limits", None)
-    if not isinstance(sides, Mapping):
-        return ()
-    told = [(m, v, s) for side, s in (("at_most", 1), ("at_least", -1)) for m, v in (sides.get(side) or {}).items()]
-    return tuple((abs_of(m), m.sign * v, m.sign * s) for m, v, s in told)
 
 
 def _free_name(study: Study, name: str) -> str:

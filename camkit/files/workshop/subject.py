@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
@@ -22,8 +21,6 @@ DRAWN = RSSRAnalysis, ShaftAnalysis
 """The analyses of what has no profile, but lengths in space."""
 JOINTED = *DRAWN, DrivelineAnalysis, DoubleUniversalJointAnalysis, UniversalJointAnalysis
 """The analyses of what has joints; the shafts of universal joints have no lengths."""
-LAST: deque[tuple[object, Any]] = deque(maxlen=2)
-"""Designs that were analysed last: of one order every export asks for the same, and its contours take seconds."""
 
 
 @dataclass(frozen=True)
@@ -124,11 +121,7 @@ def analysis_of(given: Any) -> Any:
         raise ValueError(f"given is {shown(design)}, a population; one design can be exported")
     if given is not design:
         return getattr(given, "analysis", given)
-    for known, analysis in LAST:
-        if known is design:
-            return analysis
-    LAST.append((design, design.analyse()))
-    return LAST[-1][1]
+    return design.analyse()
 
 
 def design_of(given: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -27,53 +28,47 @@ class Saved(Protocol):
         """The views of the design."""
 
 
-def _page(order: Order) -> Made:
-    return Made(_panel(order).html().encode(), "the page, which computes by itself")
+def living_page(html: Callable[[], str]) -> Export:
+    """The page that computes without Python."""
+
+    def page(order: Order) -> Made:
+        return Made(html().encode(), "the page, which computes by itself")
+
+    return Export("html", ".html", "", "Living page (HTML)", "for colleagues: it computes without Python", page)
 
 
-def _picture(kind: str) -> Export:
+def _picture(app: Saved, kind: str) -> Export:
     def drawn(order: Order) -> Made:
         from ...render.still import saved
 
-        return Made(saved(_panel(order).figure(), kind), "the pictures of the page")
+        return Made(saved(app.figure(), kind), "the pictures of the page")
 
-    return Export(f"picture-{kind}", f"-picture.{kind}", f"Picture ({kind.upper()})", "for a text or a talk", drawn)
-
-
-def _panel(order: Order) -> Saved:
-    return order.cam  # type: ignore[return-value]
+    ending, words = f"-picture.{kind}", f"Picture ({kind.upper()})"
+    return Export(f"picture-{kind}", ending, "Records", words, "for a text or a talk", drawn)
 
 
-PAGE = (
-    Export("html", ".html", "Living page (HTML)", "for colleagues: it computes without Python", _page),
-    _picture("svg"),
-    _picture("pdf"),
-)
-"""What only a page can save, beside the files for the workshop."""
+def _order(app: Saved) -> Order:
+    """With what only a page can save, beside the files for the workshop."""
+    return Order(app, more=(living_page(app.html), _picture(app, "svg"), _picture(app, "pdf")))
 
 
-def files_of(app: Saved) -> list[tuple[str, str]]:
-    """What can be saved of what is shown: by what it is asked for, and what it is called."""
-    return [(each.key, each.words) for each in _exports(Order(app))]
+def files_of(app: Saved) -> list[tuple[str, str, str]]:
+    """What can be saved of what is shown: by what it is asked for, what it is called, and under which heading."""
+    return [(each.key, each.words, each.group) for each in exports_of(_order(app))]
 
 
-def file_of(app: Saved, kind: str, order: Order | None = None) -> tuple[str, bytes]:
+def file_of(app: Saved, kind: str) -> tuple[str, bytes]:
     """A file of what is shown, with its name; a fault of the design is marked in it.
 
     ``ValueError`` for a kind that there is not.
     """
-    order = order or Order(app)
-    known = {each.key: each for each in _exports(order)}
+    order = _order(app)
+    known = {each.key: each for each in exports_of(order)}
     if kind not in known:
         raise ValueError(f"{shown(kind)} is no kind of file here; there are {', '.join(known)}")
-    title = replace(order.title, faults=faults(app.design, blank=order.blank))
+    title = replace(order.title, faults=faults(order.design, blank=order.blank))
     made = known[kind].make(replace(order, title=title))
     return f"{order.kind}{known[kind].ending}", made.data
-
-
-def _exports(order: Order) -> tuple[Export, ...]:
-    first, *others = exports_of(order)
-    return (first, *PAGE, *others)
 
 
 def remarked(found: designs.Read) -> str:

@@ -10,11 +10,11 @@ import numpy as np
 import traitlets
 
 from ...files.workshop.faults import YIELD
-from ...quantities import Measure, quantities_of, value_of
+from ...quantities import quantities_of, value_of
 from ...study.failures import failures, tolerance_texts
 from ...study.robust import RobustStudy
 from ...study.spread import Tolerance, iso_2768
-from ...study.study import Study
+from ...study.study import NOTHING, Study
 from ...study.tolerances import LENGTHS, general_tolerances
 from .changes import numbers_of
 from .latest_only import Debounced, LatestOnly
@@ -23,8 +23,6 @@ from .sheet import reason
 QUIET = 0.3
 """Seconds after the last change until exact parts are judged."""
 NO_TOLERANCES = "the design has no size with a general tolerance; give tolerances to the instrument"
-NOTHING = Measure("nothing", "", lambda analysis: 0.0)
-"""To minimise where limits alone count."""
 
 
 class Made(w.DOMWidget):

@@ -13,8 +13,12 @@ export const button = (words, title, act) =>
 export function filesOf(structure, host) {
   if (!host) return [];
   const act = (/** @type {string} */ kind) => { if (kind === WORKSHOP) host.workshop(); else if (kind) host.file(kind); };
+  const options = (/** @type {string} */ asked) => structure.files.flatMap((/** @type {string[]} */ [kind, words, group]) =>
+    group === asked ? [make("option", { value: kind }, words)] : []);
+  const groups = [...new Set(structure.files.map((/** @type {string[]} */ [, , group]) => group))].filter(Boolean);
   const save = make("select", { "aria-label": "Export", "data-asks": true, onchange: () => { act(save.value); save.value = ""; } },
-    ...[["", "Export"], [WORKSHOP, "To the workshop: all files in a zip \u2026"], ...structure.files].map(([kind, words]) => make("option", { value: kind }, words)));
+    make("option", { value: "" }, "Export"), make("option", { value: WORKSHOP }, "To the workshop: all files in a zip \u2026"), ...options(""),
+    ...groups.map((label) => make("optgroup", { label }, ...options(label))));
   return [...openerOf(structure, host), save];
 }
 
