@@ -17,7 +17,6 @@ from camkit import (
     OscillatingRollerCam,
     TranslatingFlatCam,
     TranslatingRollerCam,
-    UniversalJointShaft,
     ValveCam,
     explore,
     write_dxf,
@@ -292,7 +291,7 @@ def test_a_panel_and_an_analysis_give_what_the_design_does():
 @pytest.mark.parametrize(
     ("arguments", "why"),
     [
-        ((UniversalJointShaft(),), "UniversalJointShaft has no cam profile"),
+        ((TranslatingFlatCam().motion,), "given is a MotionProgram; a design or its analysis can be exported"),
         ((TranslatingRollerCam(base_radius=np.array([[0.03], [0.04]])),), "a population; one design can be exported"),
         ((TranslatingFlatCam(), 1 * um, "dots"), "the entity is 'dots'; it must be one of 'arcs', 'spline', 'chords'"),
         ((TranslatingFlatCam(), 0.0), "the tolerance of the drawing is 0.* it must be 0.01 um to 1 mm, in m"),
