@@ -14,6 +14,7 @@ import json
 import os
 import platform
 import stat
+import threading
 from base64 import b64decode, b64encode
 from collections.abc import Mapping
 from contextlib import suppress
@@ -115,7 +116,7 @@ def write_whole(path: Path, content: bytes) -> None:
 
     Raises ``OSError``, which names ``path``, if that cannot be done; the old one is then still there, and nothing else.
     """
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    part = path.with_name(f".{path.name}.{threading.get_native_id()}.part")
     try:
         part.write_bytes(content)
         part.replace(path)
@@ -139,11 +140,15 @@ def why(error: OSError) -> str:
 
 
 def remove_parts(path: str | Path) -> None:
-    """Remove what a process that was killed in the midst of `Checkpoint.write` has left beside ``path``."""
-    path = Path(path)
+    """Remove what a process that was killed in the midst of `write_whole` has left beside ``path``.
+
+    Not what other threads of this one are about to write.
+    """
+    path, writing = Path(path), {f".{thread.native_id}" for thread in threading.enumerate()}
     with suppress(OSError):
         for part in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
-            part.unlink(missing_ok=True)
+            if Path(part.stem).suffix not in writing:
+                part.unlink(missing_ok=True)
 
 
 class OtherSchema(Exception):

@@ -121,7 +121,8 @@ def _arcs(fine: Stretch, tolerance: float) -> tuple[Array, Array]:
     """Corners but for the last, and bulges."""
 
     def off(i: int, j: int) -> float:
-        corners, bulges = biarcs(Stretch(fine.points[:, [i, j]], fine.tangents[:, [i, j]]))
+        with np.errstate(divide="ignore", invalid="ignore"):  # around a whole circle there is none
+            corners, bulges = biarcs(Stretch(fine.points[:, [i, j]], fine.tangents[:, [i, j]]))
         if not (abs(bulges) <= MOST).all():
             return np.inf
         between = fine.points[:, i : j + 1]

@@ -324,7 +324,9 @@ class _Outline:
         pitch = [Contour(PITCH, tuple(self.flank(0.0)), self.closed)] if self.radius else []
         if not lost:
             return [*(Contour(layer, tuple(line), around) for line in self.lines), *pitch]
-        return [*_chained(layer, left, fine), *pitch, *_chained(FAULT, lost, fine)]
+        if not (kept := [*_chained(layer, left, fine)]):
+            raise ValueError("the tool leaves nothing of the profile: it is undercut everywhere")
+        return [*kept, *pitch, *_chained(FAULT, lost, fine)]
 
 
 def _way(seen: Sequence[Seen]) -> float:
@@ -380,6 +382,6 @@ def _sections(line: Sequence[Stretch], arc: Arc) -> list[Stretch]:
         low, high = max(arc.start.place, begin), min(arc.end.place, begin + size)
         if high - low > HAIR:
             found.append(stretch.part(low - begin, high - begin))
-    for part, k, node in ((found[0], 0, arc.start), (found[-1], -1, arc.end)):
+    for part, k, node in zip(found[:1] + found[-1:], (0, -1), (arc.start, arc.end), strict=False):
         part.points[:, k] = node.point
     return [part for part in found if part.length > SAME]

@@ -14,6 +14,9 @@ from ...machines.shaft_analysis import ShaftAnalysis
 from ...quantities import words
 from ...quantities.kinds import columns, shown
 from ...quantities.types import Array
+from ...study.study import Study
+from ..decisions import Decision
+from ..sessions import Session
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -115,8 +118,10 @@ def _instead(analysis: object) -> str:
 
 
 def analysis_of(given: Any) -> Any:
-    """The analysis of one design, given itself, as the design, or as the panel that shows it."""
+    """The analysis of one design, given itself, as the design, or as the panel, session or decision that holds it."""
     design = design_of(given)
+    if isinstance(given, (Decision, Session, Study)):
+        given = design
     if columns(design):
         raise ValueError(f"given is {shown(design)}, a population; one design can be exported")
     if given is not design:
@@ -125,7 +130,7 @@ def analysis_of(given: Any) -> Any:
 
 
 def design_of(given: Any) -> Any:
-    """The design of an analysis, or of a panel; a design as it is."""
+    """The design of an analysis, a panel, a session or a decision, the start of a study; a design as it is."""
     if isinstance(given, type):
         raise ValueError(f"given is {shown(given)}; one design or its analysis can be exported")
     if hasattr(given, "analyse"):

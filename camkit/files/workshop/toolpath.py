@@ -259,7 +259,7 @@ def _crossing(near: Sequence[tuple[Stretch, float]]) -> tuple[float, float]:
     for _ in range(6):
         p, q = one.at(np.array([a])), other.at(np.array([b]))
         slopes = np.column_stack([p.tangents * _step(one, a), -q.tangents * _step(other, b)])
-        da, db = np.linalg.lstsq(slopes, (q.points - p.points)[:, 0], rcond=None)[0]
+        da, db = np.clip(np.linalg.lstsq(slopes, (q.points - p.points)[:, 0], rcond=None)[0], -1, 1)
         a, b = a + float(da), b + float(db)
     return a, b
 

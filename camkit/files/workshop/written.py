@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...quantities.applied import a_path
+from ...quantities.applied import a_new_file
 from ...search.checkpoint import remove_parts, write_whole
 from ...units import inch, mm, um
 
@@ -57,7 +57,7 @@ class Written:
 
 def written(made: Made, path: str | Path) -> Written:
     """Write what was made; a file that is there stays until the new one is whole."""
-    path = a_path(path)
+    path = a_new_file(path)
     remove_parts(path)
     write_whole(path, made.data)
     return Written(path, made.what, made.deviation, made.remarks)
