@@ -21,6 +21,7 @@ from camkit import (
 )
 from camkit.files import Blank, Milling, write_gcode
 from camkit.files.workshop.contours import contours
+from camkit.files.workshop.drawing import drawing
 from camkit.files.workshop.dxf import dxf
 from camkit.files.workshop.gcode import gcode
 from camkit.files.workshop.subject import subjects
@@ -90,7 +91,7 @@ SHORT = MotionProgram((Rise(0.01 * deg, 10 * um, Poly345()),))
 def test_a_profile_of_which_nothing_is_left_is_refused_in_a_sentence():
     cam = TranslatingRollerCam(SHORT, groove=False)
     for make in (gcode, dxf, lambda given: table(given, "polar")):
-        with pytest.raises(ValueError, match=r"^the tool leaves nothing of the profile: it is undercut everywhere$"):
+        with pytest.raises(ValueError, match=r"^the tool leaves no piece of the profile whole: it is undercut$"):
             make(cam)
 
 
@@ -104,3 +105,8 @@ def test_a_groove_shorter_than_what_is_lost_of_it_has_contours():
 def test_a_circle_is_drawn_without_a_warning(groove):
     cam = TranslatingRollerCam(MotionProgram((Dwell(360 * deg),)), groove=groove)
     assert gcode(cam, tool_radius=6 * mm).deviation < 1 * um
+
+
+def test_a_face_that_rests_is_drawn():
+    """It touches the cam at one point: it is as long as nothing."""
+    assert drawing(TranslatingFlatCam(MotionProgram((Dwell(360 * deg),))), ".svg").deviation < 1 * um

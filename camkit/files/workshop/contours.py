@@ -325,7 +325,7 @@ class _Outline:
         if not lost:
             return [*(Contour(layer, tuple(line), around) for line in self.lines), *pitch]
         if not (kept := [*_chained(layer, left, fine)]):
-            raise ValueError("the tool leaves nothing of the profile: it is undercut everywhere")
+            raise ValueError("the tool leaves no piece of the profile whole: it is undercut")
         return [*kept, *pitch, *_chained(FAULT, lost, fine)]
 
 

@@ -207,7 +207,7 @@ def _clipped(face: Array, reach: float) -> tuple[Array, Array]:
     """Both ends of a face, no farther from its middle than a length."""
     start, end = face[:, 0], face[:, -1]
     middle, half = (start + end) / 2, (end - start) / 2
-    half = half * min(1.0, reach / float(np.hypot(*half)))
+    half = half * min(1.0, reach / (float(np.hypot(*half)) or reach))
     return middle - half, middle + half
 
 
