@@ -76,6 +76,8 @@ def stl(cam: object, *, tolerance: float = 10 * um, title: TitleBlock = TitleBlo
     """
     name, bodies = title.marked(type(design_of(cam)).__name__), _bodies(cam, blank, tolerance)
     corners = np.concatenate([body.mesh.points[body.mesh.triangles] for body in bodies]) / mm
+    written_as = corners.astype(STL["corners"].base)  # corners that fall together there leave no triangle
+    corners = corners[(written_as != np.roll(written_as, 1, axis=1)).any(2).all(1)]
     out = np.zeros(len(corners), STL)
     out["corners"] = corners
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -23,6 +23,7 @@ from camkit import (
 )
 from camkit.cam import BarrelCam, ConjugatePair, OscillatingBarrelCam
 from camkit.files import Blank, TitleBlock, write_3mf, write_stl
+from camkit.files.workshop.printing import read_stl, stl
 from camkit.motion import SimpleHarmonic
 
 KINDS = (TranslatingRollerCam, OscillatingRollerCam, TranslatingFlatCam, OscillatingFlatCam, DoorHandleCam)
@@ -200,3 +201,8 @@ def test_both_cams_of_a_pair_lie_beside_each_other(tmp_path):
 def test_a_drum_with_a_bore_as_large_as_its_bottom_is_refused(tmp_path):
     with pytest.raises(ValueError, match="the bottom of the groove is at 54 mm"):
         write_stl(BarrelCam(), tmp_path / "drum.stl", blank=Blank(bore=100 * mm, key="DIN 6885-1"))
+
+
+def test_corners_that_single_precision_makes_one_leave_no_hole():
+    made = stl(BarrelCam(groove=False))
+    assert read_stl(made.data).watertight
