@@ -33,6 +33,9 @@ CONTRAST = """(element) => {
     return (high + 0.05) / (low + 0.05);
 }"""
 
+# JupyterLab hides everything for a moment while it takes another theme: the pictures are drawn in it nevertheless.
+DARK = "root => root.parentElement.camkit.charts.every(({ how, size }) => how.dark && size?.width)"
+
 # Everything in the panel whose content is wider than itself.
 TOO_NARROW = """(panel) => [panel, ...panel.querySelectorAll('*')]
     .filter(e => e.clientWidth && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== 'visible')
@@ -111,5 +114,6 @@ def test_the_panels_can_be_read_in_the_dark(page: Page, explorer: Locator) -> No
     try:
         for word in (explorer.get_by_text("relief arm").first, explorer.locator(".camkit-chips > *").first):
             eventually(lambda word=word: word.evaluate(CONTRAST) > 4.5, seconds=5)
+        eventually(lambda: explorer.locator(".camkit-page").evaluate(DARK))
     finally:
         page.evaluate(change, "JupyterLab Light")

@@ -50,7 +50,7 @@ export class Panel {
     this.painting = new Idle();
     /** Of each row, what the others were when its track was painted. @type {Map<number, string>} */ this.painted = new Map();
     this._build();
-    this.theme = new Theme(() => this.ask(true));
+    this.theme = new Theme(root, () => this.ask(true));
     this.resized = new ResizeObserver(() => this._resize());
     for (const part of [root, ...this.charts.map((/** @type {Chart} */ chart) => chart.canvas)]) this.resized.observe(part);
     document.addEventListener("pointerdown", () => this.history.rest(), { capture: true, signal: this.leaving.signal });

@@ -34,7 +34,7 @@ export class Chart {
   draw(outputs, how) {
     if (!this.size) this._measure();
     const { width, height } = this.size;
-    if (!width || !height) return;
+    if (!width || !height) { this.size = null; return; } // it is hidden, and has another one when it is not
     const same = this._same(outputs, how), at = this.how?.cursor, rows = this.heading?.rows;
     Object.assign(this, { outputs, how });
     if (same && at === how.cursor) return;

@@ -33,7 +33,7 @@ export class Sheet {
     root.classList.add("camkit-sheet");
     /** The box that a person types in. @type {any} */ this.typing = null;
     root.addEventListener("input", ({ target }) => { if (/** @type {any} */ (target).type === "text") this.typing = target; });
-    this.theme = new Theme(() => this.draw());
+    this.theme = new Theme(root, () => this.draw());
     this.resized = new ResizeObserver(() => this.draw());
     this.resized.observe(root);
     this.heard = {

@@ -3,12 +3,14 @@
 const DARK = "(prefers-color-scheme: dark)";
 
 export class Theme {
-  /** @param {() => void} changed called when it may be another one */
-  constructor(changed) {
+  /** @param {HTMLElement} root @param {() => void} changed called when it may be another one */
+  constructor(root, changed) {
     this.system = matchMedia(DARK);
     this.leaving = new AbortController();
     this.system.addEventListener("change", changed, { signal: this.leaving.signal });
-    this.host = new MutationObserver(changed);
+    // JupyterLab hides all of itself while it takes another theme: what has no size yet is drawn when it has one.
+    this.seen = new ResizeObserver(() => { this.seen.disconnect(); changed(); });
+    this.host = new MutationObserver(() => { this.seen.disconnect(); this.seen.observe(root); });
     this.host.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });
   }
 
@@ -18,5 +20,5 @@ export class Theme {
   }
 
   /** Leave the page. */
-  end() { this.leaving.abort(); this.host.disconnect(); }
+  end() { this.leaving.abort(); this.host.disconnect(); this.seen.disconnect(); }
 }
