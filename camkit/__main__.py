@@ -71,7 +71,11 @@ class Opened(NamedTuple):
 def opened(path: str) -> Opened:
     """The design in a file, or that of a study, a front or a decision; remarks go to stderr."""
     with open(path, "rb") as file:
-        found = read_json(file.read(MOST_BYTES + 1))
+        data = file.read(MOST_BYTES + 1)
+    try:
+        found = read_json(data)
+    except ValueError as refusal:
+        raise ValueError(f"{path}: {refusal}") from None
     for remark in found.remarks:
         print(f"{path}: {remark}", file=sys.stderr)
     thing = found.thing
@@ -289,7 +293,7 @@ def _ask_export(one: argparse.ArgumentParser) -> None:
     for name in _titles():
         said.add_argument(f"--{name}", default="", metavar="TEXT", help=f"{name} in the title block")
     for name, declared in quantities_of(Blank()).items():
-        meaning = f"{words(name)}: {declared.meaning}"
+        meaning = f"{words(name)}: {declared.meaning} (default: {declared.default:g}{declared.unit})"
         blank.add_argument(f"--{name.replace('_', '-')}", dest=name, metavar="SIZE", help=meaning)
     for name, choice in choices_of(Blank()).items():
         blank.add_argument(f"--{name}", dest=name, metavar="NAME", help=f"{choice.meaning}: {', '.join(choice.named)}")

@@ -247,7 +247,7 @@ def test_a_study_that_no_design_can_keep_ends_with_1(files, capsys):
         (("check", "nothing.json"), "nothing.json: No such file or directory"),
         (("check", "."), "Is a directory"),
         (("check", "program.json"), "holds no design"),
-        (("check", "noise.json"), "the file is no text"),
+        (("check", "noise.json"), "noise.json: the file is no text"),
         (("export", "cam.json"), "no file is asked for; of a TranslatingRollerCam there can be --json"),
         (("export", "cam.json", "--json", "--unit", "furlong"), "'mm', 'in'"),
         (("export", "cam.json", "--json", "--bore", "five"), "--bore: 'five' is no number"),

@@ -136,7 +136,8 @@ class WorkshopPanel(Sheet):
     def _put_faults(self, wrong: tuple[str, ...]) -> None:
         with self.held():
             self._wrong = wrong
-            self.verdict.say(*([bold("Faulty: "), f"{fault}."] for fault in wrong) if wrong else (SOUND,))
+            sound = SOUND if self._possible else ""
+            self.verdict.say(*([bold("Faulty: "), f"{fault}."] for fault in wrong) if wrong else (sound,))
             self.insist.visible = bool(wrong)
             self._show_button()
 

@@ -91,6 +91,14 @@ def test_a_bore_that_reaches_the_profile():
     assert said.startswith("the bore with its keyway reaches")
 
 
+def test_a_groove_that_goes_through_the_cam():
+    through = Blank(thickness=6 * mm, groove_depth=6 * mm)
+    (said,) = faults(ROLLER, blank=through)
+    assert said == "the groove depth is 6 mm; it must be below the thickness, 6 mm"
+    assert faults(ROLLER.replace(groove=False), blank=through) == ()
+    assert faults(ROLLER, blank=through.replace(groove_depth=5.9 * mm)) == ()
+
+
 def test_limits_of_a_study_that_are_missed():
     value = max_pressure_angle.one(ROLLER.analyse())
     study = Study(ROLLER, ["base_radius"], (peak_force,), at_most={max_pressure_angle: value - 1 * deg})

@@ -97,6 +97,14 @@ def test_the_text_says_which_way_the_cam_turns(rotation, said, few):
     assert "turns" not in opened(package(Order(UniversalJointShaft(), title=DATED)).data)[README].decode()
 
 
+def test_a_tool_that_is_too_large_for_the_groove_is_said_to_be_another():
+    (export,) = (each for each in EXPORTS if each.key == "nc")
+    made = export.make(Order(TranslatingRollerCam(), tool_radius=20 * mm))
+    assert "a tool of radius 20 mm does not go into the groove: this is for 8 mm" in made.remarks
+    assert "tool of radius 8 mm" in made.what
+    assert not [said for said in export.make(Order(TranslatingRollerCam())).remarks if "go into the groove" in said]
+
+
 def test_the_list_of_files_has_each_key_and_ending_once():
     assert len({export.key for export in EXPORTS}) == len(EXPORTS) == len({export.ending for export in EXPORTS})
     assert {export.key for export in exports_of(Order(UniversalJointShaft()))} >= {"json"}

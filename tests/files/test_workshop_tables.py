@@ -616,6 +616,7 @@ def test_a_table_is_written_by_the_ending_of_its_name(tmp_path):
     assert (tmp_path / "cam.csv").read_bytes().startswith(b"\xef\xbb\xbf")
     head = (tmp_path / "cam.csv").read_text("utf-8-sig").splitlines()[0]
     assert head.startswith('direction [deg],profile radius [mm],"凸轮; lengths in mm; camkit')
+    assert "drawn at cam angle 0; the cam turns counter-clockwise; directions run counter-clockwise from x" in head
     with pytest.raises(ValueError, match="a table can be csv or xlsx"):
         write_table(CIRCLE, tmp_path / "cam.ods", "polar")
     with pytest.raises(ValueError, match="the kind of the table is 'radii'; it must be one of profile, polar"):

@@ -92,10 +92,10 @@ def test_what_cannot_be_a_blank_is_said_and_nothing_is_made_of_it(form):
     assert form.blank.keyway.width == pytest.approx(6 * mm)
     do(form, form.sizes["hub_diameter"], value=21 * mm)
     assert alert(form).startswith("There is no such blank: the hub diameter is 21 mm; with its keyway the bore takes")
-    assert form.button.disabled
+    assert (form.button.disabled, form.verdict.text) == (True, "")
     assert form.blank.hub_diameter == 0
     do(form, form.sizes["hub_diameter"], value=30 * mm)
-    assert (alert(form), form.button.disabled) == ("", False)
+    assert (alert(form), form.button.disabled, form.verdict.text) == ("", False, SOUND)
     assert form.order.blank.hub_diameter == 30 * mm
 
 

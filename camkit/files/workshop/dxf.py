@@ -26,9 +26,9 @@ from .dxf_sheet import Sheet, drawing, without_codes
 from .plan import plan
 from .skeleton import skeleton
 from .splines import Spline, splines
-from .subject import DRAWN, Subject, analysis_of, subjects
+from .subject import DRAWN, Subject, analysis_of, frame, subjects
 from .title import TitleBlock
-from .written import LENGTHS, Made, Written, length_unit, written
+from .written import Made, Written, length_unit, written
 
 ENTITIES = "arcs", "spline", "chords"
 CHECK = 23
@@ -80,7 +80,7 @@ def dxf(
     about = replace(title, faults=())
 
     def file(told: str) -> bytes:
-        notes = [*about.lines(cams[0].kind, unit, told), *_notes(cams, unit)]
+        notes = [*about.lines(cams[0].kind, unit, told), frame(cams, unit)]
         return drawing(_sheet(cams, drawn, blank, faults, notes), unit)
 
     first = paths_of(file(said))
@@ -171,21 +171,10 @@ def _faults(cams: Sequence[Subject]) -> Iterator[str]:
             yield f"{cam.name}: {words}" if cam.name else words
 
 
-def _notes(cams: Sequence[Subject], unit: str) -> tuple[str, ...]:
-    """How it lies."""
-    first = cams[0]
-    if first.drum:
-        radius = f"{float(np.ravel(first.analysis.cam.mean_radius)[0]) / LENGTHS[unit]:.6g} {unit}"
-        where = f"unrolled at the mean radius {radius}, seen from outside, from cam angle 0 at x = 0"
-        return (f"{where}; the drum turns {first.turns}",)
-    both = " both cams as they stand on their shaft;" if len(cams) > 1 else ""
-    return (f"cam axis at the origin, drawn at cam angle 0;{both} the cam turns {first.turns}",)
-
-
 def _remarks(cams: Sequence[Subject], given: Sequence[Contour], unit: str) -> tuple[str, ...]:
     """What whoever uses it should know."""
     if cams[0].drum:
-        return _notes(cams, unit)
+        return (frame(cams, unit),)
     open_ = any(not line.closed and line.layer.startswith(CUT) for line in given)
     span = float(np.ravel(cams[0].analysis.cam_angle)[-1]) / deg
     return (f"the motion covers {span:.4g} deg; where it ends the contour is open",) if open_ else ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import NamedTuple
 
@@ -125,7 +125,11 @@ def _gcode(order: Order) -> Made:
 
     grooves = [s.analysis for s in subjects(order.analysis) if np.isfinite(s.analysis.outer_profile).all()]
     radius = min([order.tool_radius, *(float(np.ravel(each.cam.roller_radius)[0]) for each in grooves)])
-    return gcode(order.analysis, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
+    made = gcode(order.analysis, unit=order.unit, title=order.title, blank=order.blank, tool_radius=radius)
+    if radius == order.tool_radius:
+        return made
+    wide = f"a tool of radius {order.tool_radius / mm:.4g} mm does not go into the groove"
+    return replace(made, remarks=(f"{wide}: this is for {radius / mm:.4g} mm", *made.remarks))
 
 
 def _step(order: Order) -> Made:

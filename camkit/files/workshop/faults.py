@@ -107,7 +107,7 @@ def _open(part: Subject) -> bool:
 
 
 def _reached(parts: Iterable[Subject], blank: Blank) -> Iterator[str]:
-    """Where bore, keyway or hub reach the cam's profile."""
+    """Where bore, keyway or hub reach the cam's profile, or a groove goes through the cam."""
     for part in parts:
         if part.drum:
             continue  # of a drum, which is drawn unrolled, the profile is not around the axis
@@ -116,6 +116,11 @@ def _reached(parts: Iterable[Subject], blank: Blank) -> Iterator[str]:
             yield (
                 f"the bore with its keyway reaches {blank.reach / 2 / mm:.4g} mm from the axis; the profile comes as "
                 f"near as {least / mm:.4g} mm"
+            )
+        if np.isfinite(part.analysis.outer_profile).all() and blank.groove_depth >= blank.thickness:
+            yield (
+                f"the groove depth is {blank.groove_depth / mm:.4g} mm; it must be below the thickness, "
+                f"{blank.thickness / mm:.4g} mm"
             )
 
 

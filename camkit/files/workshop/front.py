@@ -173,9 +173,9 @@ class Front:
             half = self.words.tolerance(self.subject.design, "roller_radius", radius)
             outwards = centre / np.hypot(*centre) * radius
             size = f"R{self.words.length(radius)}{self.words.plus_minus(half)}"
-            yield centre + outwards, (size, "roller", "at angle 0°")
+            yield centre + outwards, (size, "roller", "at cam angle 0°")
         for face in self.faces:
-            yield _clipped(face, self.reach)[0], ("follower", "at angle 0°")
+            yield _clipped(face, self.reach)[0], ("follower", "at cam angle 0°")
         for curve in (curve for curve in self.curves if curve.layer == "PITCH"):
             yield _at_share(curve, 0.85), ("pitch curve",)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
@@ -15,6 +15,7 @@ from ...quantities import words
 from ...quantities.kinds import columns, shown
 from ...quantities.types import Array
 from ...study.study import Study
+from ...units import in_unit
 from ..decisions import Decision
 from ..sessions import Session
 
@@ -68,6 +69,22 @@ class Subject:
         """
         way = "counter-clockwise" if self.sense > 0 else "clockwise"
         return f"{way} as seen from below, along the rise" if self.drum else way
+
+
+def frame(cams: Sequence[Subject], unit: str) -> str:
+    """Where the points of a drawing or a table lie, and which way the cam turns.
+
+    >>> from camkit import TranslatingRollerCam
+    >>> frame(subjects(TranslatingRollerCam()), "mm").partition("; ")[2]
+    'the cam turns counter-clockwise'
+    """
+    first = cams[0]
+    if first.drum:
+        radius = in_unit(float(np.ravel(first.analysis.cam.mean_radius)[0]), unit)
+        where = f"unrolled at the mean radius {radius:.6g} {unit}, seen from outside, from cam angle 0 at x = 0"
+        return f"{where}; the drum turns {first.turns}"
+    both = " both cams as they stand on their shaft;" if len(cams) > 1 else ""
+    return f"cam axis at the origin, drawn at cam angle 0;{both} the cam turns {first.turns}"
 
 
 def kept(find: Callable[Concatenate[Subject, P], T]) -> Callable[Concatenate[Subject, P], T]:

@@ -17,11 +17,12 @@ from .cad_curves import CAD, cad_curve
 from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked, wheel_columns
 from .controllers import FORMS, controller_table
 from .deviations import Within, half_widths
+from .faults import has_profile
 from .inspection import inspection_columns
 from .joints import joint_columns
 from .named import curves_of
 from .sheets import Sheet, numbers_in
-from .subject import analysis_of, design_of, subjects
+from .subject import analysis_of, design_of, frame, subjects
 from .title import TitleBlock
 from .toolpath import tool_path
 from .written import LENGTHS, Made, Written, length_unit, written
@@ -128,6 +129,8 @@ def table(
         else _columns(cam, kind, Units(unit), step, limits, tolerances)
     )
     whole = stacked(columns, "cam")
+    if has_profile(analysis_of(cam)):
+        lines = (*lines, frame(subjects(cam), unit), "directions run counter-clockwise from x")
     data = Sheet(whole, lines).written(ending, decimal)
     rows = len(next(iter(whole.values())))
     away = np.nan if kind == "motion" else _deviation(whole, numbers_in(data, decimal), unit)
