@@ -20,6 +20,7 @@ from ..quantities.applied import a_path
 from ..quantities.kinds import kind_words, refuse_arguments, shown
 from ..search.checkpoint import remove_parts, write_whole
 from ..search.front import Front
+from ..study.study import Study
 from .checks import mapping
 from .decisions import Decision
 from .entries import Reading, entry_of
@@ -70,7 +71,7 @@ def read(
 
 
 def to_json(thing: Any) -> str:
-    """A design, a motion program, a front or a `Session` as JSON text.
+    """A design, a motion program, a study, a front or a `Session` as JSON text; a study as the session at its start.
 
     >>> from camkit import DoorHandleCam
     >>> from_json(to_json(DoorHandleCam(lift_arm=0.048))).lift_arm
@@ -79,6 +80,7 @@ def to_json(thing: Any) -> str:
     Raises ``ValueError`` in a sentence for what could not be read again: a population, a motion law that is a
     function of one's own, a name with other signs than letters, digits, spaces and ``+,.:;()/%^-``.
     """
+    thing = Session(thing, thing.start) if isinstance(thing, Study) else thing
     text = signed({"schema": SCHEMA, **_content(thing)})
     try:
         read_json(text, *_kind_and_measures(thing))
@@ -108,7 +110,7 @@ def _content(thing: object) -> dict[str, object]:
     if isinstance(thing, Decision):
         return {"decision": decision_entry(thing)}
     raise ValueError(
-        f"this is {shown(thing)}; a design, a motion program, a front, a Session or a Decision can be saved"
+        f"this is {shown(thing)}; a design, a motion program, a study, a front, a Session or a Decision can be saved"
     )
 
 

@@ -21,7 +21,12 @@ from camkit import (
     mm,
 )
 from camkit.cam import ConjugatePair, max_pressure_angle, peak_force
-from camkit.files import Blank, faults
+from camkit.files import Blank, TitleBlock, faults
+from camkit.files.workshop.drawing import drawing
+from camkit.files.workshop.dxf import dxf
+from camkit.files.workshop.faults import marked
+from camkit.files.workshop.gcode import gcode
+from camkit.files.workshop.tables import table
 from camkit.motion import HalfHarmonicStart
 
 LAW = Cycloidal()
@@ -152,3 +157,24 @@ def test_what_cannot_be_judged_is_refused_in_a_sentence(given, said):
 
 def test_a_valve_cam_is_judged_all_around():
     assert faults(ValveCam()) == ()
+
+
+UNDERCUT = TranslatingFlatCam(base_radius=10 * mm)
+WRITERS = {
+    "drawing": lambda: drawing(UNDERCUT, ".svg"),
+    "program": lambda: gcode(UNDERCUT, tool_radius=2 * mm),
+    "table": lambda: table(UNDERCUT, "polar"),
+    "dxf": lambda: dxf(UNDERCUT),
+}
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_a_file_of_an_undercut_cam_says_so_whoever_asks_for_it(writer):
+    text = WRITERS[writer]().data.decode(errors="replace").upper()
+    assert "FAULTY" in text
+    assert "UNDERCUT" in text
+
+
+def test_a_file_of_a_sound_cam_says_nothing():
+    assert b"FAULTY" not in dxf(TranslatingRollerCam()).data
+    assert marked(TitleBlock(), TranslatingRollerCam()) == TitleBlock()

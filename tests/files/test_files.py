@@ -128,6 +128,14 @@ def alike(first, second):
     return same and np.allclose(first.reference, second.reference, rtol=1e-14)
 
 
+def test_a_study_alone_is_saved_as_the_session_at_its_start():
+    study = lift_curve_study()
+    found = from_json(to_json(study))
+    assert isinstance(found, Session)
+    assert found.design == study.start
+    assert found.study.x0.tolist() == study.x0.tolist()
+
+
 def test_every_kind_of_mechanism_has_a_study_here():
     assert {type(make().start).__name__ for make in STUDIES.values()} >= {
         "DoorHandleCam", "ValveCam", "HighSpeedCam", "CamLever", "CabinDoorLinkage", "UniversalJointShaft",

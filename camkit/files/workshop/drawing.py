@@ -13,6 +13,7 @@ from .blank import Blank
 from .contours import STEPS, contours
 from .deviations import Within, half_widths
 from .dimensions import Words
+from .faults import marked
 from .inspection import largest_deviation
 from .layout import Plan, Sheet, sheets_of
 from .pdf import DRAWING, pdf_of, typst_for
@@ -86,7 +87,7 @@ def drawing(
         raise ValueError(f"a drawing ends in {' or '.join(ENDINGS)}, not in {ending!r:.40}")
     if ending == ".pdf":
         typst_for(DRAWING)
-    parts = subjects(cam)
+    parts, title = subjects(cam), marked(title, cam)
     given = half_widths(parts[0].design, tolerances)
     said_as = Words(length_unit(unit), given)
     zone = _above_0(profile_tolerance, "the profile tolerance", least=0.0) or 2 * largest_deviation(parts, given)

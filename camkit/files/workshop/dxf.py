@@ -6,14 +6,12 @@ Written by ezdxf as DXF of the year 2000, which every reader knows; read back by
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from ...cam.flank import flanks
-from ...cam.undercut import undercut_in_words
 from ...quantities.kinds import one_number, refuse_arguments, shown
 from ...quantities.types import Array
 from ...units import deg, um
@@ -23,6 +21,7 @@ from .contours import contours
 from .curves import Contour
 from .dxf_read import paths_of
 from .dxf_sheet import Sheet, drawing, without_codes
+from .faults import marked
 from .plan import plan
 from .skeleton import skeleton
 from .splines import Spline, splines
@@ -76,7 +75,7 @@ def dxf(
     given = [contour for s in cams for lines in _by_layer(s, cams).values() for contour in lines]
     drawn = [each for contour in given for each in _fitted(contour, tolerance, entity)]
     said = f"{entity} within {tolerance / um:.4g} um of the exact cam"
-    faults = tuple(dict.fromkeys([*title.faults, *_faults(cams)]))
+    faults = marked(title, cam).faults
     about = replace(title, faults=())
 
     def file(told: str) -> bytes:
@@ -162,13 +161,6 @@ def _what(drawn: Sequence[ArcPath | Spline]) -> str:
 
 
 # ---------------------------------------------------------------- what is said
-
-
-def _faults(cams: Sequence[Subject]) -> Iterator[str]:
-    """What is lost of the profiles, in sentences."""
-    for cam in cams:
-        if words := undercut_in_words(cam.analysis, flanks(cam.analysis).cuts):
-            yield f"{cam.name}: {words}" if cam.name else words
 
 
 def _remarks(cams: Sequence[Subject], given: Sequence[Contour], unit: str) -> tuple[str, ...]:

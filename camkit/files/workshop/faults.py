@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,8 @@ from ...study.robust import RobustStudy
 from ...study.study import Study
 from ...units import deg, mm
 from .blank import Blank
-from .subject import Subject, analysis_of, design_of, subjects
+from .subject import Subject, analysis_of, design_of, kept, subjects
+from .title import TitleBlock
 
 YIELD = 0.99
 """Share of the parts that has to keep every limit, where nobody says another."""
@@ -68,6 +70,19 @@ def faults(
         told += (f"{each}; it must be {each.bound}" for each in verdicts(study.nominal) if not each.kept)
         told += _yield(study, tolerances, least_yield)
     return tuple(told)
+
+
+def marked(title: TitleBlock, cam: object) -> TitleBlock:
+    """``title`` with what the tool cuts away of the cam, if anything: no file goes to a workshop without."""
+    found = filter(None, map(lost, subjects(cam)))
+    return replace(title, faults=tuple(dict.fromkeys((*title.faults, *found))))
+
+
+@kept
+def lost(cam: Subject) -> str:
+    """What the tool cuts away of a cam, in a sentence; empty: nothing."""
+    words = undercut_in_words(cam.analysis, flanks(cam.analysis).cuts)
+    return f"{cam.name}: {words}" if cam.name and words else words
 
 
 def has_profile(analysis: object) -> bool:

@@ -21,6 +21,7 @@ from ...quantities.types import Array
 from ...units import in_unit, mm, um
 from .arcs import ArcPath
 from .blank import Blank
+from .faults import marked
 from .leads import Run, run
 from .milling import CLIMB, FANUC, LINUXCNC, Milling
 from .readback import Wanted, deviation
@@ -85,7 +86,7 @@ def gcode(
     said = f"be a length from {FINEST / um:g} to {COARSEST / um:g} um"
     within = one_number(tolerance, "the tolerance", said, lambda x: FINEST <= x <= COARSEST)
     jobs = [_job(subject, how, blank, within) for subject in subjects(cam)]
-    program = "\n".join(_program(jobs, how, unit, title, within)) + "\n"
+    program = "\n".join(_program(jobs, how, unit, marked(title, cam), within)) + "\n"
     off = deviation(program, [want for job in jobs for want in _wanted(job, how)], within)
     return Made(program.encode("ascii"), _what(jobs, how), off, tuple(_remarks(jobs, how)))
 

@@ -18,6 +18,7 @@ from ...quantities.types import Array
 from ...units import mm, um
 from .blank import Blank
 from .drum import drum_mesh
+from .faults import marked
 from .mesh import Mesh, mesh, off
 from .prisms import Part, parts
 from .subject import design_of, subjects
@@ -74,7 +75,7 @@ def stl(cam: object, *, tolerance: float = 10 * um, title: TitleBlock = TitleBlo
 
     The solid is that of `step`; the cams of a pair lie beside each other.  Raises ``ValueError`` as that does.
     """
-    name, bodies = title.marked(type(design_of(cam)).__name__), _bodies(cam, blank, tolerance)
+    name, bodies = marked(title, cam).marked(type(design_of(cam)).__name__), _bodies(cam, blank, tolerance)
     corners = np.concatenate([body.mesh.points[body.mesh.triangles] for body in bodies]) / mm
     written_as = corners.astype(STL["corners"].base)  # corners that fall together there leave no triangle
     corners = corners[(written_as != np.roll(written_as, 1, axis=1)).any(2).all(1)]
@@ -104,7 +105,7 @@ def three_mf(
 ) -> Made:
     """A cam as 3MF: as `stl`, with its unit, title and author in the file; a pair is two objects."""
     unit, kind = length_unit(unit), type(design_of(cam)).__name__
-    bodies = _bodies(cam, blank, tolerance)
+    bodies, title = _bodies(cam, blank, tolerance), marked(title, cam)
     facts = {"Title": title.marked(kind), "Designer": title.author, "CreationDate": title.day}
     facts["Description"] = "; ".join(title.lines(kind, unit, f"flanks within {tolerance / um:.3g} um"))
     said = "".join(f'<metadata name="{name}">{_text(value)}</metadata>' for name, value in facts.items() if value)

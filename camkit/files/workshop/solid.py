@@ -13,6 +13,7 @@ from ...units import mm, um
 from .arcs import distances
 from .bars import BAR, Round, Tube, tubes_of
 from .blank import Blank
+from .faults import marked
 from .prisms import Part, parts
 from .skeleton import tube_callout
 from .subject import DRAWN, analysis_of, design_of
@@ -72,6 +73,7 @@ def step(
 
         made = parts(cam, blank, tolerance)
         solids = [Named(part.name, solid(part.added, part.cut), part.height) for part in made]
+    title = marked(title, cam)
     lines = title.lines(kind, unit, f"flanks within {tolerance / um:.3g} um")
     return _cams_read(step_file(title.marked(kind), solids, unit, title, lines), made, blank.thickness)
 

@@ -17,7 +17,7 @@ from .cad_curves import CAD, cad_curve
 from .columns import Table, Units, motion_columns, polar_columns, profile_columns, slides, stacked, wheel_columns
 from .controllers import FORMS, controller_table
 from .deviations import Within, half_widths
-from .faults import has_profile
+from .faults import has_profile, marked
 from .inspection import inspection_columns
 from .joints import joint_columns
 from .named import curves_of
@@ -116,6 +116,7 @@ def table(
         raise ValueError(f"the kind of the table is {shown(kind)}; it must be one of {', '.join(KINDS)}")
     unit = length_unit(unit)
     tool = f"tool radius {in_unit(tool_radius, unit):.6g} {unit}" if kind == "wheel" else ""
+    title = marked(title, cam) if has_profile(analysis_of(cam)) else title
     lines = title.lines(type(design_of(cam)).__name__, unit, tool)
     if kind in CAD:
         return cad_curve(_one_of(_curves(cam), curve, "curve"), kind, unit, lines, ending)
