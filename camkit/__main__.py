@@ -152,7 +152,7 @@ def export(asked: argparse.Namespace) -> int:
 def _zip(order: Order, folder: Path, insist: bool) -> object:
     title = replace(order.title, faults=())
     return to_workshop(
-        order.analysis,
+        order.design,
         folder / f"{order.kind}.zip",
         study=order.study,
         unit=order.unit,

@@ -13,6 +13,7 @@ from ..files.workshop.reported import study_of
 from ..quantities import Quantity, choices_of, quantities_of, value_of
 from ..quantities.kinds import refuse_arguments
 from ..study.robust import RobustStudy
+from ..study.spread import Source
 from ..study.study import Study
 from ..units import mm
 from .instrument import Instrument
@@ -107,7 +108,7 @@ class WorkshopPanel(Sheet):
         return study.under(app.tolerances, YIELD)
 
     @property
-    def _halves(self) -> dict[str, object] | None:
+    def _halves(self) -> dict[str | Source, object] | None:
         return dict(self.explorer.half_widths) if self.explorer.tolerances else None
 
     def _moved(self) -> None:

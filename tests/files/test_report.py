@@ -278,7 +278,7 @@ def test_what_has_no_room_is_left_out_and_said() -> None:
 
 
 def test_what_is_no_report_is_refused(tmp_path) -> None:
-    with pytest.raises(ValueError, match=r"^the ending of the report is '.docx'; there are .pdf and .html$"):
+    with pytest.raises(ValueError, match=r"^a report ends in .pdf or .html, not in '.docx'$"):
         write_report(TranslatingRollerCam(), tmp_path / "cam.docx")
     with pytest.raises(ValueError, match="a design or its analysis can be exported"):
         write_report(object(), tmp_path / "cam.html")

@@ -617,13 +617,13 @@ def test_a_table_is_written_by_the_ending_of_its_name(tmp_path):
     head = (tmp_path / "cam.csv").read_text("utf-8-sig").splitlines()[0]
     assert head.startswith('direction [deg],profile radius [mm],"凸轮; lengths in mm; camkit')
     assert "drawn at cam angle 0; the cam turns counter-clockwise; directions run counter-clockwise from x" in head
-    with pytest.raises(ValueError, match="a table can be csv or xlsx"):
+    with pytest.raises(ValueError, match="a table of polar ends in csv or xlsx, not in 'ods'"):
         write_table(CIRCLE, tmp_path / "cam.ods", "polar")
     with pytest.raises(ValueError, match="the kind of the table is 'radii'; it must be one of profile, polar"):
         write_table(CIRCLE, tmp_path / "cam.csv", "radii")
     with pytest.raises(ValueError, match="in mm or in inches"):
         write_table(CIRCLE, tmp_path / "cam.csv", "polar", unit="cm")
-    with pytest.raises(ValueError, match="a file of points for nx ends in 'csv'; it can end in dat or txt"):
+    with pytest.raises(ValueError, match="a table of nx ends in dat or txt, not in 'csv'"):
         write_table(CIRCLE, tmp_path / "cam.csv", "nx")
 
 

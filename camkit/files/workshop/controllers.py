@@ -65,11 +65,12 @@ def controller_table(program: MotionProgram, form: str, unit: str, step: float =
     values = np.stack([in_unit(column * deg**k, unit) for k, column in enumerate(rows.values)])
     slopes = in_unit(controller_rows(program, "cubic", None).values[1][[0, -1]] * deg, unit)
     cyclic = bool(np.all(program.periodic) and np.all(program.comes_back))
-    data = form_of.write(master, values, cyclic).encode()
+    grows = np.diff(master.astype(form_of.number), prepend=-1) > 0
+    data = form_of.write(master[grows], values[:, grows], cyclic).encode()
     place = (rows.angle[:-1] + np.diff(rows.angle) * np.linspace(0, 1, EVERY)[:, None]).ravel()
     away = form_of.read(data, slopes)(in_unit(place, "deg")) * factor(unit) - program(place).s
     remarks = (form_of.remark.format(*slopes),) if form_of.remark else ()
-    return Made(data, f"{len(master)} rows for {form}, master in deg, slave in {unit}", float(abs(away).max()), remarks)
+    return Made(data, f"{grows.sum()} rows for {form}, master in deg, slave in {unit}", float(abs(away).max()), remarks)
 
 
 def _csv(rows: Iterable[Iterable[object]], delimiter: str = ",") -> str:
@@ -157,12 +158,16 @@ class Form(NamedTuple):
     """From the file and the slopes at both ends."""
     way: str
     remark: str = ""
+    number: type = float
+    """Its master positions: of 32 bits some rows are at the same."""
 
 
 FORMS = {
     "codesys": Form(_codesys, _follow_codesys, "poly5"),
     "twincat": Form(_twincat, _follow_twincat, "poly5"),
     "kollmorgen": Form(_kollmorgen, _follow_kollmorgen, "linear"),
-    "rockwell": Form(_rockwell, _follow_rockwell, "linear", "MCCP needs start slope {:.7g} and end slope {:.7g}"),
+    "rockwell": Form(
+        _rockwell, _follow_rockwell, "linear", "MCCP needs start slope {:.7g} and end slope {:.7g}", np.float32
+    ),
 }
 """The controllers by name."""

@@ -11,9 +11,10 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...quantities import Paths, Quantity, words
+from ...quantities import Paths, Quantity, value_of, words
 from ...quantities.kinds import one_number
 from ...quantities.types import Array
+from ...study.spread import Source, Tolerance
 from ...study.tolerances import Tolerances
 from .subject import Subject, cams_of
 
@@ -26,18 +27,35 @@ FAR = 10.0
 NOTHING = 1e-12
 """A size that moves a point less (m) does not move it."""
 
-Within = Tolerances | Mapping[str, object]
+Within = Tolerances | Mapping[str | Source, object]
 
 
 def half_widths(design: object, given: Within | None) -> dict[str, float]:
-    """Half widths of tolerances by path, SI; ``ValueError`` in a sentence for a path that the design does not have."""
-    halves: Mapping[str, object] = given.half_widths if isinstance(given, Tolerances) else given or {}
-    Paths(design, halves, Quantity)
-    return {path: _half(half, f"the tolerance of the {words(path)}") for path, half in halves.items()}
+    """Half widths of tolerances by path, SI; a `Source` widens all that it moves.
+
+    ``ValueError`` in a sentence for a path that the design does not have, and for a tolerance that goes farther to one
+    side than to the other.
+    """
+    told = (given.half_widths if isinstance(given, Tolerances) else given or {}).items()
+    halves: dict[str, float] = {}
+    for key, tolerance in told:
+        name, moves, of = (key.name, key.moves, key.of) if isinstance(key, Source) else (key, *(((key, 1.0),),) * 2)
+        Paths(design, dict.fromkeys(path for path, _ in (*moves, *of)), Quantity)
+        half = _half(tolerance, name, sum(factor * value_of(design, path) for path, factor in of))
+        for path, factor in moves:
+            halves[path] = halves.get(path, 0.0) + abs(factor) * half
+    return halves
 
 
-def _half(value: object, what: str) -> float:
-    return one_number(value, what, "be finite and at least 0", lambda x: 0 <= x < np.inf)
+def _half(given: object, name: str, value: float) -> float:
+    """How far a tolerance reaches to either side of a value."""
+    what = f"the tolerance of the {words(name)}"
+    if isinstance(given, (Tolerance, tuple)) or callable(given):
+        tolerance = given if isinstance(given, Tolerance) else Tolerance(given)
+        low, given = (float(side[0]) for side in tolerance.between(name, np.array([value])))
+        if not np.isclose(-low, given, rtol=1e-9, atol=0):
+            raise ValueError(f"{what} goes from {low:g} to {given:g} (SI); here it must reach as far to both sides")
+    return one_number(given, what, "be finite and at least 0", lambda x: 0 <= x < np.inf)
 
 
 def deviations(subject: Subject, halves: Mapping[str, float], points: Array, normals: Array) -> tuple[Array, Array]:

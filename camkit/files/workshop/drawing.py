@@ -22,7 +22,7 @@ from .svg import document
 from .svg_path import read_paths
 from .title import TitleBlock
 from .view import ROLES, scale_text
-from .written import Made, Written, length_unit, written
+from .written import Made, Written, length_unit, new_file, refuse_ending, written
 
 ENDINGS = (".svg", ".pdf")
 FINER = 3
@@ -55,10 +55,10 @@ def write_drawing(
     1 sheet A3, scale 2:1
     """
     refuse_arguments(write_drawing, locals())
-    ending = Path(path).suffix.lower()
+    path = new_file(path, "a drawing", ENDINGS)
     made = drawing(
         cam,
-        ending,
+        path.suffix.lower(),
         blank=blank,
         tolerances=tolerances,
         profile_tolerance=profile_tolerance,
@@ -83,8 +83,7 @@ def drawing(
     title: TitleBlock = TitleBlock(),
 ) -> Made:
     """The file of `write_drawing`, by its ending."""
-    if ending not in ENDINGS:
-        raise ValueError(f"a drawing ends in {' or '.join(ENDINGS)}, not in {ending!r:.40}")
+    refuse_ending(ending, "a drawing", ENDINGS)
     if ending == ".pdf":
         typst_for(DRAWING)
     parts, title = subjects(cam), marked(title, cam)

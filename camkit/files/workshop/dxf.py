@@ -27,7 +27,7 @@ from .skeleton import skeleton
 from .splines import Spline, splines
 from .subject import DRAWN, Subject, analysis_of, frame, subjects
 from .title import TitleBlock
-from .written import Made, Written, length_unit, written
+from .written import Made, Written, length_unit, new_file, written
 
 ENTITIES = "arcs", "spline", "chords"
 CHECK = 23
@@ -110,6 +110,7 @@ def write_dxf(
     cam.dxf: 56 arcs on CAM; read back, at most 0.99 um off
     """
     refuse_arguments(write_dxf, locals())
+    path = new_file(path, "a DXF drawing", (".dxf",))
     return written(dxf(cam, tolerance, entity, unit, blank, title), path)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from ...quantities import Analysable
 from ...quantities.kinds import one_number
 from ...study.robust import RobustStudy
+from ...study.spread import Source
 from ...study.study import NOTHING, Study
 from ...units import mm
 from .blank import Blank
@@ -36,12 +37,16 @@ class Order:
     blank: Blank = Blank()
     tool_radius: float = 5 * mm
     study: Study | None = None
-    tolerances: Mapping[str, object] | None = None
-    """Half widths by path, SI."""
+    tolerances: Mapping[str | Source, object] | None = None
+    """Half widths by path, SI, or what a `RobustStudy` takes."""
     more: tuple[Export, ...] = ()
     """What there is beside `EXPORTS`: a panel gives the page that it shows."""
 
+    whole: Analysable | None = None
+    """The design that was given, where its analysis knows but the cam in it: of pins, a drive, an elastic train."""
+
     def __post_init__(self) -> None:
+        object.__setattr__(self, "whole", self.whole or design_of(self.analysis))
         object.__setattr__(self, "analysis", analysis_of(self.analysis))
         object.__setattr__(self, "unit", length_unit(self.unit))
         one_number(self.tool_radius, "the radius of the tool", "lie above 0 and be finite", lambda r: 0 < r < np.inf)
@@ -49,13 +54,15 @@ class Order:
     @cached_property
     def limits(self) -> tuple[float, float]:
         """How far a point of the profile may be off, m: the same in the drawing and in the inspection file."""
-        half = largest_deviation(subjects(self.analysis), half_widths(self.design, self.tolerances)) or LIMIT
+        cams = subjects(self.analysis)
+        half = largest_deviation(cams, half_widths(cams[0].design, self.tolerances)) or LIMIT
         return -half, half
 
     @property
     def design(self) -> Analysable:
         """The whole of it."""
-        return design_of(self.analysis)
+        assert self.whole is not None
+        return self.whole
 
     @property
     def kind(self) -> str:
@@ -239,7 +246,8 @@ def _report(order: Order, ending: str) -> Made:
 
     known = order.study is None or isinstance(order.study, RobustStudy)  # without limits every part is good
     within = None if known else order.tolerances
-    return report(order.analysis, ending, order.title, order.study, within, order.unit, order.blank)
+    given = order.analysis if design_of(order.analysis) is order.design else order.design
+    return report(given, ending, order.title, order.study, within, order.unit, order.blank)
 
 
 EXPORTS = (

@@ -14,6 +14,7 @@ from ...quantities import Measure
 from ...quantities.kinds import refuse_arguments
 from ...study.limits import keeps
 from ...study.robust import RobustStudy
+from ...study.spread import Source
 from ...study.study import Study
 from ...units import deg, mm
 from .blank import Blank
@@ -42,7 +43,7 @@ class Verdict(NamedTuple):
 def faults(
     cam: object,
     study: Study | None = None,
-    tolerances: Mapping[str, object] | None = None,
+    tolerances: Mapping[str | Source, object] | None = None,
     least_yield: float = YIELD,
     blank: Blank | None = None,
 ) -> tuple[str, ...]:
@@ -148,7 +149,7 @@ def verdicts(study: Study) -> Iterator[Verdict]:
         yield Verdict(measure if sign > 0 else -measure, sign * value, bound, bool(keeps(value, limit, sense)))
 
 
-def _yield(study: Study, tolerances: Mapping[str, object] | None, least: float) -> Iterator[str]:
+def _yield(study: Study, tolerances: Mapping[str | Source, object] | None, least: float) -> Iterator[str]:
     """Whether enough of the parts made after the start of a study keep its limits."""
     robust = study.under(tolerances, least) if tolerances else study
     if not isinstance(robust, RobustStudy) or not study.limits:

@@ -28,7 +28,7 @@ from .readback import Wanted, deviation
 from .subject import Subject, subjects
 from .title import TitleBlock
 from .toolpath import ToolPath, path_of
-from .written import LENGTHS, Made, Written, length_unit, written
+from .written import LENGTHS, Made, Written, length_unit, new_file, written
 
 FINEST, COARSEST = 0.5 * um, 100 * um
 """Tolerances that a program can be asked for."""
@@ -40,6 +40,7 @@ LARGEST = 10.0
 """Arcs of a larger radius (m) are lines, each of which rises by less than `RISE` above the arc."""
 RISE = 0.05 * um
 UNTITLED, PLATE = TitleBlock(), Blank()
+ENDINGS = ".ngc", ".nc", ".tap", ".cnc", ".gcode", ".txt"
 WIDTH = 66
 """Letters of a comment in one line: controls cut longer ones off."""
 
@@ -118,6 +119,7 @@ def write_gcode(
     (['%', 'O1000'], True)
     """
     refuse_arguments(write_gcode, locals())
+    path = new_file(path, "a program of G-code", ENDINGS)
     return written(gcode(cam, unit=unit, title=title, blank=blank, tolerance=tolerance, **milling), path)
 
 

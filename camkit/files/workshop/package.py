@@ -10,6 +10,7 @@ import numpy as np
 
 from ...quantities.kinds import refuse_arguments
 from ...quantities.markup import plain
+from ...study.spread import Source
 from ...study.study import Study
 from ...units import mm
 from .blank import Blank
@@ -17,7 +18,7 @@ from .exports import Export, Order, exports_of
 from .faults import YIELD, faults, has_profile
 from .subject import subjects
 from .title import TitleBlock
-from .written import Made, Written, written, zipped
+from .written import Made, Written, new_file, written, zipped
 
 README = "README.txt"
 FRAME = "The cam's axis is the origin, angle 0 of the cam the x axis; angles are in degrees. The cam turns {}."
@@ -31,7 +32,7 @@ def to_workshop(
     path: str | Path,
     *,
     study: Study | None = None,
-    tolerances: Mapping[str, object] | None = None,
+    tolerances: Mapping[str | Source, object] | None = None,
     least_yield: float = YIELD,
     unit: str = "mm",
     title: TitleBlock = TitleBlock(),
@@ -55,6 +56,7 @@ def to_workshop(
 radius 2.67 mm; insist=True writes it nevertheless, marked FAULTY on every sheet
     """
     refuse_arguments(to_workshop, locals())
+    path = new_file(path, "what goes to the workshop", (".zip",))
     order = Order(cam, unit, title, blank, tool_radius, study, tolerances)
     return written(package(order, faults(order.design, study, tolerances, least_yield, blank), insist), path)
 

@@ -23,7 +23,7 @@ from .mesh import Mesh, mesh, off
 from .prisms import Part, parts
 from .subject import design_of, subjects
 from .title import TitleBlock
-from .written import LENGTHS, Made, Written, length_unit, written, zipped
+from .written import LENGTHS, Made, Written, length_unit, new_file, written, zipped
 
 STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """A triangle of a binary STL file."""
@@ -54,6 +54,7 @@ def write_stl(
     blank: Blank = Blank(),
 ) -> Written:
     """Write a cam for a 3D printer as binary STL in mm; it needs the extra ``print``.  See `stl`."""
+    path = new_file(path, "an STL file", (".stl",))
     return written(stl(cam, tolerance=tolerance, title=title, blank=blank), path)
 
 
@@ -67,6 +68,7 @@ def write_3mf(
     blank: Blank = Blank(),
 ) -> Written:
     """Write a cam for a 3D printer as 3MF, which says its unit; it needs the extra ``print``.  See `three_mf`."""
+    path = new_file(path, "a 3MF file", (".3mf",))
     return written(three_mf(cam, tolerance=tolerance, unit=unit, title=title, blank=blank), path)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ...quantities.applied import a_path
 from ...quantities.kinds import refuse_arguments
 from ...study.study import Study
 from .blank import Blank
@@ -15,7 +14,7 @@ from .report_pdf import REPORT, pdf
 from .report_texts import BARE, report_of
 from .reported import Within, reported
 from .title import TitleBlock
-from .written import Made, Written, length_unit, written
+from .written import Made, Written, length_unit, new_file, refuse_ending, written
 
 LAYOUTS = {".pdf": pdf, ".html": page}
 """By the ending of the file."""
@@ -31,8 +30,7 @@ def report(
     blank: Blank = BARE,
 ) -> Made:
     """What `write_report` writes."""
-    if ending not in LAYOUTS:
-        raise ValueError(f"the ending of the report is {ending!r:.40}; there are {' and '.join(LAYOUTS)}")
+    refuse_ending(ending, "a report", tuple(LAYOUTS))
     if ending == ".pdf":
         typst_for(REPORT)
     return LAYOUTS[ending](report_of(reported(thing, study, tolerances), title, length_unit(unit), blank))
@@ -65,5 +63,5 @@ def write_report(
     Raises ``ValueError`` for another ending, for what is no design, and for a study or tolerances of another design.
     """
     refuse_arguments(write_report, locals())
-    path = a_path(path)
+    path = new_file(path, "a report", tuple(LAYOUTS))
     return written(report(thing, path.suffix.lower(), title, study, tolerances, unit, blank), path)

@@ -50,8 +50,6 @@ class Sheet:
 
     def written(self, ending: str, decimal: str = ".") -> bytes:
         """As a file with that ending, ``"csv"`` or ``"xlsx"``; a decimal comma goes with semicolons between cells."""
-        if ending not in ENDINGS:
-            raise ValueError(f"the ending of the table is {shown(ending)}; a table can be csv or xlsx")
         if decimal not in (".", ","):
             raise ValueError(f"the decimal sign is {shown(decimal)}; it must be a point or a comma")
         return workbook([self.headings, *self.rows]) if ending == "xlsx" else _text(self, decimal)

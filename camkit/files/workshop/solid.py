@@ -18,7 +18,7 @@ from .prisms import Part, parts
 from .skeleton import tube_callout
 from .subject import DRAWN, analysis_of, design_of
 from .title import TitleBlock
-from .written import Made, Written, length_unit, written
+from .written import Made, Written, length_unit, new_file, written
 
 if TYPE_CHECKING:
     from OCP.TopoDS import TopoDS_Solid
@@ -38,6 +38,7 @@ def write_step(
     link: Round = BAR,
 ) -> Written:
     """Write a cam, a linkage or a shaft as solids for CAD; it needs the extra ``step``.  What is in it: see `step`."""
+    path = new_file(path, "a STEP file", (".step", ".stp"))
     return written(step(cam, tolerance=tolerance, unit=unit, title=title, blank=blank, link=link), path)
 
 

@@ -92,6 +92,7 @@ def fitted(text: str, width: float, size: float, least: float, lines: int = 1) -
     >>> fitted("x" * 60, 20, 5, 2.5)[0]
     ['xxxxxxxxxxxxxx…']
     """
+    text = text[: lines * (2 + int(width / (least * min(_WIDTH.values()))))]  # of more there is never room
     while True:
         found = _broken(text, width, size)
         if len(found) <= lines:
@@ -113,11 +114,12 @@ def _broken(text: str, width: float, size: float) -> list[str]:
             continue
         if line.strip():
             lines.append(line.strip())
-        line = word.strip()
-        while text_width(line, size) > width and len(line) > 1:
-            fits = max(1, next(n for n in range(len(line), 0, -1) if n == 1 or text_width(line[:n], size) <= width))
-            lines.append(line[:fits])
-            line = line[fits:]
+        line = ""
+        for letter in word.strip():
+            if line and text_width(line + letter, size) > width:
+                lines.append(line)
+                line = ""
+            line += letter
     return [*lines, line.strip()] if line.strip() or not lines else lines
 
 

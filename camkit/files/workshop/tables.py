@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from ...cam.analysis import CamAnalysis
-from ...quantities.applied import a_path
+from ...quantities.applied import a_new_file
 from ...quantities.kinds import numbers, refuse_arguments, shown
 from ...quantities.types import Array
 from ...units import deg, in_unit, mm, um
@@ -21,11 +21,11 @@ from .faults import has_profile, marked
 from .inspection import inspection_columns
 from .joints import joint_columns
 from .named import curves_of
-from .sheets import Sheet, numbers_in
+from .sheets import ENDINGS, Sheet, numbers_in
 from .subject import analysis_of, design_of, frame, subjects
 from .title import TitleBlock
 from .toolpath import tool_path
-from .written import LENGTHS, Made, Written, length_unit, written
+from .written import LENGTHS, Made, Written, length_unit, refuse_ending, written
 
 T = TypeVar("T")
 KINDS = {
@@ -80,7 +80,8 @@ def write_table(
     Raises ``ValueError`` in a sentence for a kind, a unit or a curve that there is not.
     """
     refuse_arguments(write_table, locals())
-    ending = a_path(path).suffix.lower().lstrip(".")
+    path = a_new_file(path)
+    ending = path.suffix.lower().lstrip(".")
     more = table(
         cam,
         kind,
@@ -114,6 +115,7 @@ def table(
     """The same as bytes, with the ``ending`` of the file's name."""
     if kind not in KINDS:
         raise ValueError(f"the kind of the table is {shown(kind)}; it must be one of {', '.join(KINDS)}")
+    refuse_ending(ending, f"a table of {kind}", CAD.get(kind, ("csv",) if kind in FORMS else ENDINGS))
     unit = length_unit(unit)
     tool = f"tool radius {in_unit(tool_radius, unit):.6g} {unit}" if kind == "wheel" else ""
     title = marked(title, cam) if has_profile(analysis_of(cam)) else title

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -61,6 +61,25 @@ def written(made: Made, path: str | Path) -> Written:
     remove_parts(path)
     write_whole(path, made.data)
     return Written(path, made.what, made.deviation, made.remarks)
+
+
+def new_file(path: str | Path, what: str, endings: Sequence[str]) -> Path:
+    """The path of a file that is to be made, before it is; ``ValueError`` without its folder, or for another ending.
+
+    >>> new_file("cam.png", "an STL file", (".stl",))
+    Traceback (most recent call last):
+        ...
+    ValueError: an STL file ends in .stl, not in '.png'
+    """
+    path = a_new_file(path)
+    refuse_ending(path.suffix.lower(), what, endings)
+    return path
+
+
+def refuse_ending(ending: str, what: str, endings: Sequence[str]) -> None:
+    """``ValueError`` in a sentence for an ending that is none of those of ``what``."""
+    if ending not in endings:
+        raise ValueError(f"{what} ends in {' or '.join(endings)}, not in {ending!r:.40}")
 
 
 def length_unit(unit: object) -> str:
