@@ -109,7 +109,7 @@ class WorkshopPanel(Sheet):
 
     @property
     def _halves(self) -> dict[str | Source, object] | None:
-        return dict(self.explorer.half_widths) if self.explorer.tolerances else None
+        return dict(self.explorer.half_widths.items()) if self.explorer.tolerances else None
 
     def _moved(self) -> None:
         """Another blank, if there can be one; else the last one stays."""

@@ -124,9 +124,9 @@ def plain(text: object) -> str:
 
 
 def _visible(text: object) -> str:
-    """``text`` without what shows nothing but changes what is around it, such as the direction of writing."""
+    """``text`` without half letters, and what shows nothing but changes what is around it: the direction of writing."""
     said = str(text)
-    return said if said.isascii() else "".join(c for c in said if unicodedata.category(c) != "Cf")
+    return said if said.isascii() else "".join(c for c in said if unicodedata.category(c) not in ("Cf", "Cs"))
 
 
 def words(name: str) -> str:

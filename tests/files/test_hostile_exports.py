@@ -45,6 +45,7 @@ from camkit.files.workshop.drawing import drawing
 from camkit.files.workshop.dxf import dxf
 from camkit.files.workshop.exports import EXPORTS, Order
 from camkit.files.workshop.gcode import gcode
+from camkit.files.workshop.report import report
 from camkit.files.workshop.subject import subjects
 from camkit.files.workshop.tables import table
 from camkit.files.workshop.written import Made, written
@@ -217,3 +218,8 @@ def test_a_title_of_ten_thousand_letters_is_cut_on_a_sheet():
         made = drawing(FLAT, ".svg", title=TitleBlock(title, title, title, title, title, (title,)))
         assert made.deviation < 1 * um
         assert "\u2026" in made.data.decode()
+
+
+def test_half_a_letter_is_left_out_of_a_report():
+    page = report(FLAT, ".html", TitleBlock("inlet\ud800cam", author="\udfff")).data.decode()
+    assert "inletcam" in page.replace(" ", "")
