@@ -115,7 +115,7 @@ def table(
     """The same as bytes, with the ``ending`` of the file's name."""
     if kind not in KINDS:
         raise ValueError(f"the kind of the table is {shown(kind)}; it must be one of {', '.join(KINDS)}")
-    refuse_ending(ending, f"a table of {kind}", CAD.get(kind, ("csv",) if kind in FORMS else ENDINGS))
+    _refuse_ending(kind, ending)
     unit = length_unit(unit)
     tool = f"tool radius {in_unit(tool_radius, unit):.6g} {unit}" if kind == "wheel" else ""
     title = marked(title, cam) if has_profile(analysis_of(cam)) else title
@@ -139,6 +139,12 @@ def table(
     away = np.nan if kind == "motion" else _deviation(whole, numbers_in(data, decimal), unit)
     remarks = (*map(str, path.uncut), *path.remarks) if path else ()
     return Made(data, f"{rows} rows of {kind}", away, remarks)
+
+
+def _refuse_ending(kind: str, ending: str) -> None:
+    """Points for CAD that are no file have no ending."""
+    if ending or kind not in CAD:
+        refuse_ending(ending, f"a table of {kind}", CAD.get(kind, ("csv",) if kind in FORMS else ENDINGS))
 
 
 def _columns(
