@@ -85,13 +85,13 @@ test: lint
 test-tools: $(TOOLS:%=.tools/%/.ready)
 	@for tool in $(TOOLS); do \
 	    echo "== files for the workshop: $$tool (pytest in .tools/$$tool)"; \
-	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider tests/tools/$$tool/test_*.py || exit 1; \
+	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider -n 2 tests/tools/$$tool/test_*.py || exit 1; \
 	done
 
 .tools/%/.ready: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "Installing what the checks of $* need into .tools/$*; the first time takes a minute or two."
 	$(BIN)/python -m venv .tools/$*
-	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt pytest -e $(NEEDS_$*)
+	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt pytest pytest-xdist -e $(NEEDS_$*)
 	@touch $@
 
 lint: $(VENV)/.test
