@@ -213,7 +213,7 @@ def test_of_several_loops_one_is_asked_for():
     def draw(space):
         space.add_circle((0, 0), 6, dxfattribs={"layer": "bore"})
         space.add_circle((20, 0), 3, dxfattribs={"layer": "holes"})
-        tangent(space, layer="cam")
+        tangent(space, layer="plate")
 
     data = drawn(draw)
     with pytest.raises(TableQuestion, match="2 closed loops of the drawing go around the cam axis") as asked:
@@ -221,7 +221,7 @@ def test_of_several_loops_one_is_asked_for():
     assert asked.value.argument == "loop"
     assert list(asked.value.options) == [
         "loop 1 (layer 'bore', 6 to 6 mm from the axis)",
-        "loop 2 (layer 'cam', 25 to 48 mm from the axis)",
+        "loop 2 (layer 'plate', 25 to 48 mm from the axis)",
     ]
     assert read_outline(data, loop=2).remarks[0].startswith("an outline of 2 arcs and 2 lines")
     with pytest.raises(ValueError, match="loop is 3; it must be a number from 1 to 2"):

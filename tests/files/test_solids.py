@@ -37,13 +37,13 @@ def plate():
     )
 
 
-@pytest.mark.parametrize("write", [write_step, write_stl, write_3mf])
-def test_a_missing_library_is_asked_for_in_a_sentence(monkeypatch, tmp_path, write):
+@pytest.mark.parametrize(("write", "ending"), [(write_step, "step"), (write_stl, "stl"), (write_3mf, "3mf")])
+def test_a_missing_library_is_asked_for_in_a_sentence(monkeypatch, tmp_path, write, ending):
     for name in ("OCP", "manifold3d"):
         monkeypatch.setitem(sys.modules, name, None)
     extra = r"OCP, .*camkit\[step\]' \(about 380 MB\)" if write is write_step else r"manifold3d, .*camkit\[print\]'$"
     with pytest.raises(ModuleNotFoundError, match=extra):
-        write(plate(), tmp_path / "cam")
+        write(plate(), tmp_path / f"cam.{ending}")
     assert not list(tmp_path.iterdir())
 
 
@@ -138,4 +138,4 @@ def test_an_stl_is_read_in_mm_and_its_corners_become_one_point():
 
 
 def test_a_text_of_a_step_file_is_ascii():
-    assert quoted("凸 'x' \\ é 😀\n") == r"\X2\51F8\X0\ ''x'' \\ \X2\00E9\X0\ \X4\0001F600\X0\ "
+    assert quoted("凸 'x' \\ é 😀\n") == r"\X2\51F8\X0\ ''x'' \\ \X2\00E9\X0\ \X4\0001F600\X0" "\\"

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...quantities import Paths, Quantity, value_of, words
 from ...quantities.kinds import one_number
@@ -85,6 +84,8 @@ def deviations(subject: Subject, halves: Mapping[str, float], points: Array, nor
 
 def _of_parts(subject: Subject, halves: Mapping[str, float], shares: Array, points: Array, normals: Array) -> Array:
     """How far each part lies off, ``(p, n)``, m; ``shares`` ``(p, k)`` of the half widths are what it deviates by."""
+    from scipy.spatial import cKDTree
+
     parts = _parts(subject, halves, np.vstack([0.0 * shares[:1], shares]))
     drum = subject.drum
     away = points * [[1.0], [1.0], [0.0]] if drum else np.array([[0.0], [0.0], [1.0]]) + 0.0 * points

@@ -17,13 +17,13 @@ Way = Callable[[Array], tuple[Array, Array]]
 
 
 def from_curve(curve: Way, steps: int, points: Array) -> Array:
-    """From each of ``points`` ``(2, n)`` or ``(3, n)`` to the nearest place of a curve from 0 to ``steps``.
+    """From each of ``points`` near a curve, ``(2, n)`` or ``(3, n)``, to its nearest place from 0 to ``steps``.
 
     >>> def circle(place):
     ...     x, y = np.cos(place), np.sin(place)
     ...     return np.stack([x, y]), np.stack([-y, x])
-    >>> from_curve(circle, 3, np.array([[0.0, 0.0, 2.0], [0.5, 3.0, 0.0]])).round(9).tolist()
-    [0.5, 2.0, 1.0]
+    >>> from_curve(circle, 3, np.array([[0.0, 0.0, 1.001], [0.999, 1.002, 0.0]])).round(9).tolist()
+    [0.001, 0.002, 0.001]
     """
     from scipy.spatial import cKDTree
 

@@ -52,7 +52,7 @@ def write_drawing(
     >>> from camkit import TranslatingFlatCam
     >>> with TemporaryDirectory() as folder:
     ...     print(write_drawing(TranslatingFlatCam(), f"{folder}/cam.svg").what)
-    1 sheet A3, scale 2:1
+    1 sheet A3, scale 1:1
     """
     refuse_arguments(write_drawing, locals())
     path = new_file(path, "a drawing", ENDINGS)

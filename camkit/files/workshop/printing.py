@@ -8,12 +8,11 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from ...quantities.extras import extra
-from ...quantities.markup import escaped, plain
+from ...quantities.markup import attribute, escaped, plain
 from ...quantities.types import Array
 from ...units import mm, um
 from .blank import Blank
@@ -35,12 +34,12 @@ PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 MODEL = "3D/3dmodel.model"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 TYPES = (
-    f'{XML}<Types xmlns="{PACKAGE}/content-types">'
+    f"{XML}<Types {attribute('xmlns', f'{PACKAGE}/content-types')}>"
     '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
     '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>'
 )
 RELATIONS = (
-    f'{XML}<Relationships xmlns="{PACKAGE}/relationships"><Relationship Target="/{MODEL}" Id="model" '
+    f"{XML}<Relationships {attribute('xmlns', f'{PACKAGE}/relationships')}><Relationship Target='/{MODEL}' Id='model' "
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
 
@@ -110,11 +109,13 @@ def three_mf(
     bodies, title = _bodies(cam, blank, tolerance), marked(title, cam)
     facts = {"Title": title.marked(kind), "Designer": title.author, "CreationDate": title.day}
     facts["Description"] = "; ".join(title.lines(kind, unit, f"flanks within {tolerance / um:.3g} um"))
-    said = "".join(f'<metadata name="{name}">{_text(value)}</metadata>' for name, value in facts.items() if value)
+    said = "".join(
+        f"<metadata {attribute('name', name)}>{_text(value)}</metadata>" for name, value in facts.items() if value
+    )
     objects = "".join(_object(number, body, LENGTHS[unit]) for number, body in enumerate(bodies, 1))
-    items = "".join(f'<item objectid="{number}"/>' for number in range(1, len(bodies) + 1))
+    items = "".join(f"<item {attribute('objectid', number)}/>" for number in range(1, len(bodies) + 1))
     model = (
-        f'{XML}<model unit="{UNITS[unit]}" xml:lang="en" xmlns="{SPACE}">{said}'
+        f"{XML}<model {attribute('unit', UNITS[unit])} xml:lang='en' {attribute('xmlns', SPACE)}>{said}"
         f"<resources>{objects}</resources><build>{items}</build></model>"
     )
     data = zipped({"[Content_Types].xml": TYPES, "_rels/.rels": RELATIONS, MODEL: model})
@@ -123,10 +124,12 @@ def three_mf(
 
 def _object(number: int, body: Body, unit: float) -> str:
     """An object of a 3MF file."""
-    points = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in body.mesh.points / unit)
-    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in body.mesh.triangles)
+    vertex, triangle = "<vertex x='%.9g' y='%.9g' z='%.9g'/>", "<triangle v1='%d' v2='%d' v3='%d'/>"
+    points = "".join(vertex % tuple(point) for point in body.mesh.points / unit)
+    triangles = "".join(triangle % tuple(corners) for corners in body.mesh.triangles)
     mesh = f"<mesh><vertices>{points}</vertices><triangles>{triangles}</triangles></mesh>"
-    return f'<object id="{number}" type="model" name={quoteattr(plain(body.name))}>{mesh}</object>'
+    said = f"{attribute('id', number)} type='model' {attribute('name', plain(body.name))}"
+    return f"<object {said}>{mesh}</object>"
 
 
 def read_3mf(data: bytes) -> Mesh:

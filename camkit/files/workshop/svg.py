@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...quantities.markup import Html, attribute, escaped, html, plain
+from ...quantities.markup import Html, attribute, html, plain
 from ...quantities.types import Array
 
 INK, RED = "#000000", "#c00000"
@@ -138,16 +138,8 @@ class Paper:
         said = [attribute("class", name)] if name else []
         said += [attribute("stroke-dasharray", dashes)] if dashes else []
         ink = RED if role == "fault" else INK
-        self.marks.append(
-            html(
-                "<path {} d='{}' fill='{}' stroke='{}' stroke-width='{}' stroke-linejoin='round'/>",
-                Html(" ".join(said)),
-                data,
-                fill,
-                ink,
-                width,
-            )
-        )
+        said += [Html(f"d='{data}' fill='{fill}' stroke='{ink}' stroke-width='{width}' stroke-linejoin='round'")]
+        self.marks.append(html("<path {}/>", Html(" ".join(said))))
 
     def line(self, start: Sequence[float] | Array, end: Sequence[float] | Array, role: str = "thin") -> None:
         self.path(f"M{xy(start)}L{xy(end)}", role)
@@ -174,7 +166,7 @@ class Paper:
 
     def solid(self, corners: Sequence[Sequence[float] | Array]) -> None:
         """A polygon that is black without a line around it."""
-        self.marks.append(html("<path d='M{}Z' fill='{}'/>", "L".join(map(xy, corners)), INK))
+        self.marks.append(html("<path {}/>", Html(f"d='M{'L'.join(map(xy, corners))}Z' fill='{INK}'")))
 
     def text(
         self,
@@ -197,12 +189,8 @@ class Paper:
         self.texts.append((box, said))
         turned = f" transform='rotate(-90 {n(x)} {n(y)})'" if upright else ""
         heavy = " font-weight='bold'" if bold else ""
-        self.marks.append(
-            html(
-                "<text x='{}' y='{}' font-size='{}' text-anchor='{}' fill='{}'{}>{}</text>",
-                *(n(x), n(y), n(size), anchor, ink, Html(turned + heavy), escaped(said)),
-            )
-        )
+        look = f"x='{n(x)}' y='{n(y)}' font-size='{n(size)}' text-anchor='{anchor}' fill='{ink}'{turned}{heavy}"
+        self.marks.append(html("<text {}>{}</text>", Html(look), said))
 
     def paragraph(
         self, place: Sequence[float], texts: Sequence[str], width: float, size: float = 2.8, ink: str = INK
@@ -226,9 +214,10 @@ class Paper:
 
     def svg(self, top: float = 0.0) -> Html:
         """The sheet as an element that is as large as the paper, so far below the top of what it stands in."""
-        size = f"width='{n(self.width)}' height='{n(self.height)}' viewBox='0 0 {n(self.width)} {n(self.height)}'"
-        ground = f"<rect width='{n(self.width)}' height='{n(self.height)}' fill='#ffffff'/>"
-        return Html(f"<svg x='0' y='{n(top)}' {size}>{ground}\n{chr(10).join(self.marks)}\n</svg>")
+        size, place = f"width='{n(self.width)}' height='{n(self.height)}'", f"x='0' y='{n(top)}'"
+        seen = f"viewBox='0 0 {n(self.width)} {n(self.height)}'"
+        ground = f"<rect {size} fill='#ffffff'/>"
+        return Html(f"<svg {place} {size} {seen}>{ground}\n{chr(10).join(self.marks)}\n</svg>")
 
 
 def document(sheets: Sequence[Paper], title: str, about: str = "") -> str:

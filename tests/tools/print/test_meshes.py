@@ -183,7 +183,7 @@ def test_a_3mf_in_inches_says_so_and_names_come_back(tmp_path):
     assert np.ptp(points[:, 2]) == pytest.approx(0.5)
     group = model.GetMetaDataGroup()
     facts = {each.GetName(): each.GetValue() for each in map(group.GetMetaData, range(group.GetMetaDataCount()))}
-    assert facts["Title"] == "FAULTY: " + name.replace("\n", " ")
+    assert facts["Title"] == "FAULTY: " + " ".join(name.split())
     assert facts["Designer"] == title.author
     assert "FAULTY: undercut < 1" in facts["Description"]
     assert write_3mf(plate(), path, unit="in", title=title, blank=blank).path.read_bytes() == data
