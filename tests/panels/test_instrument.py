@@ -116,7 +116,7 @@ def test_files_are_what_they_say(app, sent):
         "dxf": b"  0",
         "csv": b"stretch,",
     }
-    for kind, words in app.structure["files"]:
+    for kind, words, _ in app.structure["files"]:
         ask(app, file=kind)
         if not sent:
             assert re.search(r"needs \w+, which is not installed: pip install 'camkit", app.message), kind

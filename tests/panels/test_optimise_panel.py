@@ -254,7 +254,7 @@ def test_stop_keeps_the_best_so_far(app, method):
     step = panel.runner.job.step
     assert panel.minimum is None
     assert panel.summary().endswith(f"The search was stopped after {step.evaluated} designs.")
-    assert step.evaluated < (1000 if method == "de" else 200)
+    assert step.evaluated < (2000 if method == "de" else 200)  # a measure is asked once of each generation
     assert_allclose([getattr(app.design, name) for name in GEOMETRY], step.best.x)
     study = high_speed_study(app.design, angles=101)
     assert study.evaluate([study.x0]).f[0, 0] < 78.3  # that of the first design is 78.36
