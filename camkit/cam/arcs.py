@@ -169,14 +169,14 @@ def _crossings(curves: Sequence[Curve]) -> list[list[Node]]:
 def _crossing_pairs(segments: _Segments) -> Iterator[tuple[int, int, np.ndarray]]:
     """Each two segments that cross and are no neighbours, and the shares of them at which they do."""
     low, high = np.minimum(segments.starts, segments.ends), np.maximum(segments.starts, segments.ends)
-    everyone = np.arange(low.shape[1])
-    for first in range(0, len(everyone), BLOCK):
-        block = everyone[first : first + BLOCK]
-        overlap = (low[:, block, None] <= high[:, None]).all(0) & (low[:, None] <= high[:, block, None]).all(0)
-        i, j = np.nonzero(overlap & (block[:, None] < everyone))
-        shares = _straight_crossing(segments, block[i], j)
+    for first in range(0, low.shape[1], BLOCK):
+        (x0, y0), (x1, y1) = (ends[:, first : first + BLOCK, None] for ends in (low, high))
+        (left, below), (right, above) = (ends[:, first:] for ends in (low, high))
+        i, j = np.nonzero((x0 <= right) & (left <= x1) & (y0 <= above) & (below <= y1))
+        i, j = first + i[i < j], first + j[i < j]
+        shares = _straight_crossing(segments, i, j)
         for k in np.flatnonzero(((shares >= 0) & (shares < 1)).all(0)):
-            a, b = int(block[i[k]]), int(j[k])
+            a, b = int(i[k]), int(j[k])
             if not _neighbours(segments, a, b):
                 yield a, b, shares[:, k]
 

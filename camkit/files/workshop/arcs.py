@@ -111,8 +111,8 @@ def _chords(stretch: Stretch, tolerance: float) -> Array:
     fine = stretch.finer(min(512, max(2, int(np.ceil(16 * np.sqrt(bow.max() / tolerance)))))).points
 
     def off(i: int, j: int) -> float:
-        between, zero = fine[:, i : j + 1], np.zeros(1)
-        return float(_from_arc(between, between[:, 0], between[:, -1], zero).max())
+        between = fine[:, i : j + 1]
+        return float(_from_line(between, between[:, :1], between[:, -1:]).max())
 
     return fine[:, list(spans(fine.shape[1] - 1, off, tolerance))[:-1]]
 
@@ -125,10 +125,8 @@ def _arcs(fine: Stretch, tolerance: float) -> tuple[Array, Array]:
             corners, bulges = biarcs(Stretch(fine.points[:, [i, j]], fine.tangents[:, [i, j]]))
         if not (abs(bulges) <= MOST).all():
             return np.inf
-        between = fine.points[:, i : j + 1]
-        return float(
-            np.minimum(*(_from_arc(between, corners[:, k], corners[:, k + 1], bulges[k]) for k in (0, 1))).max()
-        )
+        between = fine.points[:, i : j + 1, None]
+        return float(_from_arc(between, corners[:, None, :-1], corners[:, None, 1:], bulges).min(-1).max())
 
     knots = list(spans(fine.points.shape[1] - 1, off, tolerance))
     corners, bulges = biarcs(Stretch(fine.points[:, knots], fine.tangents[:, knots]))
@@ -204,9 +202,9 @@ def _from_arc(points: Array, start: Array, end: Array, bulge: Array) -> Array:
     points, start, end = (_like(x, points) for x in (points, start, end))
     chord, bulge = end - start, np.asarray(bulge)
     size = (chord**2).sum(0)
-    share = np.clip(((points - start) * chord).sum(0) / np.where(size > 0, size, 1.0), 0, 1)
-    straight = np.hypot(*(points - start - share * chord))
     bent = (abs(bulge) > STRAIGHT) & (size > 0)
+    if not bent.any():
+        return _from_line(points, start, end)
     b = np.where(bent, bulge, 1.0)
     side = np.stack([-chord[1], chord[0]])
     spoke = points - (start + end) / 2 - (1 - b**2) / (4 * b) * side
@@ -215,7 +213,16 @@ def _from_arc(points: Array, start: Array, end: Array, bulge: Array) -> Array:
     along, across = (1 - b**2) * chord, 2 * b * side
     begun, over = ((points - start) * (along - across)).sum(0) >= 0, ((points - end) * (along + across)).sum(0) > 0
     within = np.where(abs(b) <= 1, begun & ~over, begun | ~over)
-    return np.where(bent, np.where(within, abs(np.hypot(*spoke) - radius), ends), straight)
+    arched = np.where(within, abs(np.hypot(*spoke) - radius), ends)
+    return arched if bent.all() else np.where(bent, arched, _from_line(points, start, end))
+
+
+def _from_line(points: Array, start: Array, end: Array) -> Array:
+    """Distances from lines, m."""
+    chord = end - start
+    size = (chord**2).sum(0)
+    share = np.clip(((points - start) * chord).sum(0) / np.where(size > 0, size, 1.0), 0, 1)
+    return np.asarray(np.hypot(*(points - start - share * chord)))
 
 
 def _like(x: Array, points: Array) -> Array:
