@@ -21,7 +21,8 @@ from camkit import (
     write,
 )
 from camkit.cam import max_pressure_angle
-from camkit.files import Decision, json_schema
+from camkit.data import load
+from camkit.files import Decision
 from camkit.files.workshop import exports
 
 SHAFT = shaft_study()
@@ -281,7 +282,7 @@ def test_help_has_examples_and_the_exit_codes(capsys, arguments):
 def test_the_schema_is_the_one_that_is_published(capsys):
     code, out, _ = asked(capsys, "schema")
     assert code == 0
-    assert json.loads(out) == json_schema()
+    assert json.loads(out) == load("schema")
 
 
 def test_it_runs_as_a_module_and_says_its_version():

@@ -83,8 +83,13 @@ def _group(base: type) -> str:
 def _bases(known: Mapping[str, type]) -> set[type]:
     """The classes that annotations of fields name, which have kinds of their own."""
     hinted = (h for kind in known.values() for hint in entries._hints(kind).values() for h in _every(hint))
-    named = {h for h in hinted if isinstance(h, type) and any(issubclass(kind, h) for kind in known.values())}
-    return {Design, MotionProgram} | named - {object}
+    classes = {h for h in hinted if isinstance(h, type)}
+    return {Design, MotionProgram} | {h for h in classes if _has_kinds(h, known)}
+
+
+def _has_kinds(base: type, known: Mapping[str, type]) -> bool:
+    """Whether there are classes of a kind; everything is an object."""
+    return base is not object and any(issubclass(kind, base) for kind in known.values())
 
 
 def _every(hint: object) -> Iterable[object]:
@@ -179,7 +184,7 @@ def _hinted(hint: Any, known: Mapping[str, type]) -> Schema:
         return {"type": "array", "prefixItems": [_hinted(each, known) for each in inner], **exact}
     if origin in (tuple, list):
         return _listed(_hinted(inner[0], known))
-    return _ref(_group(hint)) if hint in _bases(known) else {}
+    return _ref(_group(hint)) if isinstance(hint, type) and _has_kinds(hint, known) else {}
 
 
 # ---------------------------------------------------------------- records

@@ -6,7 +6,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from jsonschema import Draft202012Validator
 
 from camkit import (
     Cycloidal,
@@ -48,8 +47,16 @@ SAVED = sorted((ROOT / "tests/data").glob("sessions_*/*.json"))
 
 
 @cache
-def schema() -> Draft202012Validator:
-    return Draft202012Validator(load("schema"))
+def draft():
+    """Imported where it is needed: it takes seconds."""
+    from jsonschema import Draft202012Validator
+
+    return Draft202012Validator
+
+
+@cache
+def schema():
+    return draft()(load("schema"))
 
 
 def follows(saved: str) -> bool:
@@ -59,8 +66,8 @@ def follows(saved: str) -> bool:
 def test_the_published_schema_is_that_of_the_declarations() -> None:
     published = (ROOT / "camkit/data/schema.json").read_text(encoding="utf-8")
     assert published == text(), "write it anew as CONTRIBUTING.md says"
-    Draft202012Validator.check_schema(json_schema())
-    assert json_schema()["$schema"] == Draft202012Validator.META_SCHEMA["$id"]
+    draft().check_schema(json_schema())
+    assert json_schema()["$schema"] == draft().META_SCHEMA["$id"]
     assert "http" not in published.replace("https://json-schema.org/draft/2020-12/schema", "")
 
 
@@ -224,7 +231,7 @@ def test_ends_of_numbers_are_those_that_can_be_built() -> None:
         for field, declared in declarations(kind).items():
             if not isinstance(declared, Quantity) or "default" not in properties.get(key(field, declared), {}):
                 continue  # a number in SI, as programs have them
-            one = Draft202012Validator(properties[key(field, declared)])
+            one = draft()(properties[key(field, declared)])
             ends = {declared.most, -declared.most, 0.0, declared.above or 0.0, declared.at_least or 0.0}
             near = [end + step * max(abs(end), abs(declared.default), 1) for end in ends for step in (-1e-3, 1e-3)]
             for value in near:
