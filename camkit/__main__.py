@@ -1,4 +1,4 @@
-"""The command line: ``camkit check``, ``camkit export``, ``camkit optimise``, ``camkit schema``.
+"""The command line: ``camkit lab``, ``app``, ``check``, ``export``, ``optimise``, ``schema``.
 
 Each says in a sentence on stderr what it cannot do, and ends with a number: 0, it is done and nothing is wrong; 1, the
 design is faulty, or none keeps every limit; 2, the command or a file cannot be read; 130, it was stopped.
@@ -34,12 +34,16 @@ from .study.robust import RobustStudy
 from .study.study import Study
 from .units import factor
 from .units.typed import typed_number
+from .workbook import app, ask_where, lab
 
 DONE, FAULTY, UNREADABLE, STOPPED = 0, 1, 2, 130
 EVERY = 1.0
 """Seconds between two lines of progress."""
 EXAMPLES = """
 examples:
+  camkit lab                                   the notebooks in ./camkit-notebooks, opened in JupyterLab
+  camkit lab work --port 8899 --no-browser     in the folder work; what is not known here goes to JupyterLab
+  camkit app work                              the notebooks as pages without code
   camkit check cam.json                        what it measures, which limits it keeps, what is wrong with it
   camkit export cam.json --dxf --unit in       one file, beside the others of its name
   camkit export cam.json --table radii motion  tables, by their kinds
@@ -272,14 +276,14 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"camkit {version('camkit')}")
     each = top.add_subparsers(required=True, metavar="command")
-    for act in (check, export, optimise, schema):
+    for act in (lab, app, check, export, optimise, schema):
         about = (act.__doc__ or "").strip()
         more = f"{KINDS}{EXAMPLES}" if act is export else EXAMPLES
         one = each.add_parser(act.__name__, help=about, description=about, epilog=more, formatter_class=plain)
-        if act is not schema:
+        if act in (check, export, optimise):
             one.add_argument("file", help="a JSON file that camkit saved: a design, a study, a front or a decision")
         one.set_defaults(act=act)
-        {export: _ask_export, optimise: _ask_optimise}.get(act, lambda _: None)(one)
+        {lab: ask_where, app: ask_where, export: _ask_export, optimise: _ask_optimise}.get(act, lambda _: None)(one)
     return top
 
 
@@ -338,7 +342,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     2
     """
     try:
-        asked = parser().parse_args(arguments)
+        asked, unknown = parser().parse_known_args(arguments)
+        if unknown and asked.act not in (lab, app):
+            parser().error(f"unrecognized arguments: {' '.join(unknown)}")
+        asked.options = unknown
     except SystemExit as ended:  # after --help, or a sentence of argparse
         return ended.code if isinstance(ended.code, int) else UNREADABLE
     try:

@@ -1,19 +1,14 @@
 """The maths needs numpy and scipy only, and what is installed from the wheel is all of camkit."""
 
 import ast
-import os
 import re
 import subprocess
 import sys
-import sysconfig
 import tomllib
-import zipfile
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
-import numpy
 import pytest
-import scipy
 
 import camkit
 
@@ -106,7 +101,7 @@ def test_what_is_imported_is_declared(folder: str) -> None:
 def test_nothing_else_stands_at_the_root() -> None:
     beside = ("__init__.py", "__pycache__", "py.typed")
     found = {path.stem for path in (REPOSITORY / "camkit").iterdir() if path.name not in beside}
-    assert found == GROUND | WINGS | {"__main__"}
+    assert found == GROUND | WINGS | {"__main__", "workbook"}
 
 
 def test_a_forbidden_import_would_be_seen() -> None:
@@ -159,42 +154,6 @@ def test_a_star_import_with_the_extra_brings_everything() -> None:
 def test_a_name_that_there_is_not_is_said() -> None:
     with pytest.raises(AttributeError, match=r"^camkit has no 'wobble'$"):
         camkit.wobble  # noqa: B018
-
-
-@pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Built with the backend that is installed, so nothing is downloaded."""
-    folder = tmp_path_factory.mktemp("wheel")
-    python("-m", "build", "--wheel", "--no-isolation", "--outdir", folder, REPOSITORY)
-    return next(folder.glob("camkit-*.whl"))
-
-
-@pytest.mark.slow
-def test_the_wheel_holds_all_of_camkit_and_nothing_else(wheel: Path) -> None:
-    ours = {str(path.relative_to(REPOSITORY)) for path in REPOSITORY.glob("camkit/**/*") if path.is_file()}
-    packed = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
-    assert packed == {name for name in ours if "__pycache__" not in name}
-
-
-@pytest.mark.slow
-def test_the_wheel_works_beside_numpy_and_scipy_alone(wheel: Path, tmp_path: Path) -> None:
-    python("-m", "venv", "--without-pip", tmp_path)
-    site = Path(sysconfig.get_path("purelib", "venv", {"base": str(tmp_path)}))
-    for package in (numpy, scipy):  # linked, not installed again: they are large
-        installed = Path(package.__file__).parent
-        for part in installed.parent.glob(f"{installed.name}*"):  # the package, its version, its libraries
-            (site / part.name).symlink_to(part)
-    python("-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", site, wheel)
-
-    clean = {name: value for name, value in os.environ.items() if not re.match("PYTHON|COV", name)}
-    said = python(
-        "-c",
-        "import camkit; from camkit import *; print(camkit.__file__, 50 * mm, 'explore' in dir(camkit))",
-        executable=tmp_path / "bin/python",
-        cwd=tmp_path,
-        env=clean,
-    )
-    assert said.split() == [str(site / "camkit/__init__.py"), "0.05", "False"]
 
 
 def test_no_name_that_is_loaded_later_is_that_of_a_module() -> None:
