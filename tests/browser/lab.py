@@ -109,7 +109,7 @@ def lab_server(folder: Path, root: Path, source: Path, timeout: float = 120) -> 
     }
     config = Path(environment["JUPYTER_CONFIG_DIR"], "jupyter_lab_config.json")
     config.parent.mkdir()
-    config.write_text(json.dumps(configuration))
+    config.write_text(json.dumps(configuration), encoding="utf-8")
     log = folder / "server.log"
     with log.open("w") as out:
         process = subprocess.Popen(
@@ -184,7 +184,9 @@ def _wait_for(server: LabServer, process: subprocess.Popen[bytes], log: Path, ti
             return
         except (urllib.error.URLError, ConnectionError, TimeoutError):
             time.sleep(0.1)
-    raise RuntimeError(f"JupyterLab did not start within {timeout:g} s. The end of its log:\n{log.read_text()[-3000:]}")
+    raise RuntimeError(
+        f"JupyterLab did not start within {timeout:g} s. The end of its log:\n{log.read_text(encoding='utf-8')[-3000:]}"
+    )
 
 
 # What JupyterLab says of the notebook in front: its kernel, and each cell with the error it ended in, if any.

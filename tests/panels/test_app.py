@@ -697,7 +697,7 @@ def test_a_folder_that_is_not_the_searches_own_is_left_alone(finder, tmp_path, m
         assert alert(finder) == UNKEPT.format(FOLDERS[make])
         assert finder.resume_button.disabled
         assert os.listdir(elsewhere if elsewhere.exists() else tmp_path) == []
-        assert make is not is_a_file or folder.read_text() == "mine"
+        assert make is not is_a_file or folder.read_text(encoding="utf-8") == "mine"
         assert make is not is_somebody_elses or os.listdir(folder) == []
     finally:
         shutil.rmtree(folder) if folder.is_dir() and not folder.is_symlink() else folder.unlink()

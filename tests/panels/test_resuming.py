@@ -194,7 +194,7 @@ def test_a_search_for_a_measure_of_ones_own_is_kept():
 
 
 def test_where_nothing_can_be_kept_the_search_goes_on_and_says_so(folder):
-    Path(folder).write_text("a file")
+    Path(folder).write_text("a file", encoding="utf-8")
     panel = optimiser(starts=1)
     panel.run()
     panel.wait(60)

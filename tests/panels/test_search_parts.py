@@ -95,7 +95,7 @@ def test_a_search_that_is_left_is_resumed_by_its_own_page_alone():
 
 
 def test_a_search_that_cannot_be_kept_says_why_and_runs():
-    open(".camkit", "w").close()
+    open(".camkit", "w", encoding="utf-8").close()
     page = a_page()
     search = page.search(a_session(page))
     assert search.unkept == ".camkit is not a folder"
