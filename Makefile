@@ -41,8 +41,9 @@ NEEDS_step := .[step]
 NEEDS_print := .[print] lib3mf
 NEEDS_report := .[report]
 NEEDS_gcode := .
+NEEDS_docs := .[docs]
 
-.PHONY: help lab app test test-tools lint bench notebooks constraints clean
+.PHONY: help lab app docs test test-tools lint bench notebooks constraints clean
 
 help:
 	@echo "make lab        open the workbook in JupyterLab (installs what it needs into $(VENV) first)"
@@ -51,6 +52,7 @@ help:
 	@echo "                for this machine alone unless HOST=... names another address to listen on"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
 	@echo "make test-tools run the checks that need large tools: solids, G-code, reports (each in .tools/<tool>)"
+	@echo "make docs       make the site: notebooks, gallery, choices from measurements, theory, every public name"
 	@echo "make lint       run the quick checks only: style, types, imports"
 	@echo "make bench      measure speed"
 	@echo "make notebooks  run every notebook again and store its outputs"
@@ -70,6 +72,11 @@ HOST := 127.0.0.1
 app: $(VENV)/.app
 	@echo "Opening the notebooks as cards in your browser; a page fills while its notebook runs. Ctrl-C here ends it."
 	JUPYTER_PATH="$(CURDIR)/.jupyter$${JUPYTER_PATH:+:$$JUPYTER_PATH}" $(BIN)/voila notebooks --Voila.ip=$(HOST) --Voila.config_file_paths=notebooks
+
+# Warnings, links that lead nowhere and anything that a page would ask of a network are errors.
+docs: .tools/docs/.ready
+	.tools/docs/bin/python -m sphinx -q -W --keep-going -j 2 docs .site
+	@echo "The site is in .site: open .site/index.html in a browser."
 
 test: lint
 	@echo "== tests of the maths, doctests, coverage (pytest)"
@@ -126,7 +133,7 @@ constraints: $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
 	touch $(VENV)/.lab $(VENV)/.app $(VENV)/.test $(TOOLS:%=.tools/%/.ready)
 
 clean:
-	rm -rf build dist .browser .native .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build dist .site docs/api docs/notebooks .browser .native .camkit notebooks/.camkit .benchmarks .coverage .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find camkit tests benchmarks notebooks -name __pycache__ -o -name .ipynb_checkpoints | xargs rm -rf
 
 

@@ -81,14 +81,14 @@ def imported(folder: str) -> set[str]:
     plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     named = {node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level and node.module}
     ours = {path.stem for path in REPOSITORY.glob("tests/**/*.py")} | {path.stem for path in REPOSITORY.glob("*/*.py")}
-    return {name.partition(".")[0] for name in plain | named} - sys.stdlib_module_names - ours - {"camkit"}
+    return {name.partition(".")[0] for name in plain | named} - sys.stdlib_module_names - ours - {"camkit", "made"}
 
 
-@pytest.mark.parametrize("folder", ["camkit", "tests", "benchmarks", ".jupyter"])
+@pytest.mark.parametrize("folder", ["camkit", "tests", "benchmarks", "docs", ".jupyter"])
 def test_what_is_imported_is_declared(folder: str) -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
-    tools = [each for extra in ("step", "print", "report") for each in extras[extra]]
+    tools = [each for extra in ("step", "print", "report", "docs") for each in extras[extra]]
     listed = project["dependencies"] + extras["lab"] + extras["app"] + tools
     readers = re.findall(r"(?m)^NEEDS_\w+ := \S+ (.+)$", (REPOSITORY / "Makefile").read_text(encoding="utf-8"))
     listed += extras["test"] + " ".join(readers).split() if folder != "camkit" else []

@@ -396,5 +396,5 @@ class Declared:
         return {}
 
     def declares(self) -> Mapping[str, Any]:
-        """Declarations of fields (of `row`s their functions) that depend on the values of others."""
+        """Declarations of fields (of each `row` its function) that depend on the values of others."""
         return {}

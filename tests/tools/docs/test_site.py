@@ -1,0 +1,96 @@
+"""The site as `make docs` makes it, without a warning: no network, no dead link, nothing missing."""
+
+import importlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from filelock import FileLock
+
+import camkit
+
+REPOSITORY = Path(__file__).parents[3]
+sys.path.insert(0, str(REPOSITORY / "docs"))
+
+from made.api import public, wings  # noqa: E402
+from made.checked import faults  # noqa: E402
+
+NOTEBOOKS = sorted((REPOSITORY / "notebooks").rglob("*.ipynb"))
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory) -> Path:
+    """The folder of the finished site, made once for both processes."""
+    folder = tmp_path_factory.getbasetemp().parent
+    with FileLock(folder / "site.lock"):
+        if not (folder / "site" / "index.html").exists():
+            command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "docs", str(folder / "site")]
+            made = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True)
+            if made.returncode:
+                shutil.rmtree(folder / "site", ignore_errors=True)
+            assert not made.returncode, made.stderr[-4000:]
+    return folder / "site"
+
+
+def read(page: Path) -> str:
+    return page.read_text(encoding="utf-8")
+
+
+def test_every_page_is_whole(site):
+    assert not faults(site)
+    assert len([*site.rglob("*.html")]) > len(NOTEBOOKS) + len(wings())
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("<a href='gone.html'>x</a>", "leads to no file"),
+        ("<a href='#gone'>x</a>", "leads to no place in its page"),
+        ("<script src='https://a.b/c.js'></script>", "loads https://a.b/c.js"),
+        ("<link rel='stylesheet' href='//a.b/c.css'>", "loads //a.b/c.css"),
+        ("<img src='page.html' alt=''>", "has no words in its place"),
+        ("<iframe src='page.html'></iframe>", "has no title"),
+        ("<h1>a</h1><h3>b</h3>", "a heading of level 3 stands below one of level 1"),
+    ],
+)
+def test_what_is_wrong_with_a_page_is_found(tmp_path, text, fault):
+    page = f"<html lang='en'><title>a page</title>{text}"
+    (tmp_path / "page.html").write_text(page, encoding="utf-8")
+    assert [found for found in faults(tmp_path) if fault in found]
+
+
+def test_a_page_without_fault_has_none(tmp_path):
+    page = (
+        "<html lang='en'><title>a page</title><h1 id='top'>a</h1><a href='#top'>up</a> <a href='https://a.b'>away</a>"
+    )
+    (tmp_path / "page.html").write_text(page, encoding="utf-8")
+    assert not faults(tmp_path)
+
+
+def test_every_public_name_is_described(site):
+    first = read(site / "api" / "camkit.html")
+    assert not [name for name in camkit.__all__ if not re.search(rf'href="[^"]*[.]{name}" title=', first)]
+    for wing in wings():
+        module = importlib.import_module(f"camkit.{wing}")
+        page = read(site / "api" / f"camkit.{wing}.html")
+        named = (f'id="camkit.{wing}.{name}"' for name in public(module))
+        modules = (f'id="module-camkit.{wing}.{name}"' for name in public(module))
+        assert not [one for one, two in zip(named, modules, strict=True) if one not in page and two not in page]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_has_its_pictures(site, path):
+    stored = [
+        output["data"]
+        for cell in json.loads(read(path))["cells"]
+        for output in cell.get("outputs", [])
+        if "image/png" in output.get("data", {})
+    ]
+    page = site / "notebooks" / path.relative_to(REPOSITORY / "notebooks").with_suffix(".html")
+    shown = re.findall(r'<img[^>]* alt="[^"]{8,}"', read(page))
+    assert len(shown) >= max(len(stored), 1)
+    assert "jupyter-widget" not in read(page)
