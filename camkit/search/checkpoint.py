@@ -26,7 +26,6 @@ from typing import Any
 
 import numpy as np
 
-from ..study.native import numpy_alone
 from ..study.study import Study
 
 SCHEMA = "camkit-checkpoint/3"
@@ -69,8 +68,7 @@ def fingerprint(study: Study) -> str:
     from scipy.stats import qmc
 
     points = qmc.scale(qmc.Sobol(len(study.free), rng=0).random(PROBES), *study.bounds)
-    with numpy_alone():  # the same to the last bit whether native code is there or not
-        evaluation = study.evaluate(points)
+    evaluation = study.evaluate(points)
     names = [
         *study.free,
         *(option for menu in study.menus for option in menu.names),

@@ -16,7 +16,6 @@ from pymoo.util.optimum import filter_optimum
 
 from ..quantities.applied import applied
 from ..study.free import Menu
-from ..study.native import numpy_alone
 from ..study.study import Study
 from .checkpoint import WORST
 from .protocol import looked_at, on_grid
@@ -35,8 +34,7 @@ class StudyProblem(Problem):
         self.study = study
 
     def _evaluate(self, x: np.ndarray, out: dict[str, object], *args: object, **kwargs: object) -> None:
-        with numpy_alone():
-            evaluation = looked_at(self.study, x)
+        evaluation = looked_at(self.study, x)
         out["F"] = np.minimum(evaluation.f, WORST)
         out["G"] = np.minimum(np.where(evaluation.missed > 0, evaluation.g, np.minimum(evaluation.g, 0)), WORST)
 

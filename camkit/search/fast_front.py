@@ -20,7 +20,6 @@ import numpy as np
 from ..decision.choosers import normalised
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments
-from ..study.native import numpy_alone
 from ..study.study import Evaluation, Study
 from .checkpoint import versions
 from .front import Front, dominated
@@ -143,8 +142,7 @@ def _roughly(study: Study) -> Study:
 
 def _exactly(study: Study, archive: Archive, size: int) -> Evaluation:
     """An even spread of the archive's designs, judged on all angles."""
-    with numpy_alone():
-        return looked_at_closely(study, _roughly(study), _x(study, _thinned(archive, size).u))
+    return looked_at_closely(study, _roughly(study), _x(study, _thinned(archive, size).u))
 
 
 def _refuse(study: Study, start: Front | None) -> None:

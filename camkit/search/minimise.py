@@ -15,7 +15,6 @@ import numpy as np
 
 from ..quantities import D, counted
 from ..quantities.kinds import refuse_arguments, whole
-from ..study.native import numpy_alone
 from ..study.robust import RobustStudy
 from ..study.study import KEPT, Evaluation, Study
 from .minimax import Epigraph
@@ -86,7 +85,7 @@ def minimise(
     if study.menus and method == "slsqp":
         each = partial(minimise, method=method, seed=seed, starts=starts, designs=designs, recheck=recheck)
         return best_of_options(study, plain(judge), each)
-    with numpy_alone(), in_one_thread():
+    with in_one_thread():
         found = METHODS[method](study, judge, seed, starts, designs)
         if method != "slsqp":
             found = _checked(plain(study), plain(judge), found)

@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike
 
 from ..quantities.kinds import refuse_arguments
 from ..study.margins import TightenedStudy
-from ..study.native import numpy_alone
 from ..study.options import Plain
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
@@ -261,8 +260,7 @@ def ended(study: Study, asked: ArrayLike, work: Callable[[], Arrays], designs: C
     parts: Parts | None = getattr(study, "parts", None)
     if not parts:
         return work()
-    with numpy_alone():
-        return parts.part(np.asarray(asked), work, designs)
+    return parts.part(np.asarray(asked), work, designs)
 
 
 def looked_at(study: Study, x: np.ndarray) -> Evaluation:
@@ -303,8 +301,7 @@ def stepwise(study: Study, work: Callable[[Study], Minimum], of: int = 0, planne
                 best = Minimum(study, evaluation.x[i].copy(), step.summary.f, True, count)
             give(replace(step, best=best))
 
-        with numpy_alone():
-            found = work(_followed(study, note, parts))
+        found = work(_followed(study, note, parts))
         end, count = partial(found.study.evaluate, found.x), looked + parts.skipped - begun[1]
         number = count if of else max(parts.number - begun[0], 1)
         give(Step(number, number, study, end, count, found, found.message))

@@ -11,7 +11,6 @@ import numpy as np
 from ..quantities import Measure, counted
 from ..quantities.declaration import Quantity
 from ..quantities.kinds import numbers, refuse_kinds, shown
-from .native import numpy_alone
 from .options import refuse_menus
 from .slsqp import slsqp
 from .study import Evaluation, Study
@@ -77,8 +76,7 @@ class DesignMap:
     @cached_property
     def evaluation(self) -> Evaluation:
         """What the study says of all designs of the grid, in one call."""
-        with numpy_alone():  # a last digit would move the end of a curve along a wall of no thickness
-            return self.study.evaluate(self._points)
+        return self.study.evaluate(self._points)
 
     @cached_property
     def objective(self) -> np.ndarray:

@@ -1,6 +1,7 @@
 """What a study says of many designs, by native code where that is there: numpy answers until it is, and if it is not.
 
-The code knows every declared number of the start as an input, so that it serves for all studies that differ in these.
+Both say the same to the last bit, so that no search comes to another end.  The code knows every declared number of the
+start as an input, so that it serves for all studies that differ in these.
 """
 
 from __future__ import annotations
@@ -9,9 +10,8 @@ import dataclasses
 import os
 import threading
 from collections import OrderedDict
-from collections.abc import Hashable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
-from contextvars import ContextVar
+from collections.abc import Hashable, Mapping, Sequence
+from contextlib import suppress
 from functools import cache, cached_property
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
@@ -33,24 +33,6 @@ BLOCK = 64
 """So many designs numpy takes at once."""
 MOST = 32
 """So many programs have their code, those that were last asked for."""
-AGREED = 1e-12
-"""By how much the code may differ from numpy, as a share of the largest of each measure."""
-
-
-_NUMPY_ALONE = ContextVar("_NUMPY_ALONE", default=False)
-
-
-@contextmanager
-def numpy_alone() -> Iterator[None]:
-    """A context in which numpy answers, to the last digit the same whenever it is asked.
-
-    A search that has to come to the same end each time, though a last digit may lead it elsewhere, works in it.
-    """
-    token = _NUMPY_ALONE.set(True)
-    try:
-        yield
-    finally:
-        _NUMPY_ALONE.reset(token)
 
 
 class Native:
@@ -107,7 +89,7 @@ class Answers:
 
     def __call__(self, x: Array) -> Array:
         """What they say of values ``(p, n)``, ``(p, n_measures)``."""
-        if self.native is None or _NUMPY_ALONE.get() or not len(x):
+        if self.native is None or not len(x):
             return self.by_numpy(x)
         if self.native.kernel is not None:
             return self.native.kernel(self.numbers, x)
@@ -149,12 +131,9 @@ def made(study: Study[Any], paths: Sequence[str]) -> Kernel:
 
 
 def agrees(found: Array, expected: Array) -> None:
-    """``ArithmeticError`` where code and numpy differ, or are no numbers in different places."""
-    known = np.isfinite(expected)
-    size = np.max(abs(expected), axis=0, where=known, initial=0)
-    with np.errstate(invalid="ignore"):
-        same = (known & (abs(found - expected) <= AGREED * size)) | (found == expected)
-        same |= np.isnan(found) & np.isnan(expected)
+    """``ArithmeticError`` where code and numpy differ in one bit of a number."""
+    bits = [np.ascontiguousarray(each).view(np.int64) for each in (found, expected)]
+    same = (bits[0] == bits[1]) | (np.isnan(found) & np.isnan(expected))
     if not same.all():
         raise ArithmeticError(f"native code and numpy differ in {(~same).sum()} numbers")
 

@@ -101,10 +101,13 @@ class FreePolynomial(Law):
 
 
 def of_values(powers: Array, given: Sequence[Value]) -> Array:
-    """What stands before each power, ``(powers, pieces)`` or ``(.., p, 1)``, from what it is for each given value."""
+    """What stands before each power, ``(powers, pieces)`` or ``(.., p, 1)``, from what it is for each given value.
+
+    It is added one by one, so that no last digit depends on how many designs there are.
+    """
     values = np.stack(np.broadcast_arrays(*map(floats, given)))
     each = powers.reshape(powers.shape + (1,) * (values.ndim - 1))
-    return np.stack([(factors * values).sum(1) for factors in each])
+    return np.stack([np.cumsum(factors * values, axis=1)[:, -1] for factors in each])
 
 
 def piecewise(powers: Array, origins: Sequence[float], borders: Sequence[float], u: Array) -> Kinematics:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ctypes
+import platform
 from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 if TYPE_CHECKING:
     from llvmlite.binding import ExecutionEngine, TargetMachine
@@ -24,12 +27,13 @@ def _target() -> TargetMachine:
 
 
 def processor() -> str:
-    """This processor and this compiler."""
+    """This processor, this compiler and where numpy's functions come from."""
     import llvmlite
     import llvmlite.binding as llvm
 
     features = llvm.get_host_cpu_features().flatten()
-    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvmlite.__version__}"
+    libraries = f"{llvmlite.__version__} {np.__version__} {platform.libc_ver()[1] or platform.release()}"
+    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {libraries}"
 
 
 @cache

@@ -13,17 +13,15 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..loops import COPY, Loop, Loops, Place, Span
+from ..loops import COPY, Loop, Span
 from ..operations import ALONG, EACH
 from ..operations import operands as count
-from ..program import Program
 from ..record import CannotRecord
 from ..written import picked
+from .rows import Rows
 
 PICKED = EACH[picked]
 ALONG_ROWS = {name for name, _ in ALONG.values()}
-FEW = 4
-"""Rows of so few numbers are folded number by number, all rows at once."""
 
 
 @dataclass(eq=False)
@@ -41,40 +39,6 @@ class Step:
     """Whether its result is read elsewhere than in its group, place by place."""
 
 
-class Rows(Loops):
-    """The loops of the moving part of a program: folds of long rows are loops of their own, with one operand.
-
-    ``given`` are the calls whose results are there, ``moving`` those that are made of them, both by number.
-    """
-
-    def __init__(self, program: Program, given: list[int], moving: list[int]) -> None:
-        self.blocks = list[int]()
-        """Where each array begins."""
-        super().__init__(program, 0, (given, moving))
-
-    def _new(self, shape: tuple[int, ...]) -> Place:
-        self.blocks.append(self._size)
-        return super()._new(shape)
-
-    def _fold(self, operation: str, rows: np.ndarray, into: np.ndarray) -> None:
-        if into.shape == rows.shape or rows.shape[1] <= FEW:
-            super()._fold(operation, rows, into)
-            return
-        for row, to in zip(rows, into.ravel().tolist(), strict=True):
-            for k, (first, times, step) in enumerate(_even(row)):
-                operands = ((first, step),) if k == 0 else ((to, 0), (first, step))
-                self.loops.append(Loop(operation, times, ((to, 0), *operands), True))
-
-
-def _even(addresses: np.ndarray) -> Iterator[tuple[int, int, int]]:
-    """Where addresses go on by even steps: the first, how many, and the step."""
-    begin, steps = 0, np.diff(addresses).tolist()
-    for k in range(1, len(addresses) + 1):
-        if k == len(addresses) or (k > begin + 1 and steps[k - 1] != steps[begin]):
-            yield int(addresses[begin]), k - begin, steps[begin] if k > begin + 1 else 0
-            begin = k
-
-
 @dataclass
 class Group:
     """Steps that are done together, so many times."""
@@ -85,15 +49,15 @@ class Group:
 
 
 class Fused:
-    """The groups of a program's loops, in order; ``steady`` addresses from below 0 hold what no loop makes."""
+    """The groups of a program's loops, in order; addresses below ``steady`` hold what no loop makes."""
 
-    def __init__(self, loops: Rows, steady: int) -> None:
-        self.loops, self.steady = loops, steady
+    def __init__(self, loops: Rows) -> None:
+        self.loops, self.steady = loops, loops.steady
         self.groups: list[Group] = []
         self._open: dict[int, list[int]] = {}
         self._makers: list[Step | None] = [None] * (loops.size - len(loops.constants))
         for loop in loops.loops:
-            for part in _cut(loop, steady):
+            for part in _cut(loop, self.steady):
                 self._place(part)
         self.outputs = [at + k - len(loops.constants) for at, size in loops.outputs for k in range(size)]
         """The address of each number of the outputs."""

@@ -15,10 +15,12 @@ from ...quantities.types import Array
 from ..program import Program, numbers_in
 from ..record import Recorded, uncollected
 from . import compiler, stored
-from .fused import Fused, Rows
+from .fused import Fused
 from .numpys import table
+from .rows import Rows
 from .stored import Code
 from .text import text
+from .trial import own_circle
 
 ALIGNED = 64
 SHARED = 256
@@ -40,10 +42,10 @@ def code_of(program: Program, inputs: Sequence[str]) -> Code:
     What depends on no input of these numpy works out, once for all designs of a call.
     """
     given, steady, moving = _parts(program, inputs)
-    loops = Rows(program, given, moving)
     first = sum(program.calls[k].size for k in given) - len(inputs)
-    fused, lanes = Fused(loops, first), compiler.lanes()
-    made = compiler.machine_code(text(fused, len(inputs), lanes))
+    loops = Rows(program, given, moving, first)
+    fused, lanes = Fused(loops), compiler.lanes()
+    made = compiler.machine_code(text(fused, len(inputs), lanes, own_circle()))
     outputs = tuple(at + len(loops.constants) if at < first else -1 for at in fused.outputs)
     return Code(made, loops.constants, tuple(given), tuple(steady), outputs, fused.size, lanes)
 
@@ -95,7 +97,8 @@ class Kernel:
         steady, lanes = self._steady(others), self._code.lanes
         inputs = np.ascontiguousarray(np.pad(x, ((0, -len(x) % lanes), (0, 0)), mode="edge").T)
         found = np.empty((len(self._code.outputs), inputs.shape[1]))
-        self._run(steady, inputs, found)
+        if len(x):
+            self._run(steady, inputs, found)
         for k, at in enumerate(self._code.outputs):
             if at >= 0:
                 found[k] = steady[at]

@@ -4,82 +4,52 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
+from .circular import circular, table
 from .words import BY_NUMPY, Value, Words, literal
 
-SMALL = 2.0**19
-"""Angles up to this are reduced by three parts of half of pi; others numpy sees to."""
-HALF_PI = (1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21)
-SINE = (1.58962301576546568060e-10, -2.50507477628578072866e-8, 2.75573136213857245213e-6,
-        -1.98412698295885395996e-4, 8.33333333332211858878e-3, -1.66666666666666307295e-1)  # fmt: skip
-COSINE = (-1.13585365213876817300e-11, 2.08757008419747316778e-9, -2.75573141792967388112e-7,
-          2.48015872888517045348e-5, -1.38888888888730564116e-3, 4.16666666666665929218e-2)  # fmt: skip
-"""The polynomials of the sine and the cosine up to a quarter of pi (Cephes, ``sin.c``), highest power first."""
+NAMES = [str(function.__name__) for function in BY_NUMPY]
 WHOLE = 2.0**52
 """Larger numbers have no fraction."""
 
 
-def library(lanes: int) -> str:
-    """All of it, for vectors of so many lanes."""
-    return "\n".join(
-        (
-            _by_numpy(lanes, 1),
-            _by_numpy(lanes, 2),
-            _guarded("sin", ("a",), lanes, lambda w: _circular(w, False)),
-            _guarded("cos", ("a",), lanes, lambda w: _circular(w, True)),
-            _guarded("remainder", ("a", "b"), lanes, _remainder),
-            _picked(lanes),
-            _sorted(lanes),
-        )
-    )
+def library(lanes: int, own: bool) -> str:
+    """All of it, for vectors of so many lanes; sine and cosine of its ``own`` or numpy's."""
+    remainder = _guarded("remainder", ("a", "b"), lanes, _remainder)
+    return "\n".join((circle(lanes, own), _by_numpy(lanes, 2), remainder, _picked(lanes), _sorted(lanes)))
+
+
+def circle(lanes: int, own: bool) -> str:
+    """Sine and cosine."""
+    if own:
+        ways = {"sin": False, "cos": True}
+        each = (_guarded(name, ("a",), lanes, lambda w, way=way: circular(w, way)) for name, way in ways.items())
+        return "\n".join((table(), _by_numpy(lanes, 1), *each))
+    return "\n".join((_by_numpy(lanes, 1), _numpys("sin", lanes), _numpys("cos", lanes)))
+
+
+def _numpys(name: str, lanes: int) -> str:
+    w = Words(lanes)
+    w.line(f"ret {w.numbers} {w.by_numpy(NAMES.index(name), Value('%a'))}")
+    return "\n".join((f"define internal fastcc {w.numbers} @{name}(ptr %N, {w.numbers} %a) #1 {{", *w.lines, "}"))
 
 
 def _guarded(name: str, takes: tuple[str, ...], lanes: int, body: Callable[[Words], tuple[Value, Value]]) -> str:
     """A function with a quick way for numbers that are as usual in all lanes, and numpy's for others."""
     w = Words(lanes)
     found, usual = body(w)
-    place = [str(function.__name__) for function in BY_NUMPY].index(name)
     given = [Value(f"%{a}") for a in takes]
     all_usual = w.named(f"call i1 @llvm.vector.reduce.and.v{lanes}i1({w.truths} {usual})")
     w.line(f"br i1 {all_usual}, label %quick, label %rare")
     w.lines.append("quick:")
     w.line(f"ret {w.numbers} {found}")
     w.lines.append("rare:")
-    w.line(f"ret {w.numbers} {w.by_numpy(place, *given)}")
+    w.line(f"ret {w.numbers} {w.by_numpy(NAMES.index(name), *given)}")
     head = f"define internal fastcc {w.numbers} @{name}(ptr %N, {', '.join(f'{w.numbers} {g}' for g in given)}) #1 {{"
     return "\n".join((head, *w.lines, "}"))
 
 
 def _fused(w: Words, a: Value, b: Value, c: Value) -> Value:
     return w.called("fma", a, b, c)
-
-
-def _polynomial(w: Words, z: Value, coefficients: tuple[float, ...]) -> Value:
-    found = literal(coefficients[0])
-    for c in coefficients[1:]:
-        found = _fused(w, found, z, literal(c))
-    return found
-
-
-def _circular(w: Words, cosine: bool) -> tuple[Value, Value]:
-    """The sine or the cosine: of what is left of whole quarters of a turn, by how many there are."""
-    a, quarter = Value("%a"), literal(0.25)
-    q = w.called("rint", w.two("fmul", a, literal(2 / np.pi)))
-    r, minus = a, w.named(f"fneg {w.numbers} {q}")
-    for part in HALF_PI:
-        r = _fused(w, minus, literal(part), r)
-    z = w.two("fmul", r, r)
-    sine = _fused(w, w.two("fmul", r, z), _polynomial(w, z, SINE), r)
-    half = _fused(w, z, literal(-0.5), literal(1.0))
-    cos = _fused(w, w.two("fmul", z, z), _polynomial(w, z, COSINE), half)
-    turns = w.two("fmul", q, literal(0.5))
-    odd = w.compared("une", w.called("floor", turns), turns)
-    value = w.where(odd, sine, cos) if cosine else w.where(odd, cos, sine)
-    place = w.two("fmul", w.two("fadd", q, literal(1.0)) if cosine else q, quarter)
-    below = w.compared("oge", w.two("fsub", place, w.called("floor", place)), literal(0.5))
-    found = w.where(below, w.named(f"fneg {w.numbers} {value}"), value)
-    return found, w.compared("ult", w.called("fabs", a), literal(SMALL))
 
 
 def _remainder(w: Words) -> tuple[Value, Value]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from ..loops import COPY, Span
 from .fused import PICKED, Fused, Group, Step
 from .library import library
-from .words import BEGINNINGS, OF_TRUTHS, POWER, WORDS, ZERO, Truth, Value, Words, literal, power
+from .rows import POWER
+from .words import BEGINNINGS, OF_TRUTHS, ONE, WORDS, ZERO, Truth, Value, Words, literal
 
 MANY = """define void @kernel(ptr %S, ptr %H, ptr %N, ptr %X, ptr %O, i64 %p, i64 %begin, i64 %end) #0 {{
 entry:
@@ -26,14 +27,20 @@ attributes #1 = {{ nounwind noinline {width} }}
 """
 
 
-def text(fused: Fused, moving: int, lanes: int) -> str:
+def text(fused: Fused, moving: int, lanes: int, own: bool) -> str:
     """All of a kernel, for programs with so many inputs that move, in vectors of so many ``lanes``.
 
+    Sine and cosine are those of the library, if it may have its ``own``.
     ``kernel(S, H, N, X, O, p, begin, end)``: steady numbers, the heap, numpy's loops (see `by_numpy`), inputs
     ``(moving, p)``, outputs ``(n, p)``, and which designs.
     """
+    return "\n".join((library(lanes, own), _Block(fused, lanes).text(moving), many(lanes)))
+
+
+def many(lanes: int) -> str:
+    """What goes from one ``block`` of designs to the next."""
     width = f'"min-legal-vector-width"="{64 * lanes}" "prefer-vector-width"="{64 * lanes}"'
-    return "\n".join((library(lanes), _Block(fused, lanes).text(moving), MANY.format(lanes=lanes, width=width)))
+    return MANY.format(lanes=lanes, width=width)
 
 
 class _Block(Words):
@@ -140,9 +147,9 @@ class _Block(Words):
             return ZERO
         operands = [self._taken(span) for span in step.operands]
         if step.operation == POWER and step.operands[1][0] < 0 and not step.operands[1][1]:
-            found = power(self, self.number(operands[0]), self._fused.value(step.operands[1][0]))
-            if found:
-                return found
+            exponent = self._fused.value(step.operands[1][0])
+            if exponent in (0, 1):
+                return operands[0] if exponent else ONE
         return WORDS[step.operation](self, *operands)
 
     def _place_of_the_largest(self, step: Step, best: Value, place: Value) -> tuple[Value, Value]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..operations import EACH, FOLDS
 from ..written import whole
+from .rows import RAISED
 
 BY_NUMPY = (
     *(np.sin, np.cos, np.remainder, np.tan, np.arcsin, np.arccos, np.arctan, np.sinh, np.cosh, np.tanh, np.arcsinh),
@@ -20,8 +21,6 @@ BY_NUMPY = (
     *(np.power, np.floor_divide),
 )
 """Functions that are done by numpy's own loops, to the last bit the same; the first three for rare numbers alone."""
-MOST = 8
-"""The largest whole exponent that is a product."""
 
 
 class Value(str):
@@ -49,7 +48,7 @@ class Words:
 
     def __init__(self, lanes: int) -> None:
         self.lanes = lanes
-        self.numbers, self.truths = f"<{lanes} x double>", f"<{lanes} x i1>"
+        self.numbers, self.truths, self.wholes = f"<{lanes} x double>", f"<{lanes} x i1>", f"<{lanes} x i64>"
         self.lines: list[str] = []
         self._names = 0
 
@@ -136,22 +135,12 @@ def _known(w: Words, how: str, a: Value) -> Value:
     return w.compared(how, w.called("fabs", a), literal(np.inf))
 
 
-def power(w: Words, a: Value, exponent: float) -> Value | None:
-    """A power as numpy has it of an array by ``**``, or as a product; none of most exponents."""
-    if exponent == 0.5:
-        return w.called("sqrt", a)
-    if exponent == 0:
-        return ONE
-    if abs(exponent) > MOST or exponent != int(exponent):
-        return None
-    n, product, square = int(abs(exponent)), None, a
-    while n:
-        if n % 2:
-            product = square if product is None else w.two("fmul", product, square)
-        n //= 2
-        square = w.two("fmul", square, square) if n else square
-    assert product is not None
-    return product if exponent > 0 else w.two("fdiv", ONE, product)
+def _raised(w: Words, a: Value, exponent: Value) -> Value:
+    """A power whose exponent is one number for all."""
+    found = w.by_numpy(BY_NUMPY.index(np.power), a, exponent)
+    for special, value in ((-1.0, w.two("fdiv", ONE, a)), (0.5, w.called("sqrt", a)), (2.0, w.two("fmul", a, a))):
+        found = w.where(w.compared("oeq", exponent, literal(special)), value, found)
+    return found
 
 
 def _plain(word: str) -> Callable[[Words, Value, Value], Value]:
@@ -216,9 +205,8 @@ _WORDS: dict[object, Callable[..., Value]] = {
     operator.pow: _of_numpy(BY_NUMPY.index(np.power)),
     whole: _of_llvm("trunc"),
 }
-WORDS = {EACH[function]: word for function, word in _WORDS.items()}
+WORDS = {EACH[function]: word for function, word in _WORDS.items()} | {RAISED: _raised}
 """What to write for an operation."""
-POWER = EACH[np.power]
 NOTHING = {
     np.add: -0.0,
     np.multiply: 1.0,
