@@ -73,7 +73,8 @@ class Native:
 
     def _make(self, answers: Answers, x: Array) -> None:
         try:
-            kernel = made(answers.study, answers.paths)
+            with _MAKING:  # one after the other, so that a search is not slowed by many
+                kernel = made(answers.study, answers.paths)
             agrees(kernel(answers.numbers, x), answers.by_numpy(x))
             self.kernel = kernel
         except Exception as why:  # whatever it is, numpy answers
@@ -141,6 +142,7 @@ def agrees(found: Array, expected: Array) -> None:
 KNOWN: OrderedDict[Hashable, Native] = OrderedDict()
 """By what studies have in common, what was last asked for last."""
 _LOCK = threading.Lock()
+_MAKING = threading.Lock()
 
 
 def native(study: Study[Any], paths: Sequence[str]) -> Native | None:
