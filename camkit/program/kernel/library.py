@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from .circular import circular, table
 from .words import BY_NUMPY, Value, Words, literal
@@ -22,7 +23,7 @@ def circle(lanes: int, own: bool) -> str:
     """Sine and cosine."""
     if own:
         ways = {"sin": False, "cos": True}
-        each = (_guarded(name, ("a",), lanes, lambda w, way=way: circular(w, way)) for name, way in ways.items())
+        each = (_guarded(name, ("a",), lanes, partial(circular, cosine=way)) for name, way in ways.items())
         return "\n".join((table(), _by_numpy(lanes, 1), *each))
     return "\n".join((_by_numpy(lanes, 1), _numpys("sin", lanes), _numpys("cos", lanes)))
 

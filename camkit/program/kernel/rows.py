@@ -53,7 +53,7 @@ class Rows(Loops):
         """A power: of one exponent for all that is known, what numpy makes of it."""
         operands, operation, exponent = [*map(self._place, call.arguments)], POWER, call.arguments[1]
         if operands[1].size == 1 and not isinstance(exponent, Recorded):
-            operation = OF_ONE.get(float(np.ravel(exponent)[0]), POWER)
+            operation = OF_ONE.get(float(np.asarray(exponent).item()), POWER)
         elif operands[1].size == 1 and int(operands[1].addresses.flat[0]) < self.steady:
             operation = RAISED
         return self._loop(operation, self._new(call.shape), *operands[: count(operation)])
