@@ -6,6 +6,8 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 # Native code that tests make is not kept with that of the user.
 test test-tools bench notebooks: export CAMKIT_CACHE := $(CURDIR)/.native
+# Lessons have the numbers of this learner, and keep nothing.
+test test-tools bench notebooks: export CAMKIT_LEARNER := instructor
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
@@ -42,6 +44,9 @@ NEEDS_print := .[print] lib3mf
 NEEDS_report := .[report]
 NEEDS_gcode := .
 NEEDS_docs := .[docs]
+NEEDS_course := .[report] otter-grader[grading] nbgrader nbconvert nbformat
+# What a tool needs in another version than all others do.
+LOOSE_course := wrapt
 
 .PHONY: help lab app docs test test-tools lint bench notebooks constraints clean
 
@@ -51,7 +56,7 @@ help:
 	@echo "make app        show the notebooks as pages without code, each with a kernel of its own (Voila);"
 	@echo "                for this machine alone unless HOST=... names another address to listen on"
 	@echo "make test       run all checks: style, types, imports, tests, notebooks, browser"
-	@echo "make test-tools run the checks that need large tools: solids, G-code, reports (each in .tools/<tool>)"
+	@echo "make test-tools run the checks that need large tools: solids, G-code, reports, graders (each in .tools/<tool>)"
 	@echo "make docs       make the site: notebooks, gallery, choices from measurements, theory, every public name"
 	@echo "make lint       run the quick checks only: style, types, imports"
 	@echo "make bench      measure speed"
@@ -88,17 +93,18 @@ test: lint
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
 	$(PYTEST) $(IN_ORDER) -m browser tests/browser
 
-# Solids, G-code and reports, read by the programs that a workshop reads them with.
+# Solids, G-code and reports, read by the programs that a workshop reads them with; lessons, by those that grade them.
 test-tools: $(TOOLS:%=.tools/%/.ready)
 	@for tool in $(TOOLS); do \
-	    echo "== files for the workshop: $$tool (pytest in .tools/$$tool)"; \
+	    echo "== what large tools read: $$tool (pytest in .tools/$$tool)"; \
 	    .tools/$$tool/bin/python -m pytest -p no:cacheprovider -n 2 tests/tools/$$tool/test_*.py || exit 1; \
 	done
 
 .tools/%/.ready: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "Installing what the checks of $* need into .tools/$*; the first time takes a minute or two."
 	$(BIN)/python -m venv .tools/$*
-	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt pytest pytest-xdist -e $(NEEDS_$*)
+	grep -vE "^($(or $(LOOSE_$*),none))==" constraints.txt > .tools/$*/constraints.txt
+	.tools/$*/bin/python -m pip install --quiet --disable-pip-version-check -c .tools/$*/constraints.txt pytest pytest-xdist -e $(NEEDS_$*)
 	@touch $@
 
 lint: $(VENV)/.test
@@ -122,7 +128,7 @@ notebooks: $(VENV)/.test
 	    --ClearMetadataPreprocessor.enabled=True --ClearMetadataPreprocessor.clear_cell_metadata=False \
 	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=kernelspec \
 	    --ClearMetadataPreprocessor.preserve_nb_metadata_mask=language_info \
-	    notebooks/*.ipynb
+	    notebooks/*.ipynb notebooks/course/*.ipynb
 	$(BIN)/python .jupyter/cards.py notebooks
 
 # After an upgrade by hand in .venv: writes down what is installed there, camkit itself left out, and what only the

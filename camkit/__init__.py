@@ -86,7 +86,7 @@ _LATER = {
     "tolerance_panel": "panels",
 }
 """Where they live."""
-_WINGS = ("papers", "views", "panels", "render")
+_WINGS = ("papers", "views", "panels", "render", "course")
 """Wings that are loaded when they are first asked for."""
 
 

@@ -17,6 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 
+from .course.editions import EDITIONS, WORKSHEET, write_editions
 from .files import Blank, Decision, Session, TitleBlock, faults, to_json, to_workshop
 from .files.designs import read_json
 from .files.json_file import MOST_BYTES
@@ -50,6 +51,7 @@ examples:
   camkit export cam.json --all --out made      every file that can be made of it, in the folder made
   camkit export cam.json --zip --bore 20mm --key "DIN 6885-1" --author "M. Curie"
   camkit optimise study.json --seed 1 --generations 200 --out found.json
+  camkit course notebooks/course --edition learner worksheet --learner "Class 3b"
   camkit schema                                the JSON Schema of these files
 
 exit codes:
@@ -265,6 +267,16 @@ def schema(asked: argparse.Namespace) -> int:
     return DONE
 
 
+# ---------------------------------------------------------------- course
+
+
+def course(asked: argparse.Namespace) -> int:
+    """Write editions of lessons: for learners, for instructors, on paper, and for programs that grade."""
+    for path in write_editions(asked.lessons, asked.out, *asked.edition, learner=asked.learner):
+        print(path)
+    return DONE
+
+
 # ---------------------------------------------------------------- the command
 
 
@@ -276,14 +288,15 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"camkit {version('camkit')}")
     each = top.add_subparsers(required=True, metavar="command")
-    for act in (lab, app, check, export, optimise, schema):
+    for act in (lab, app, check, export, optimise, course, schema):
         about = (act.__doc__ or "").strip()
         more = f"{KINDS}{EXAMPLES}" if act is export else EXAMPLES
         one = each.add_parser(act.__name__, help=about, description=about, epilog=more, formatter_class=plain)
         if act in (check, export, optimise):
             one.add_argument("file", help="a JSON file that camkit saved: a design, a study, a front or a decision")
         one.set_defaults(act=act)
-        {lab: ask_where, app: ask_where, export: _ask_export, optimise: _ask_optimise}.get(act, lambda _: None)(one)
+        asks = {lab: ask_where, app: ask_where, export: _ask_export, optimise: _ask_optimise, course: _ask_course}
+        asks.get(act, lambda _: None)(one)
     return top
 
 
@@ -333,6 +346,15 @@ def _ask_optimise(one: argparse.ArgumentParser) -> None:
     ):
         one.add_argument(f"--{name}", type=int, help=meaning)
     one.add_argument("--out", help="the file to write (default: beside the study, .found.json)")
+
+
+def _ask_course(one: argparse.ArgumentParser) -> None:
+    one.add_argument("lessons", help="a folder of lessons, such as notebooks/course, or one of its notebooks")
+    one.add_argument("--out", default="editions", help="the folder (default: editions), with one for each edition")
+    one.add_argument(
+        "--edition", nargs="+", default=[], metavar="EDITION", help=f"of {', '.join((*EDITIONS, WORKSHEET))}"
+    )
+    one.add_argument("--learner", default=WORKSHEET, metavar="NAME", help="whose numbers are on the worksheet")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -28,3 +28,9 @@ def test_a_card_is_a_picture_a_line_and_a_link(path):
     assert (REPOSITORY / "notebooks" / picture).read_bytes().startswith(b"\x89PNG")
     assert (REPOSITORY / "notebooks" / picture).stat().st_size < 40_000
     assert len(line) < 120
+
+
+def test_the_course_is_found_from_both():
+    assert "](course/01_motion_laws.ipynb)" in GALLERY.cells[0].source
+    assert 'content.type == "directory" and content.name == "course"' in PAGE
+    assert "](notebooks/course)" in (REPOSITORY / "README.md").read_text(encoding="utf-8")

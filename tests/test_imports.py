@@ -71,7 +71,7 @@ def test_a_panel_opens_without_what_only_searches_and_still_pictures_need() -> N
 
 GROUND = {"units", "quantities", "geometry", "contact", "extrema", "data"}
 WINGS = {*("motion", "cam", "linkage", "dynamics", "machines", "study", "search", "decision"), *("files", "papers"),
-         *("views", "program", "render", "panels")}  # fmt: skip
+         *("views", "program", "render", "panels", "course")}  # fmt: skip
 
 
 def imported(folder: str) -> set[str]:

@@ -28,7 +28,7 @@ from camkit.study import AnalysisCurve
 from camkit.views import pressure_angle
 from camkit.views.beside import Beside
 
-NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("**/[0-9]*.ipynb"))
 WINGS = [
     "motion",
     "cam",
@@ -285,6 +285,14 @@ GOOD = {
     "window": lambda: [[0.12, 0.09], [0.14, 0.11]],
     "worst": lambda: (0.1, 2.0),
     # where an argument of the same name is something else
+    "Range.low": lambda: 10.0,
+    "Range.high": lambda: 20.0,
+    "Range.step": lambda: 1.0,
+    "changes.before": lambda: 1.0,
+    "changes.after": lambda: 2.0,
+    "exercise.name": lambda: "a size",
+    "exercise.question": lambda: "How large is it?",
+    "exercise.answer": lambda: lambda numbers: 1.0,
     "cam_life.strength": camkit.cam.SurfaceStrength,
     "value_of.path": lambda: "base_radius",
     "write_table.path": lambda: "a table.csv",

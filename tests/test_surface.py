@@ -14,7 +14,7 @@ from hand import sliders
 import camkit
 
 REPOSITORY = Path(__file__).parents[1]
-NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("**/[0-9]*.ipynb"))
 WINGS = {p.stem for p in (REPOSITORY / "camkit").iterdir() if p.name not in ("__init__.py", "__pycache__", "py.typed")}
 
 

@@ -24,7 +24,7 @@ from ..machines.valve_measures import (
 )
 from ..units import deg, mm
 from ..views.front import Judged
-from .published import Comparison, Row
+from .published import Comparison, Row, Table
 
 PAPER = "He, Li 2008"
 FORMULAS = "the paper's formulas"
@@ -67,6 +67,19 @@ def listing() -> Comparison:
         Row("v in m/s and deg, taken for mm", "", _of_formulas("v_listed"), listed, "what the listing computes with"),
     ]
     return Comparison("The seating velocity", FORMULAS, rows, APART)
+
+
+def seating() -> Table:
+    """The cam's data, and the length that its program listing makes of them: where is the error?"""
+    printed = as_printed("valve")["paper"]["data"]
+    rows = [
+        ("seating velocity of the valve, v_g", printed["seating_velocity"], "m/s"),
+        ("speed of the cam, omega", printed["speed"], "rpm"),
+        ("angle of the flank, alpha_B", printed["half_angle"], "deg"),
+        ("lift at the nose", printed["max_lift"], "mm"),
+        ("v = v_g alpha_B / omega", _of_formulas("v_listed"), "mm"),
+    ]
+    return Table(("quantity", "value", "unit"), rows, "The start of the flank, as the listing computes with it")
 
 
 def corners() -> Comparison:

@@ -28,12 +28,13 @@ MET = 1e-9
 
 
 class Verdict(NamedTuple):
-    """What becomes of a limit: a measure, its value (SI), ``"at most 45 deg"``, and whether that is kept."""
+    """What becomes of a limit: a measure, its value (SI), ``"at most 45 deg"``, whether it is kept, by how much not."""
 
     measure: Measure
     value: float
     bound: str
     kept: bool
+    missed: float = 0.0
 
     def __str__(self) -> str:
         name, known = self.measure.name, np.isfinite(self.value)
@@ -142,11 +143,16 @@ def _reached(parts: Iterable[Subject], blank: Blank) -> Iterator[str]:
 
 def verdicts(study: Study) -> Iterator[Verdict]:
     """What the start of a study makes of each limit."""
-    analysis = study.analysis_of(study.start)
-    for measure, limit, sense in study.limits:
+    return judged(study.analysis_of(study.start), study.limits)
+
+
+def judged(analysis: object, limits: Iterable[tuple[Measure, float, int]]) -> Iterator[Verdict]:
+    """What an analysis makes of limits, each a measure, a value (SI), and +1 for at most or -1 for at least."""
+    for measure, limit, sense in limits:
         value, sign = measure.one(analysis), measure.sign
         bound = f"at {'most' if sign * sense > 0 else 'least'} {measure.text(sign * limit)}"
-        yield Verdict(measure if sign > 0 else -measure, sign * value, bound, bool(keeps(value, limit, sense)))
+        kept = bool(keeps(value, limit, sense))
+        yield Verdict(measure if sign > 0 else -measure, sign * value, bound, kept, 0.0 if kept else abs(value - limit))
 
 
 def _yield(study: Study, tolerances: Mapping[str | Source, object] | None, least: float) -> Iterator[str]:
