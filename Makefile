@@ -8,6 +8,8 @@ export OPENBLAS_NUM_THREADS := 1
 test test-tools bench notebooks: export CAMKIT_CACHE := $(CURDIR)/.native
 # Lessons have the numbers of this learner, and keep nothing.
 test test-tools bench notebooks: export CAMKIT_LEARNER := instructor
+# Byte code is kept, whatever the user's settings: a hundred kernels import the same.
+test test-tools bench notebooks: export PYTHONDONTWRITEBYTECODE :=
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
@@ -24,14 +26,21 @@ PYTEST := $(NOTEBOOKS) -p no:nbval
 # Whichever process is done takes over some of the other's tests: none waits while a long file is gone through.
 SPREAD := $(PYTEST) --dist worksteal
 
-# The files in tests/browser as conftest.py there puts them, the slowest first, so that both processes end together.
-IN_ORDER := --no-loadscope-reorder
+# The files in tests/browser as conftest.py there puts them, the slowest first, so that all processes end together; three, since
+# each of them waits for its browser, server and kernel now and then.
+BROWSER := $(PYTEST) -n 3 --no-loadscope-reorder
 
-# Coverage is asked of the maths alone, and not of its long searches and tables of cases: watched, a test takes nearly twice as long.
-UNWATCHED := tests/panels tests/render tests/cam/test_controls.py tests/search/test_minimise_cams.py tests/test_extrema.py \
-    tests/files/test_files.py tests/files/test_profile_files.py tests/machines/test_populations.py tests/machines/test_cabin_door.py \
-    tests/program/test_machines.py tests/program/test_sentences.py tests/program/test_studies_and_views.py \
-    tests/test_public_names.py tests/test_tree.py
+# Coverage is asked of the maths alone, and of doctests and tests that between them go through it: watched, a test takes nearly
+# twice as long.  The tests of a new module of the maths join them.
+WATCHED := camkit tests/course tests/decision tests/dynamics tests/linkage tests/papers tests/study tests/views \
+    tests/machines/test_high_speed.py $(patsubst %,tests/test_%.py,command_line geometry markup package quantities units) \
+    $(patsubst %,tests/cam/test_%.py,barrel closing followers impacts oscillating_roller outlines pair pins surfaces zones) \
+    $(patsubst %,tests/files/test_%.py,blank decisions drawing export faults free_menus gcode hostile_exports motion_tables) \
+    $(patsubst %,tests/files/test_%.py,motions outline_files own_laws_in_files report schema sessions_of_old solids to_workshop) \
+    $(patsubst %,tests/files/test_%.py,tolerance_files workshop_tables) \
+    $(patsubst %,tests/motion/test_%.py,acceleration_first matched_programs matching motion_laws motion_textbook own_laws tables) \
+    $(patsubst %,tests/motion/test_%.py,vibration) $(patsubst %,tests/program/test_%.py,kernel recording) \
+    $(patsubst %,tests/search/test_%.py,checkpoint goal_seek minimise options rates resume threads)
 
 # Strict: every output is compared with the one stored, in the environment of this Python.
 NBVAL := --nbval --nbval-current-env --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 300
@@ -84,14 +93,14 @@ docs: .tools/docs/.ready
 	@echo "The site is in .site: open .site/index.html in a browser."
 
 test: lint
-	@echo "== tests of the maths, doctests, coverage (pytest)"
-	$(SPREAD) $(addprefix --ignore=,$(UNWATCHED) tests/browser) --cov --cov-report=term-missing:skip-covered
-	@echo "== tests of panels, pictures, long searches and tables of cases (pytest)"
-	$(SPREAD) $(UNWATCHED)
+	@echo "== doctests, and tests that go through the maths: coverage (pytest)"
+	$(SPREAD) $(WATCHED) --cov --cov-report=term-missing:skip-covered
+	@echo "== all other tests: panels, pictures, long searches, tables of cases (pytest)"
+	$(SPREAD) tests $(addprefix --ignore=,$(WATCHED) tests/browser)
 	@echo "== every notebook gives its stored outputs (pytest with nbval)"
 	$(NOTEBOOKS) $(NBVAL) notebooks
 	@echo "== sliders and panels in JupyterLab in Chromium (pytest with Playwright)"
-	$(PYTEST) $(IN_ORDER) -m browser tests/browser
+	$(BROWSER) -m browser tests/browser
 
 # Solids, G-code and reports, read by the programs that a workshop reads them with; lessons, by those that grade them.
 test-tools: $(TOOLS:%=.tools/%/.ready)

@@ -23,7 +23,7 @@ SLOWEST = (
     *("living", "session", "voila", "run_again", "published", "high_speed", "door_handle", "instrument", "opening"),
     *("programs_of", "names", "valve", "live_front"),
 )
-"""Files of tests, the slowest first: so two processes come to an end together."""
+"""Files of tests, the slowest first: so all processes come to an end together."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

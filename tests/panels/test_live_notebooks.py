@@ -12,7 +12,7 @@ from ipywidgets.widgets import widget
 from try_everything import inside, try_everything
 
 NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
-OPTIONS = 5
+OPTIONS = 3
 """So many of a menu are tried in a notebook; all of them in the tests of its panel."""
 MODELS = 40
 """Widget models that a notebook may hold: each is a message of its own before the first panel is seen."""
