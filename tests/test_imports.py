@@ -16,7 +16,7 @@ REPOSITORY = Path(__file__).parents[1]
 
 # The modules that need the [lab] extra; `import camkit` must not need them.
 LAB = {"panels", "render"}
-PYMOO = {"competitive", "evolution", "nsga2", "toolbox_genetic"}
+PYMOO = {"dask_backend", "competitive", "evolution", "nsga2", "toolbox_genetic"}
 
 # As on a machine where nothing else is installed: an import of anything else fails.
 ONLY_NUMPY_AND_SCIPY = """
@@ -88,7 +88,7 @@ def imported(folder: str) -> set[str]:
 def test_what_is_imported_is_declared(folder: str) -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
-    tools = [each for extra in ("step", "print", "report", "docs") for each in extras[extra]]
+    tools = [each for extra in ("step", "print", "report", "docs", "cluster") for each in extras[extra]]
     listed = project["dependencies"] + extras["lab"] + extras["app"] + tools
     readers = re.findall(r"(?m)^NEEDS_\w+ := \S+ (.+)$", (REPOSITORY / "Makefile").read_text(encoding="utf-8"))
     listed += extras["test"] + " ".join(readers).split() if folder != "camkit" else []

@@ -244,6 +244,7 @@ GOOD = {
     "speed": lambda: 10.0,
     "space": lambda: SPACE,
     "steps": lambda: 2,
+    "sweep": lambda: camkit.study.Sweep(STUDY, n=3),
     "studies": lambda: {"two": TWO},
     "study": lambda: TWO,
     "target": lambda: 0.01,

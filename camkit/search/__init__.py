@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..quantities.extras import extra
 from .cycle_time import IntervalStep, shortest_interval
 from .epsilon_constraint import dominated_shares, trade_off
+from .every import compute
 from .fast_front import quick_front
 from .front import Front, dominated, front_of, reference_point
 from .goal_seek import goal_seek
@@ -32,6 +33,7 @@ __all__ = [
     "Step",
     "StudyProblem",
     "ToolboxGenetic",
+    "compute",
     "dominated",
     "dominated_shares",
     "front_of",

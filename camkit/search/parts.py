@@ -15,7 +15,7 @@ import os
 import stat
 import time
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +66,26 @@ class Parts:
         self.number += 1
         return found
 
+    def keep(self, asked: Sequence[int], arrays: Arrays, told: Mapping[str, object] | None = None) -> None:
+        """Keep a part that ended out of turn: what was ``asked``, arrays, and what is ``told`` of them, as JSON."""
+        if self.path and not self.unkept:
+            entry = {"seconds": self.seconds, "arrays": [_entry(array) for array in (asked, *arrays)]}
+            self._write({**entry, "told": dict(told or {})}, "a")
+
+    def kept(self) -> Iterator[tuple[tuple[int, ...], Arrays, dict[str, Any]]]:
+        """What the file has of parts that ended in any order: what was asked, arrays, and what is told of them."""
+        for line in self._lines:
+            try:
+                asked, *arrays = map(_array, line["arrays"])
+                yield tuple(map(int, asked)), arrays, dict(line["told"])
+            except Exception:  # whatever a file that somebody made can lead to
+                raise self.damaged from None
+
+    @property
+    def damaged(self) -> ValueError:
+        """What is raised for a file that is."""
+        return ValueError(f"the checkpoint {self._name} is damaged; delete it to begin anew")
+
     def _next(self, asked: np.ndarray) -> Arrays | None:
         """What the file has of the next part."""
         if self.number >= len(self._lines):
@@ -96,7 +116,7 @@ class Parts:
             self._digest = digest
 
     def _read(self, told: Mapping[str, object]) -> None:
-        damaged = ValueError(f"the checkpoint {self._name} is damaged; delete it to begin anew")
+        damaged = self.damaged
         try:
             with open(str(self.path), "rb", opener=_open_no_link) as file:
                 about = os.fstat(file.fileno())

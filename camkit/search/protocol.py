@@ -40,6 +40,7 @@ METHODS = {
     "ga": ONE,
     "competitive": ONE,
     "cycle_time": ("cycle_time", "cycle_time_steps"),
+    "every": ("every", "every_steps"),
 }
 """Where each method lives: its module, loaded when it is first asked for, and the function that gives its steps."""
 
@@ -79,6 +80,8 @@ class Step:
     """How long the search has taken, without its breaks."""
     unkept: str = ""
     """Why it goes on without its checkpoint; empty where it does not."""
+    seeds: Mapping[int, Step] = field(default_factory=dict)
+    """The last step with each seed that has ended, of a search from several."""
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -122,6 +125,14 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
     - ``"slsqp"``, ``"de"``, ``"ga"``, ``"competitive"``: ``seed``, ``starts``, ``designs``, ``recheck``; see
       `camkit.minimise`.  A step is one evaluation, and a stop takes effect before the next.
     - ``"cycle_time"``: ``limit``, ``shortest``, ``longest``, ``intervals``; see `camkit.shortest_interval`.
+    - ``"every"``: ``designs``, a number of values of each free quantity (one number for all, or one each), whose
+      combinations are all looked at, or a table of designs; however many there are, part by part, a step for each.
+
+    ``seeds``, such as ``range(30)``, in place of a ``seed``: a search from each of them and the best of all, a step for
+    each that has ended, and in ``step.seeds`` what each found.  ``jobs`` processes share the seeds, or the designs of
+    ``"every"``, and so do the workers of a ``cluster`` of dask (``"tcp://name:8786"``, extra ``cluster``): to the same
+    result to the last bit, and only where it is faster.  What is lost with a process is done again, and a warning says
+    so.
 
     All take a ``checkpoint``, the name of a file in which what has ended of the search is kept: the same call goes on
     from it after a stop or the end of the process, to the same result as without the break.  It goes on without the
@@ -133,18 +144,33 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
     ...         break
     >>> step.number, step.of, step.evaluated, len(step.front) > 0
     (3, 9, 60, True)
+    >>> *_, last = search(door_handle_study(), "nsga2", population=20, generations=9, seeds=range(3), jobs=2)
+    >>> [*last.seeds], last.evaluated, len(last.front) > len(last.seeds[0].front)
+    ([0, 1, 2], 540, True)
+    >>> *_, last = search(door_handle_study(), "every", designs=(20, 20, 20))
+    >>> last.evaluated, len(last.front)
+    (8000, 0)
 
     Raises ``ValueError`` for a method that there is not, and an option that it does not take; for a checkpoint that is
-    damaged, or of another study, method, options or versions.
+    damaged, or of another study, method, options or versions; for seeds, jobs or a cluster that are none, or that does
+    not answer.
     """
     refuse_arguments(search, locals())
     method = method or ("slsqp" if len(study.minimise) == 1 else "nsga2")
     if method not in METHODS:
         raise ValueError(f"the method is {method!r}; there are {', '.join(map(repr, METHODS))}")
+    if "seeds" in options:
+        from .seeds import seeds_steps
+
+        return seeds_steps(study, method, **options)
+    if method != "every" and not {"jobs", "cluster"}.isdisjoint(options):
+        raise ValueError(
+            "jobs, or a cluster, share seeds or the designs of 'every': give seeds=range(30), for instance"
+        )
     module, name = METHODS[method]
     steps = getattr(import_module(f".{module}", __package__), name)
     chosen = {"method": method} if METHODS[method] == ONE else {}
-    checkpoint = None if method == "nsga2" else options.pop("checkpoint", None)
+    checkpoint = None if method in ("nsga2", "every") else options.pop("checkpoint", None)
     try:
         signature(steps).bind(study, **chosen, **options)
     except TypeError as unfit:

@@ -35,6 +35,19 @@ MOST = 32
 """So many programs have their code, those that were last asked for."""
 
 
+_MADE_FIRST = ContextVar("_MADE_FIRST", default=False)
+
+
+@contextmanager
+def made_first() -> Iterator[None]:
+    """A context in which native code is made before it is first asked: there are more designs than it takes time."""
+    token = _MADE_FIRST.set(True)
+    try:
+        yield
+    finally:
+        _MADE_FIRST.reset(token)
+
+
 class Native:
     """The code for all studies that differ in declared numbers alone; made beside while numpy answers."""
 
@@ -92,6 +105,9 @@ class Answers:
         """What they say of values ``(p, n)``, ``(p, n_measures)``."""
         if self.native is None or not len(x):
             return self.by_numpy(x)
+        if self.native.kernel is None and _MADE_FIRST.get():
+            self.native.make(self, x)
+            self.native.wait()
         if self.native.kernel is not None:
             return self.native.kernel(self.numbers, x)
         self.native.seen(self, x)

@@ -141,7 +141,14 @@ class Kernel:
 
 
 def threads() -> int:
-    """How many processors there are for this process."""
+    """How many processors there are for this process; ``OMP_NUM_THREADS`` may say fewer, as among many processes."""
+    told = os.environ.get("OMP_NUM_THREADS", "")
+    if told.isdecimal() and int(told):
+        return min(int(told), _processors())
+    return _processors()
+
+
+def _processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
