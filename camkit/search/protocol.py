@@ -149,7 +149,7 @@ def search(study: Study, method: str = "", **options: Any) -> Iterator[Step]:
     ([0, 1, 2], 540, True)
     >>> *_, last = search(door_handle_study(), "every", designs=(20, 20, 20))
     >>> last.evaluated, len(last.front)
-    (8000, 0)
+    (8000, 62)
 
     Raises ``ValueError`` for a method that there is not, and an option that it does not take; for a checkpoint that is
     damaged, or of another study, method, options or versions; for seeds, jobs or a cluster that are none, or that does
