@@ -6,7 +6,7 @@ Chunks begin at the same designs however they are shared, so that what is found 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -15,7 +15,7 @@ import numpy as np
 
 from ..quantities.kinds import refuse_arguments
 from ..quantities.types import Array
-from ..study.native import made_first, numpy_alone
+from ..study.native import made_first
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
 from ..study.sweep import Sweep
@@ -149,7 +149,7 @@ def best(kept: Kept) -> Kept:
 def found_in(study: Study, thin: Callable[[Kept], Kept], chunk: int, natively: bool, designs: Designs) -> Kept:
     """What is kept of some designs."""
     found: list[Kept] = []
-    with made_first() if natively else numpy_alone():  # of one kind, so that each process says the same
+    with made_first() if natively else nullcontext():
         for some in designs.cut(chunk):
             said = study.evaluate(some.rows)
             found.append(Kept(np.arange(some.begin, some.end, dtype=float), said.x, said.f, said.g))
