@@ -53,13 +53,10 @@ NEEDS_print := .[print] lib3mf
 NEEDS_report := .[report]
 NEEDS_gcode := .
 NEEDS_docs := .[docs]
-<<<<<<< HEAD
 NEEDS_course := .[report] otter-grader[grading] nbgrader nbconvert nbformat
 # What a tool needs in another version than all others do.
 LOOSE_course := wrapt
-=======
 NEEDS_cluster := .[cluster]
->>>>>>> 843e8ca (Share seeds and the designs of a grid, a table or a sweep among processes, or the workers of a cluster)
 
 .PHONY: help lab app docs test test-tools lint bench notebooks constraints clean
 

@@ -16,7 +16,7 @@ REPOSITORY = Path(__file__).parents[1]
 
 # The modules that need the [lab] extra; `import camkit` must not need them.
 LAB = {"panels", "render"}
-PYMOO = {"dask_backend", "competitive", "evolution", "nsga2", "toolbox_genetic"}
+PYMOO = {"competitive", "evolution", "nsga2", "toolbox_genetic"}
 
 # As on a machine where nothing else is installed: an import of anything else fails.
 ONLY_NUMPY_AND_SCIPY = """

@@ -22,8 +22,11 @@ from .checkpoint import versions
 from .threads import in_one_thread
 
 if TYPE_CHECKING:
+    from concurrent.futures import Future
+
     from distributed import Client
     from joblib import Parallel
+    from joblib.parallel import ParallelBackendBase
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -188,9 +191,7 @@ def _parallel(crew: Crew, tasks: int) -> Parallel:
 
     given: dict[str, Any] = {"return_as": "generator_unordered", "batch_size": 1}
     if crew.client is not None:
-        from .dask_backend import TellingBackend
-
-        return Parallel(n_jobs=-1, backend=TellingBackend(client=crew.client), **given)
+        return Parallel(n_jobs=-1, backend=telling(crew.client), **given)
     with parallel_config("loky", inner_max_num_threads=1, idle_worker_timeout=IDLE):
         return Parallel(min(crew.size, tasks), pre_dispatch="n_jobs", max_nbytes=None, **given)
 
@@ -245,3 +246,28 @@ def _refuse_other(worker: str, theirs: Mapping[str, str] | Exception) -> None:
         if theirs.get(what) != here:
             there = f"{what} {theirs.get(what)}"
             raise ValueError(f"the worker {worker} has {there}; here it is {what} {here}: the versions must agree")
+
+
+def telling(client: Client) -> ParallelBackendBase:
+    """joblib's way to a cluster, with word of a task that dask has given up, such as one that several workers died of.
+
+    joblib 1.6 sets the error and tells nobody, so that whoever waits for the task would wait without end.
+    """
+    from joblib._dask import DaskDistributedBackend
+
+    class Telling(DaskDistributedBackend):
+        def submit(self, func: Callable[[], object], callback: Callable[[object], None]) -> Future:
+            def told(future: Future) -> None:
+                if error := future.exception():
+                    callback(error)
+
+            future: Future = super().submit(func, callback)
+            future.add_done_callback(told)
+            return future
+
+        def retrieve_result_callback(self, out: object) -> object:
+            if isinstance(out, BaseException):
+                raise out
+            return super().retrieve_result_callback(out)
+
+    return Telling(client=client)
