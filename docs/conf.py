@@ -20,10 +20,11 @@ extensions = [
     "made.checked",
     "made.docstrings",
     "made.formulas",
+    "made.gallery",
     "made.held",
     "made.tables",
 ]
-exclude_patterns = ["made", "_build"]
+exclude_patterns = ["made"]
 default_role = "py:obj"  # what stands in single backticks, where it is something of the package
 
 myst_enable_extensions = ["amsmath", "deflist", "dollarmath", "html_image"]

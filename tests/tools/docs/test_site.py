@@ -10,14 +10,20 @@ from pathlib import Path
 
 import pytest
 from filelock import FileLock
+from PIL import Image
+from sphinx.errors import ExtensionError
 
 import camkit
+from camkit.motion import ModifiedTrapezoid
 
 REPOSITORY = Path(__file__).parents[3]
 sys.path.insert(0, str(REPOSITORY / "docs"))
 
+from made import rules  # noqa: E402
 from made.api import public, wings  # noqa: E402
 from made.checked import faults  # noqa: E402
+from made.formulas import mathml  # noqa: E402
+from made.held import functions  # noqa: E402
 
 NOTEBOOKS = sorted((REPOSITORY / "notebooks").rglob("*.ipynb"))
 
@@ -28,7 +34,8 @@ def site(tmp_path_factory) -> Path:
     folder = tmp_path_factory.getbasetemp().parent
     with FileLock(folder / "site.lock"):
         if not (folder / "site" / "index.html").exists():
-            command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "docs", str(folder / "site")]
+            options = ["-q", "-W", "--keep-going", "-j", "2"]
+            command = [sys.executable, "-m", "sphinx", *options, "docs", str(folder / "site")]
             made = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True)
             if made.returncode:
                 shutil.rmtree(folder / "site", ignore_errors=True)
@@ -94,3 +101,43 @@ def test_a_notebook_has_its_pictures(site, path):
     shown = re.findall(r'<img[^>]* alt="[^"]{8,}"', read(page))
     assert len(shown) >= max(len(stored), 1)
     assert "jupyter-widget" not in read(page)
+
+
+def test_formulas_need_no_script(site):
+    pages = [read(page) for page in (site / "theory").glob("*.html")]
+    assert sum(page.count("<math") for page in pages) > 100
+    assert not [page for page in pages if "mathjax" in page.lower() or "katex" in page.lower()]
+
+
+def test_a_formula_that_cannot_be_read_stops_the_build():
+    with pytest.raises(ExtensionError, match=r"the formula '.*frac' cannot be read"):
+        mathml(r"\frac", display=True)
+
+
+def test_every_formula_page_names_tests_that_are_there():
+    texts = [read(path) for path in (REPOSITORY / "docs" / "theory").glob("*.md")]
+    named = [one for text in texts for one in re.findall(r"\{held\} (\S+)::(\S+)", text)]
+    assert len(named) > 40
+    assert not [(path, name) for path, name in named if name not in functions(REPOSITORY / path)]
+
+
+def test_the_table_of_laws_is_what_the_laws_say(site):
+    page = re.sub(r"<[^>]+>", " ", read(site / "choose" / "law.html"))
+    cells = re.search(r"modified trapezoid\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)", page)
+    assert [float(cell) for cell in cells.groups()] == pytest.approx(list(ModifiedTrapezoid().peaks()), rel=1e-3)
+
+
+def test_what_sways_no_rule_by_itself_is_told_from_what_does():
+    """The identity sways no rule; a weighted sum hears weights, and a knee does not."""
+    assert {name: rules.swayed(rule, lambda front, k, random: front) for name, rule in rules.RULES.items()} == (
+        dict.fromkeys(rules.RULES, 0.0)
+    )
+    assert rules.more_weight("weighted sum") > 10
+    assert rules.more_weight("knee") == 0
+
+
+def test_the_picture_of_the_readme_moves():
+    picture = REPOSITORY / "docs" / "_static" / "turning.png"
+    assert picture.stat().st_size < 1_000_000
+    assert Image.open(picture).n_frames > 30
+    assert "docs/_static/turning.png" in read(REPOSITORY / "README.md")
