@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from shutil import copytree, ignore_patterns
 
-SOLUTION, FOLDED = "solution", "hide-input"
+SOLUTION, INSTRUCTOR, FOLDED = "solution", "instructor", "hide-input"
 
 
 def anchor(title: str) -> str:
@@ -33,11 +33,14 @@ def write(path: Path, text: str) -> None:
 
 
 def page(notebook: dict) -> str:
-    """A notebook whose cells say to Sphinx what to fold, and what their pictures show."""
+    """A notebook as learners see it, whose cells say to Sphinx what to fold, and what their pictures show."""
     heading = ""
+    notebook["cells"] = [cell for cell in notebook["cells"] if INSTRUCTOR not in cell["metadata"].get("tags", ())]
     for cell in notebook["cells"]:
         source = "".join(cell["source"])
         if cell["cell_type"] == "markdown":
+            if SOLUTION in cell["metadata"].get("tags", ()):
+                cell["source"] = f"<details><summary>Solution</summary>\n\n{source}\n\n</details>"
             heading = ([heading, *re.findall(r"^#+ (.*)", source, re.M)])[-1]
             continue
         tags = cell["metadata"].setdefault("tags", [])

@@ -24,6 +24,7 @@ from made.api import public, wings  # noqa: E402
 from made.checked import faults  # noqa: E402
 from made.formulas import mathml  # noqa: E402
 from made.held import functions  # noqa: E402
+from made.notebooks import page  # noqa: E402
 
 NOTEBOOKS = sorted((REPOSITORY / "notebooks").rglob("*.ipynb"))
 
@@ -97,16 +98,18 @@ def test_a_notebook_has_its_pictures(site, path):
         for output in cell.get("outputs", [])
         if "image/png" in output.get("data", {})
     ]
-    page = site / "notebooks" / path.relative_to(REPOSITORY / "notebooks").with_suffix(".html")
-    shown = re.findall(r'<img[^>]* alt="[^"]{8,}"', read(page))
+    shown_on = site / "notebooks" / path.relative_to(REPOSITORY / "notebooks").with_suffix(".html")
+    shown = re.findall(r'<img[^>]* alt="[^"]{8,}"', read(shown_on))
     assert len(shown) >= max(len(stored), 1)
-    assert "jupyter-widget" not in read(page)
+    assert "jupyter-widget" not in read(shown_on)
 
 
 def test_formulas_need_no_script(site):
     pages = [read(page) for page in (site / "theory").glob("*.html")]
     assert sum(page.count("<math") for page in pages) > 100
-    assert not [page for page in pages if "mathjax" in page.lower() or "katex" in page.lower()]
+    assert not [
+        page for page in pages if re.search(r"<script[^>]*(mathjax|katex)|window\.MathJax", page, re.IGNORECASE)
+    ]
 
 
 def test_a_formula_that_cannot_be_read_stops_the_build():
@@ -141,3 +144,14 @@ def test_the_picture_of_the_readme_moves():
     assert picture.stat().st_size < 1_000_000
     assert Image.open(picture).n_frames > 30
     assert "docs/_static/turning.png" in read(REPOSITORY / "README.md")
+
+
+def test_a_lesson_is_seen_as_a_learner_sees_it():
+    cells = [
+        {"cell_type": "markdown", "metadata": {"tags": ["instructor"]}, "source": "35 minutes"},
+        {"cell_type": "markdown", "metadata": {"tags": ["solution"]}, "source": "because"},
+        {"cell_type": "code", "metadata": {"tags": ["solution"]}, "source": "41", "outputs": []},
+    ]
+    text, code = json.loads(page({"cells": cells}))["cells"]
+    assert re.fullmatch(r"<details>.*because.*</details>", text["source"], re.DOTALL)
+    assert "hide-cell" in code["metadata"]["tags"]
