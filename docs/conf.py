@@ -48,6 +48,8 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_domain_indices = False
 html_copy_source = html_show_sourcelink = False
+html_context = {"default_mode": "auto"}  # light or dark as the system is
+html_sidebars = {page: [] for page in ("checks", "gallery", "glossary", "index", "papers", "workshop")}
 html_theme_options = {
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button"],

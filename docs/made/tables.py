@@ -4,6 +4,7 @@
 ```
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from importlib import import_module
 
@@ -12,6 +13,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 LEFT, RIGHT = ":--", "--:"
+NUMBER = re.compile(r"\**([-\d.]+|infinite|never)\**")
 
 
 def cell(value: object, digits: int = 4) -> str:
@@ -25,10 +27,9 @@ def cell(value: object, digits: int = 4) -> str:
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 4) -> str:
     """A table as Markdown; a column of numbers alone stands to the right."""
-    rows = [list(row) for row in rows]
-    numeric = [all(isinstance(row[k], (int, float)) for row in rows) for k in range(len(head))]
-    sides = [RIGHT if of_numbers else LEFT for of_numbers in numeric]
-    lines = [head, sides, *([cell(value, digits) for value in row] for row in rows)]
+    cells = [[cell(value, digits) for value in row] for row in rows]
+    sides = [RIGHT if all(map(NUMBER.fullmatch, column)) else LEFT for column in zip(*cells, strict=True)]
+    lines = [head, sides, *cells]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
