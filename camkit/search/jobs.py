@@ -32,8 +32,8 @@ T = TypeVar("T")
 R = TypeVar("R")
 MOST = 512
 """So many processes there may be on one machine."""
-BEGIN = 3.0
-"""Seconds until a process has begun; what is saved must be worth them."""
+BEGIN = 6.0
+"""Seconds of the processor that must be saved: a process takes 2 to begin, and many of the clock where it is busy."""
 LOST = 1.1
 """How much longer a task takes where others are done beside it, with its way there and back: 1.85 in place of 2."""
 PATIENCE = 5.0
@@ -79,7 +79,7 @@ def pays(cost: Cost, left: float, crew: Crew) -> bool:
 
     What has help from threads here has none there.
 
-    >>> [pays(Cost(2.0, 2.0), left, Crew(2)) for left in (1, 2, 4)]
+    >>> [pays(Cost(5.0, 5.0), left, Crew(2)) for left in (1, 2, 4)]
     [False, False, True]
     """
     if crew.size == 1:
