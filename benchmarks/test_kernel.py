@@ -90,8 +90,7 @@ def test_a_million_designs(benchmark: Any, report: Report) -> None:
 
 def test_a_front(benchmark: Any, report: Report) -> None:
     study = lift_curve_study()
-    rough = study.replace(angles=max(study.angles // 4, 61), rough=True)
-    for each in (study, rough):
+    for each in (study, study.roughly):
         ready(each, tuple(study.free), rows(study, 64))
     numpy, code, ratio = in_turns(lambda: quick_front(study))
     front = benchmark.pedantic(quick_front, args=(study,), rounds=3)

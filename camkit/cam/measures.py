@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..geometry import end_to_end
-from ..quantities import CurveMeasure, LeastMeasure, Measure, PeakMeasure
+from ..quantities import CurveMeasure, LeastMeasure, Measure, PeakMeasure, floats
 from ..quantities.types import Array, Value
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def _groove_margin(analysis: RollerAnalysis) -> Value:
 
 def _groove_margins(analysis: RollerAnalysis) -> Array:
     """The same at every cam angle, on one flank and then on the other."""
-    r = np.asarray(analysis.cam.roller_radius)
+    r = floats(analysis.cam.roller_radius)
     return end_to_end(*(_room(r, analysis.bends(side)) for side in _flanks(analysis)))
 
 

@@ -40,8 +40,6 @@ SHRINKING = 0.75
 """How the steps along one quantity shrink from round to round."""
 LAST_ROUNDS = 2
 """Rounds on all angles."""
-COARSE, LEAST_ANGLES = 4, 61
-"""The other rounds look at one of so many angles, but not at fewer than these."""
 RENEWED = 10 / 24
 """After which share of the rounds the margins for tolerances are fitted again."""
 FEW = 12
@@ -110,7 +108,7 @@ def fast_front_steps(study: Study, size: int = 100, start: Front | None = None) 
         return
     began, told = time.monotonic(), versions()
     size, draw = counted(size, "designs on the front", 4), np.random.default_rng(0)
-    coarse, room = _roughly(study), Room(_roughly(study))
+    coarse, room = study.roughly, Room(study.roughly)
     pace = WARM if start is not None and len(start) and coarse.evaluate(start.x).feasible.any() else COLD
     # The first round goes on from all of these: beside a beaten design may lie a part of the front.
     archive = _judged(room.within(coarse), np.vstack([_near(study, start), _everywhere(len(study.free), pace.first)]))
@@ -135,14 +133,9 @@ def _steps_with_options(size: int, study: Study, start: Front | None) -> Iterato
     return fast_front_steps(study, size, start) if study.free else alone(study)
 
 
-def _roughly(study: Study) -> Study:
-    """The study as most of the rounds see it."""
-    return study.replace(angles=min(study.angles, max(study.angles // COARSE, LEAST_ANGLES)), rough=True)
-
-
 def _exactly(study: Study, archive: Archive, size: int) -> Evaluation:
     """An even spread of the archive's designs, judged on all angles."""
-    return looked_at_closely(study, _roughly(study), _x(study, _thinned(archive, size).u))
+    return looked_at_closely(study, study.roughly, _x(study, _thinned(archive, size).u))
 
 
 def _refuse(study: Study, start: Front | None) -> None:

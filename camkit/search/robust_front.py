@@ -12,9 +12,10 @@ import numpy as np
 
 from ..quantities import D
 from ..study.margins import FittedMargins
+from ..study.recheck import models_by_few_angles
 from ..study.robust import RobustStudy
 from ..study.study import Evaluation, Study
-from ..study.three_point import bounded, seen
+from ..study.three_point import seen
 from .front import Front
 
 FITTED, RAISED = 32, 16
@@ -34,6 +35,8 @@ class Room:
         self.study = robust and robust.sought
         self._known: list[tuple[np.ndarray, ...]] = []
         self._fit: FittedMargins | None = None
+        self._within: tuple[Study | None, Study | None] = None, None
+        """The last study that was tightened by the fit, and what it became."""
 
     @property
     def needed(self) -> bool:
@@ -44,7 +47,13 @@ class Room:
         """``study`` as the search sees it: tightened by the fit that there is."""
         if not isinstance(study, RobustStudy) or self.study is None:
             return study
-        return study.nominal if self._fit is None else study.tightened(self._fit.at)
+        if self._fit is None:
+            return study.nominal
+        last, tightened = self._within
+        if tightened is None or study is not last:
+            tightened = study.tightened(self._fit.at)
+            self._within = study, tightened
+        return tightened
 
     def renew(self, x: np.ndarray) -> None:
         """Fit the margins to designs ``(p, n_free)`` and to those of before."""
@@ -52,12 +61,12 @@ class Room:
         self._known.append(self._looked_at(x, together=False))
         known = [np.concatenate(columns) for columns in zip(*self._known, strict=True)]
         if len(known[0]):
-            self._fit = FittedMargins.to(self.study.bounds, *known)
+            self._fit, self._within = FittedMargins.to(self.study.bounds, *known), (None, None)
 
     def raise_to(self, x: np.ndarray) -> None:
         """Raise the fit to what designs ``(p, n_free)`` need."""
         if self._fit is not None:
-            self._fit = self._fit.above(*self._looked_at(x, together=True))
+            self._fit, self._within = self._fit.above(*self._looked_at(x, together=True)), (None, None)
 
     def _looked_at(self, x: np.ndarray, together: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Those of some designs that can be built, their limits, and their margins."""
@@ -74,10 +83,7 @@ def looked_at_closely(study: Study, rough: Study, x: np.ndarray) -> Evaluation:
     if study.objective != "nominal":
         return study.evaluate(x)
     found = study.nominal.evaluate(x)
-    with np.errstate(invalid="ignore"):
-        by = bounded(seen(found.g)) - bounded(seen(rough.nominal.evaluate(x).g))
-    by = np.where(np.isfinite(by), by, 0.0)
-    models = [m._replace(centre=m.centre + by[:, i : i + 1]) for i, m in enumerate(rough.models(x)[: by.shape[1]])]
+    models = models_by_few_angles(study, rough, x, found)
     return Evaluation(x, found.f, study.held(x, models))
 
 

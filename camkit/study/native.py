@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from functools import cache, cached_property
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -34,6 +34,13 @@ BLOCK = 64
 """So many designs numpy takes at once."""
 MOST = 32
 """So many programs have their code, those that were last asked for."""
+
+
+class Asked(Protocol):
+    """What can be asked of an analysis of ``p`` designs: numbers ``(p,)`` of each, such as a measure, or ``(p, n)``."""
+
+    def of(self, analysis: object, p: int, /) -> Array:
+        """What the analysis says."""
 
 
 _MADE_FIRST = ContextVar("_MADE_FIRST", default=False)
@@ -88,7 +95,7 @@ class Native:
     def _make(self, answers: Answers, x: Array) -> None:
         try:
             with _MAKING:  # one after the other, so that a search is not slowed by many
-                kernel = made(answers.study, answers.paths)
+                kernel = made(answers.study, answers.paths, answers.asked)
             agrees(kernel(answers.numbers, x), answers.by_numpy(x))
             self.kernel = kernel
         except Exception as why:  # whatever it is, numpy answers
@@ -96,23 +103,29 @@ class Native:
 
 
 class Answers:
-    """What the measures of a study say of designs that differ at some ``paths``."""
+    """What the analyses of a study say of designs that differ at some ``paths``: its measures, or what is ``asked``."""
 
-    def __init__(self, study: Study[Any], paths: tuple[str, ...]) -> None:
+    def __init__(self, study: Study[Any], paths: tuple[str, ...], asked: Sequence[Asked] | None = None) -> None:
         self.study, self.paths = study, paths
-        self.native = native(study, paths)
+        self.asked = study.measures if asked is None else tuple(asked)
+        self.native = native(study, paths, self.asked)
 
     def __call__(self, x: Array) -> Array:
-        """What they say of values ``(p, n)``, ``(p, n_measures)``."""
+        """What they say of values ``(p, n)``, side by side, ``(p, n_measures)``."""
+        found = self.by_code(x)
+        return self.by_numpy(x) if found is None else found
+
+    def by_code(self, x: Array) -> Array | None:
+        """The same by native code, if that is there by now."""
         if self.native is None or not len(x):
-            return self.by_numpy(x)
+            return None
         if self.native.kernel is None and _MADE_FIRST.get():
             self.native.make(self, x)
             self.native.wait()
         if self.native.kernel is not None:
             return self.native.kernel(self.numbers, x)
         self.native.seen(self, x)
-        return self.by_numpy(x)
+        return None
 
     @cached_property
     def numbers(self) -> dict[str, float]:
@@ -124,25 +137,30 @@ class Answers:
     def _paths(self) -> Paths:
         return Paths(self.study.start, self.paths, Quantity)
 
+    @cached_property
+    def ends(self) -> list[int]:
+        """Where what is asked ends, of what stands side by side; but for the last, as ``np.split`` takes it."""
+        start = np.array([self._paths.values(self.study.start)], dtype=float)
+        return np.cumsum([told.shape[1] for told in self._told(start)])[:-1].tolist()
+
     def by_numpy(self, x: Array) -> Array:
         """The same by numpy, in blocks of designs that stay near the processor."""
-        return np.concatenate([self._block(x[k : k + BLOCK]) for k in range(0, max(len(x), 1), BLOCK)])
+        return np.concatenate([np.hstack(self._told(x[k : k + BLOCK])) for k in range(0, max(len(x), 1), BLOCK)])
 
-    def _block(self, x: Array) -> Array:
+    def _told(self, x: Array) -> list[Array]:
         with unremarked():
             designs = self._paths.put(self.study.start, [np.ascontiguousarray(column)[:, None] for column in x.T])
         analysis = self.study.analysis_of(designs)
-        values = [measure.of(analysis, len(x)) for measure in self.study.measures]
-        return np.stack(values, axis=-1) if values else np.zeros((len(x), 0))
+        return [one if one.ndim > 1 else one[:, None] for one in (each.of(analysis, len(x)) for each in self.asked)]
 
 
-def made(study: Study[Any], paths: Sequence[str]) -> Kernel:
-    """The code for what a study's measures say of designs that differ at some paths."""
+def made(study: Study[Any], paths: Sequence[str], asked: Sequence[Asked] | None = None) -> Kernel:
+    """The code for what a study's measures, or what is ``asked``, say of designs that differ at some paths."""
     from ..program.kernel import Kernel
 
     def measured(design: object) -> Mapping[str, object]:
         analysis = study.analysis_of(design)
-        return {str(i): measure.of(analysis, 1) for i, measure in enumerate(study.measures)}
+        return {str(i): each.of(analysis, 1) for i, each in enumerate(study.measures if asked is None else asked)}
 
     with unremarked():
         return Kernel(record(measured, study.start), paths)
@@ -162,12 +180,13 @@ _LOCK = threading.Lock()
 _MAKING = threading.Lock()
 
 
-def native(study: Study[Any], paths: Sequence[str]) -> Native | None:
+def native(study: Study[Any], paths: Sequence[str], asked: Sequence[Asked] | None = None) -> Native | None:
     """What there is for studies like this one; none where llvmlite is not installed, or ``CAMKIT_FAST`` is 0."""
     if os.environ.get("CAMKIT_FAST") == "0" or not _installed():
         return None
+    told = study.measures if asked is None else asked
     try:
-        key = (_likeness(study.start), tuple(paths), _likeness(study.measures), study.angles, study.rough)
+        key = (_likeness(study.start), tuple(paths), _likeness(told), study.angles, study.rough)
         hash(key)
     except TypeError:  # who can say what is like it
         return None

@@ -16,13 +16,17 @@ from .three_point import DEEP, ThreePoint, bounded, seen
 
 if TYPE_CHECKING:
     from .robust import RobustStudy
+    from .study import Evaluation
 
 SEED = 20768
 """Of parts that no search has seen."""
 LOOKS = 1024, 4096, 16384
 """How many parts there are at first, and while it is not decided."""
-BATCH, SURE = 8, 2.0
-"""So many parts are judged at a time, until the next lies so many of the model's errors within its limits."""
+BATCH, SURE, SAFE = 8, 2.0, 0.25
+"""So many parts are judged at a time, until the next lies so many of the model's errors within its limits.
+
+An error by which the model has seen a part too near to its limit counts less.
+"""
 CONFIDENCE = 0.95
 CORNERS = 10
 """Of up to so many tolerances all corners are judged; of more the one where the model is worst."""
@@ -98,8 +102,9 @@ def clopper_pearson(missed: Array, parts: Array, looks: int = 1) -> Array:
 def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
     """`RobustStudy.recheck`: models of the limits say which parts are judged."""
     p, wanted = len(x), study.yield_at_least
-    models, looked = study.models(x), p * (2 * len(study.tolerances) + 1)
+    looked = p * (2 * len(study.tolerances) + 1)
     if study.worst_case:
+        models = study.models(x)
         found = largest(study, study.made(x, corners(study, models)))
         missed, used = (found > KEPT).sum(1), found.shape[1]
         share = 1 - missed / used
@@ -107,6 +112,7 @@ def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
     numbers = LOOKS if parts is None else (counted(parts, "parts", 4, 2**20),)
     if numbers[0] & (numbers[0] - 1):
         raise ValueError(f"the number of parts is {numbers[0]}; it must be a power of 2")
+    models = models_by_few_angles(study, study.roughly, x, study.nominal.evaluate(x))
     missed, of, open_ = np.zeros(p, dtype=int), np.full(p, numbers[0]), np.arange(p)
     for number in numbers:
         missed[open_], judged = _missed(study, x[open_], [_rows(model, open_) for model in models], number)
@@ -117,6 +123,14 @@ def rechecked(study: RobustStudy, x: Array, parts: int | None) -> Recheck:
         if not len(open_):
             break
     return said
+
+
+def models_by_few_angles(study: RobustStudy, rough: RobustStudy, x: Array, found: Evaluation) -> list[ThreePoint]:
+    """Models of the limits of designs, on the ``rough`` study's angles, moved to what all angles have ``found``."""
+    with np.errstate(invalid="ignore"):
+        by = bounded(seen(found.g)) - bounded(seen(rough.nominal.evaluate(x).g))
+    by, models = np.where(np.isfinite(by), by, 0.0), rough.models(x)
+    return [m._replace(centre=m.centre + by[:, i : i + 1]) if study.limits else m for i, m in enumerate(models)]
 
 
 def joined(every: Sequence[tuple[Array, Recheck]]) -> Recheck:
@@ -136,21 +150,15 @@ def largest(study: RobustStudy, parts: Array) -> Array:
     return np.asarray(_limits(study, parts).max(-1))
 
 
-def _limits(study: RobustStudy, parts: Array, objectives: bool = True) -> Array:
-    """Each ``g`` of parts, ``(p, m, n_limits)`` (without limits one that is kept); ``inf`` for what cannot be built.
-
-    Without ``objectives`` these are taken to be finite.
-    """
+def _limits(study: RobustStudy, parts: Array) -> Array:
+    """Each ``g`` of parts, ``(p, m, n_limits)`` (without limits one that is kept); ``inf`` for what cannot be built."""
     rows = parts.reshape(-1, parts.shape[-1])
     if len(rows) > ROWS:  # so many at once have no room in a small machine
         every = np.array_split(parts, -(-len(rows) // ROWS), axis=1)
-        return np.concatenate([_limits(study, few, objectives) for few in every], axis=1)
-    if objectives:
-        found = study.judged(rows)
-        g = found.g if study.limits else np.full((len(rows), 1), DEEP)
-        g = np.where(np.isfinite(found.f).all(-1, keepdims=True), g, np.inf)
-    else:
-        g = study.judged(rows).g
+        return np.concatenate([_limits(study, few) for few in every], axis=1)
+    found = study.judged(rows)
+    g = found.g if study.limits else np.full((len(rows), 1), DEEP)
+    g = np.where(np.isfinite(found.f).all(-1, keepdims=True), g, np.inf)
     return seen(g).reshape(*parts.shape[:2], g.shape[-1])
 
 
@@ -160,24 +168,22 @@ def _missed(study: RobustStudy, x: Array, models: list[ThreePoint], number: int)
     The worst by the models are judged, until all others lie well within each limit by the largest error seen of it.
     """
     z, p, judged, batch = study.shares(number, SEED), len(x), 0, BATCH
-    guess = np.concatenate(
-        [np.stack([model.at(rows) for model in models], axis=-1) for rows in np.array_split(z, max(1, number // 1024))],
-        axis=1,
-    )
-    objectives = not (study.limits and study.has_objectives(x))
-    missed, error = np.zeros(p, dtype=int), np.full((p, guess.shape[-1]), 0.0 if study.limits else -DEEP)
-    left, open_ = guess.max(-1), np.arange(p)
+    few = np.array_split(z, max(1, number // 1024))
+    guess = np.concatenate([np.stack([model.at(rows) for model in models], axis=1) for rows in few], axis=-1)
+    missed, error = np.zeros(p, dtype=int), np.full((p, guess.shape[1]), 0.0 if study.limits else -DEEP)
+    left, open_ = guess.max(1), np.arange(p)
     while len(open_):
         tried = np.argpartition(-left[open_], min(batch, number) - 1, axis=1)[:, :batch]
-        here = open_[:, None], tried
-        found = _limits(study, study.made(x[open_], z[tried]), objectives)
+        here, guessed = (open_[:, None], tried), guess[open_[:, None], :, tried]
+        found = _limits(study, study.made(x[open_], z[tried]))
         new = left[here] > -np.inf
         missed[open_] += ((found.max(-1) > KEPT) & new).sum(1)
-        off = np.minimum(abs(found - guess[here]), abs(bounded(found) - guess[here]))  # by itself or its reciprocal
+        off = np.minimum(abs(found - guessed), abs(bounded(found) - guessed))  # by itself or its reciprocal
+        off = np.where(found > guessed, off, SAFE * off)
         error[open_] = np.maximum(error[open_], np.where(new[..., None], np.minimum(off, 1.0), 0.0).max(1))
         judged, batch = judged + tried.size, min(2 * batch, 256)
-        guess[here] = -np.inf
-        left[open_] = (guess[open_] + SURE * error[open_, None]).max(-1)
+        guess[open_[:, None], :, tried] = -np.inf
+        left[open_] = (guess[open_] + SURE * error[open_, :, None]).max(1)
         open_ = open_[left[open_].max(1) >= -KEPT]
     return missed, judged
 

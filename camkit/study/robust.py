@@ -18,12 +18,13 @@ from ..quantities.kinds import one_number, shown
 from ..quantities.types import Array
 from .free import declared_with
 from .margins import TightenedStudy, tightened
+from .native import Answers
 from .options import ready
 from .recheck import Recheck, corners, joined, largest, rechecked
 from .spread import Source, Tolerance, correlated, spread_shares
 from .study import KEPT, Evaluation, Study
 from .three_point import FLOOR, ThreePoint, seen, star
-from .weighted import points_of
+from .weighted import Points, added, told_of
 
 PARTS = 512
 """Parts of each design whose limits are modelled, the same for every design."""
@@ -93,7 +94,7 @@ class RobustStudy(Study[D]):
         if not (half > 0).any():
             raise ValueError("there is no tolerance above 0; one must be")
 
-    @property
+    @cached_property
     def nominal(self) -> Study[D]:
         """The same study without tolerances."""
         return Study(**{f.name: getattr(self, f.name) for f in fields(Study)})
@@ -126,6 +127,12 @@ class RobustStudy(Study[D]):
     def _parts(self) -> Paths:
         """The free paths, then those that tolerances move besides."""
         return Paths(self.start, dict.fromkeys([*self.free, *(path for path, _ in self._moves)]), Quantity)
+
+    @cached_property
+    def _points(self) -> Answers:
+        """What the objectives, and the points of all limits, are of parts."""
+        limits = [Points(measure, sense) for measure, _, sense in self.limits]
+        return Answers(self, tuple(self._parts.declared), (*told_of(self.minimise), *limits))
 
     @cached_property
     def _matrices(self) -> tuple[Array, Array]:
@@ -176,12 +183,6 @@ class RobustStudy(Study[D]):
         """What the nominal study says of parts ``(q, n_paths)``."""
         return self.judged_by(parts, self.values(parts, tuple(self._parts.declared)))
 
-    def has_objectives(self, x: Array) -> bool:
-        """Whether the objectives of designs ``(p, n_free)`` are finite in the middle and at the ends of tolerances."""
-        parts = self.made(x, star(len(self.tolerances))).reshape(-1, len(self._parts.declared))
-        analysis = self.analysis_of_parts(parts)
-        return all(bool(np.isfinite(m.of(analysis, len(parts))).all()) for m in self.minimise)
-
     def shares(self, parts: int = PARTS, seed: int = 0) -> Array:
         """Scrambled Sobol points as shares of the half widths, ``(parts, k)``."""
         from scipy.stats import qmc
@@ -206,13 +207,14 @@ class RobustStudy(Study[D]):
         """Models of the limits, and of the objectives where more than the nominal ones count."""
         z = star(len(self.tolerances))
         parts = self.made(x, z, growth).reshape(-1, len(self._parts.declared))
-        q, analysis = len(parts), self.analysis_of_parts(parts)
-        f = [np.asarray(m.of(analysis, q))[:, None] for m in self.minimise]
+        told = iter(np.split(self._points(parts).T, self._points.ends))
+        f = [added(m, told).T for m in self.minimise]
         limits = [
-            seen(_points(m, analysis, sense / (abs(v) or 1.0), q) - sense * np.sign(v)) for m, v, sense in self.limits
+            seen(_scaled(one.T, abs(v) or 1.0) - sense * np.sign(v))
+            for (_, v, sense), one in zip(self.limits, told, strict=True)
         ]
         built = np.isfinite(np.hstack(f)).all(-1, keepdims=True)
-        limits = [np.where(built, g, np.inf) for g in limits or [np.full((q, 1), FLOOR)]]
+        limits = [np.where(built, g, np.inf) for g in limits or [np.full((len(parts), 1), FLOOR)]]
         f = [] if self.objective == "nominal" else f
         limits, f = ([g.reshape(len(x), len(z), g.shape[-1]) for g in one] for one in (limits, f))
         return [ThreePoint.of(g) for g in limits], [ThreePoint.of(g, limit=False) for g in f]
@@ -380,11 +382,12 @@ class RobustStudy(Study[D]):
         return joined([(at, made.study.recheck(made.x(rows[at]), parts)) for at, made in groups])
 
 
-def _points(measure: Measure, analysis: Any, factor: float, p: int) -> Array:
-    """``factor * measure`` as points ``(p, n)``, moved by as much as the measure knows their largest more exactly."""
-    points = points_of(measure, analysis, factor, p)
+def _scaled(points: Array, size: float) -> Array:
+    """What `Points` say of a limit, over its size: moved by as much as the measure knows their largest more exactly."""
+    points = (1 / size) * points
     if points.shape[1] == 1:
         return points
+    points, whole = points[:, :-1], points[:, -1]
     with np.errstate(invalid="ignore"):
-        by = factor * measure.of(analysis, p) - points.max(-1)
+        by = whole - points.max(-1)
     return points + np.where(np.isfinite(by), by, 0.0)[:, None]

@@ -38,13 +38,15 @@ from .free import Free, Menu, declared_with, freed
 from .limits import KEPT, refuse_limits, refuse_objectives
 from .native import Answers
 from .options import Options, Plain, copied, ready
-from .weighted import WeightedSum, added, checked_weight
+from .weighted import WeightedSum, added, checked_weight, told_of
 
 if TYPE_CHECKING:
     from .robust import RobustStudy
 
 TRIED = 32
 """So many pairs of designs, at random, say whether a free quantity has any effect."""
+COARSE, LEAST_ANGLES = 4, 61
+"""A rough study looks at one of so many angles, but not at fewer than these."""
 Space = Mapping[str, tuple[float, float]]
 """Free quantities by path, with their lower and upper bounds in SI."""
 
@@ -226,8 +228,7 @@ class Study(Generic[D]):
     @property
     def measures(self) -> tuple[Measure, ...]:
         """Every measure of the objectives and limits, of a weighted sum its parts."""
-        told = (*self.minimise, *(measure for measure, _, _ in self.limits))
-        return tuple(part for m in told for part in (m.parts if isinstance(m, WeightedSum) else (m,)))
+        return told_of((*self.minimise, *(measure for measure, _, _ in self.limits)))
 
     def design(self, x: ArrayLike) -> D:
         """The design with free values ``x``: ``(n_free,)`` for one, ``(p, n_free)`` for a population."""
@@ -256,6 +257,11 @@ class Study(Generic[D]):
         """Objectives and limits of ``p`` designs ``(p, n_free)`` in one call."""
         rows = self.rows(x)
         return self.options.evaluate(rows) if self.menus else self.judged_by(rows, self.values(rows))
+
+    @cached_property
+    def roughly(self) -> Self:
+        """The same study by few angles, as the first rounds of a search see it."""
+        return self.replace(angles=min(self.angles, max(self.angles // COARSE, LEAST_ANGLES)), rough=True)
 
     @cached_property
     def _answers(self) -> dict[tuple[str, ...], Answers]:

@@ -44,10 +44,16 @@ def straightened(g: Array) -> Array:
 
     A radius grows without end where a curve is straight; its curvature does not.  A force is best left as it is.
     """
-    inverse = bounded(g)
-    least = g.min(1, keepdims=True)
-    bent = (_bent(g) >= _bent(inverse)) | (least < ENDLESS)
-    return np.where((least < FLOOR) & bent, inverse, g)
+    least = g.min(1)
+    far = least < FLOOR
+    if not far.any():
+        return g
+    found = g.copy()
+    some = found.swapaxes(0, 1)[:, far][None]
+    inverse = bounded(some)
+    bent = (_bent(some) >= _bent(inverse)) | (least[far] < ENDLESS)
+    found.swapaxes(0, 1)[:, far] = np.where(bent, inverse, some)[0]
+    return found
 
 
 def _bent(g: Array) -> Array:
@@ -78,8 +84,9 @@ class ThreePoint(NamedTuple):
     def of(cls, g: Array, limit: bool = True) -> Self:
         """From what was found at the `star`, ``(p, 2k + 1, n)``, of a ``limit`` or an objective."""
         built = np.isfinite(g)
-        least = np.where(built, g, -np.inf).max((1, 2), keepdims=True, initial=0.0)
-        g = np.where(built, g, 1.0 + least)
+        if not built.all():
+            least = np.where(built, g, -np.inf).max((1, 2), keepdims=True, initial=0.0)
+            g = np.where(built, g, 1.0 + least)
         g = straightened(g) if limit else g
         found = cls(g[:, 0], *_parabolas(g))
         return found._nearest() if g.shape[2] > 1 else found
@@ -96,9 +103,9 @@ class ThreePoint(NamedTuple):
 
     def at(self, z: Array) -> Array:
         """The largest of the points at shares ``z``, ``(m, k)`` or ``(p, m, k)``: ``(p, m)``."""
-        both = np.concatenate([z, z * z], axis=-1)
-        values = both @ np.concatenate([self.slope, self.bend], axis=1)
-        return np.asarray((self.centre[:, None] + values).max(-1))
+        both = np.swapaxes(np.concatenate([np.ones_like(z[..., :1]), z, z * z], axis=-1), -1, -2)
+        bends = np.swapaxes(np.concatenate([self.centre[:, None], self.slope, self.bend], axis=1), -1, -2)
+        return np.asarray((bends @ both).max(1))  # point by point: numpy is slow at rows of few numbers
 
     @property
     def worst(self) -> Array:

@@ -17,6 +17,7 @@ from ..quantities import Analysable, Measure, Paths, Quantity, counted, floats, 
 from ..quantities.kinds import numbers, one_number, refuse_arguments, refuse_kinds, shown
 from ..units import deg, factor
 from .free import Menu
+from .native import Answers
 from .spread import SPREADS, iso_2768, spread_shares
 from .study import Evaluation, Study
 
@@ -102,6 +103,11 @@ class AnalysisCurve:
         except AttributeError:
             raise ValueError(f"the analysis has no curve {self.name!r}") from None
 
+    def of(self, analysis: object, p: int) -> np.ndarray:
+        """The curves of ``p`` designs, ``(p, m)``, SI."""
+        values = self.values(analysis)
+        return np.broadcast_to(values, (p, values.shape[-1]))
+
     def angle(self, analysis: object) -> tuple[str, np.ndarray]:
         """The angle over which it is drawn: what it is called, and its values at the curve's points, rad."""
         head = self.name.rpartition(".")[0]
@@ -171,11 +177,10 @@ class Tolerances:
 
     @cached_property
     def _box(self) -> Study:
-        """The study over the tolerances' box."""
+        """The measures as a study over the tolerances' box."""
         centre = {name: value_of(self.study.start, name) for name in self.names}
-        return self.study.replace(
-            free={n: (c - self.half_widths[n], c + self.half_widths[n]) for n, c in centre.items()}
-        )
+        free = {n: (c - self.half_widths[n], c + self.half_widths[n]) for n, c in centre.items()}
+        return self.study.nominal.replace(free=free, minimise=self.measures, at_most={}, at_least={})
 
     @cached_property
     def _halves(self) -> np.ndarray:
@@ -210,15 +215,15 @@ class Tolerances:
         every = (*self.study.minimise, *(measure for measure, _, _ in self.study.limits))
         return tuple(dict.fromkeys(_named(measure) for measure in every))
 
-    def _measured(self, analysis: object, p: int) -> np.ndarray:
-        """Every measure of ``p`` parts, ``(s, p)``; ``nan`` where a part cannot be built."""
-        values = np.stack([np.broadcast_to(measure(analysis), p) for measure in self.measures])
+    def _measured(self, x: np.ndarray) -> np.ndarray:
+        """Every measure of parts ``(p, n)``, ``(s, p)``; ``nan`` where a part cannot be built."""
+        values = self._box.evaluate(x).f.T
         return np.where(np.isfinite(values), values, np.nan)
 
     @cached_property
     def values(self) -> np.ndarray:
         """Every measure of every part, ``(s, parts)``, SI; ``nan`` where a part cannot be built."""
-        return self._measured(self.analysis, self.parts)
+        return self._measured(self.x)
 
     def of(self, measure: Measure) -> np.ndarray:
         """One of the ``measures`` of every part, ``(parts,)``, with its sign."""
@@ -264,7 +269,8 @@ class Tolerances:
         """Percentiles of a curve at each of its points among the parts that can be built, ``(k, m)``, SI."""
         refuse_arguments(Tolerances.band, locals())
         at = curve.values(self.nominal)
-        parts = np.broadcast_to(curve.values(self.analysis), (self.parts, at.size))
+        parts = Answers(self._box, self.names, (curve,)).by_code(self.x)
+        parts = curve.of(self.analysis, self.parts) if parts is None else parts
         return np.percentile(parts[~np.isnan(self.values).any(axis=0)], _levels(levels), axis=0)
 
     @cached_property
@@ -280,7 +286,7 @@ class Tolerances:
         mixed = np.tile(a, (d, 1, 1))
         mixed[np.arange(d), :, np.arange(d)] = b.T
         f_a, f_b = self.values.reshape(-1, 2, n).transpose(1, 0, 2)
-        f_ab = self._measured(self._box.analysis(mixed.reshape(-1, d)), d * n).reshape(-1, d, n).transpose(1, 0, 2)
+        f_ab = self._measured(mixed.reshape(-1, d)).reshape(-1, d, n).transpose(1, 0, 2)
         finite = np.isfinite(self.values).all(1) & np.isfinite(f_ab).all((0, 2))
         varies = finite & (np.ptp(self.values, axis=1) > 0)
         indices = Indices(*np.where(varies[:, None], np.ones(d), np.full((2, 1, d), np.nan)))

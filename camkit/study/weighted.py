@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,6 +60,11 @@ def weighted(name: str, weights: Mapping[Measure, float], reference: Sequence[fl
     return WeightedSum(name, "", total, 1, parts, shares, divisors)
 
 
+def told_of(measures: Iterable[Measure]) -> tuple[Measure, ...]:
+    """What is to be known of measures: of weighted sums the parts, which `added` adds."""
+    return tuple(part for m in measures for part in (m.parts if isinstance(m, WeightedSum) else (m,)))
+
+
 def added(measure: Measure, values: Iterator[Array]) -> Array:
     """A measure by what its parts say, which come next among values; of one that is no sum its own."""
     if not isinstance(measure, WeightedSum):
@@ -85,6 +90,20 @@ def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.n
     """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
     sided = factor * measure.sign
     if isinstance(measure, CurveMeasure) and measure.way * sided > 0:
-        curve = np.asarray(sided * measure.curve(analysis))
+        curve = floats(sided * measure.curve(analysis))
         return np.broadcast_to(curve, (p, curve.shape[-1]))
     return np.broadcast_to(factor * measure(analysis), p)[:, None]
+
+
+@dataclass(frozen=True)
+class Points:
+    """A limited measure, times ``sense``, as the points of which it is the largest, and beside them the measure."""
+
+    measure: Measure
+    sense: int
+
+    def of(self, analysis: object, p: int) -> np.ndarray:
+        """Of ``p`` designs, ``(p, n + 1)``; a measure that is no curve alone, ``(p, 1)``."""
+        points = points_of(self.measure, analysis, self.sense, p)
+        whole = self.sense * self.measure.of(analysis, p)
+        return points if points.shape[1] == 1 else np.concatenate([points, whole[:, None]], axis=-1)

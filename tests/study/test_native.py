@@ -12,7 +12,6 @@ from camkit.cam import base_radius, max_pressure_angle, min_convex_radius, peak_
 from camkit.motion import Cycloidal, ModifiedSine
 from camkit.search import trade_off
 from camkit.search.checkpoint import fingerprint
-from camkit.search.fast_front import _roughly
 from camkit.study import native, weighted
 
 pytest.importorskip("llvmlite")
@@ -158,7 +157,7 @@ def test_a_quick_front_is_the_same_whoever_answers(monkeypatch):
     free = {"base_radius": (25 * mm, 60 * mm), "roller_radius": (4 * mm, 8 * mm)}
     of = study().replace(free=free, minimise=(base_radius, peak_force), at_least={base_radius: 42.5 * mm})
     expected = alone(monkeypatch, lambda: quick_front(of))
-    ready(_roughly(of))
+    ready(of.roughly)
     ready(of)
     found = quick_front(of)
     assert_array_equal(found.x, expected.x)

@@ -113,7 +113,8 @@ def test_it_errs_no_more_often_than_it_says(true, monkeypatch):
         return missed[looks.index(number)][x[:, 0].astype(int)], 0
 
     monkeypatch.setattr(recheck, "_missed", told)
-    monkeypatch.setattr(RobustStudy, "models", lambda self, x: [])
+    monkeypatch.setattr(recheck, "models_by_few_angles", lambda *_: [])
+    monkeypatch.setattr(RobustStudy, "nominal", shaft_study().replace(free=["outer_diameter"]))
     found = recheck.rechecked(shaft_study().under(TUBE), np.arange(count)[:, None], None)
     wrong = found.kept if true < 0.99 else found.decided & ~found.kept
     assert 0.02 < wrong.mean() < 0.05

@@ -186,13 +186,13 @@ def test_bands_are_percentiles_of_the_curve_at_each_point():
     assert_allclose(made.percentiles(total, 50), 0, atol=0.01)
 
 
-def test_one_call_makes_all_parts():
+def test_one_call_measures_all_parts():
     calls = []
 
     class Counting(Study):
-        def analysis(self, x):
+        def values(self, x, paths=None):
             calls.append(len(x))
-            return super().analysis(x)
+            return super().values(x, paths)
 
     made = Tolerances(
         Counting(Block(), ONE, (total, product), {product: 1.0}), {"x": 0.1, "y": 0.1, "z": 0.1}, parts=64
