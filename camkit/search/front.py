@@ -169,9 +169,11 @@ def dominated(f: np.ndarray) -> np.ndarray:
     if f[known].size:
         from moocore import is_nondominated
 
-        # Places of the numbers in their column, since moocore takes no infinite ones.
-        places = [np.unique(column, return_inverse=True)[1] for column in f[known].T]
-        beaten[known] = ~is_nondominated(np.stack(places, axis=-1).astype(float), keep_weakly=True)
+        rows = f[known]
+        if not np.isfinite(rows).all():  # which moocore does not take: places of the numbers in their column
+            places = [np.unique(column, return_inverse=True)[1] for column in rows.T]
+            rows = np.stack(places, axis=-1).astype(float)
+        beaten[known] = ~is_nondominated(rows, keep_weakly=True)
     return beaten
 
 

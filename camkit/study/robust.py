@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import D, Measure, Paths, Quantity, words
+from ..quantities import D, Paths, Quantity, words
 from ..quantities.kinds import one_number, shown
 from ..quantities.types import Array
 from .free import declared_with
