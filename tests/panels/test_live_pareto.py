@@ -23,6 +23,7 @@ from camkit import (
     nsga2,
 )
 from camkit.data import load
+from camkit.decision.choosers import normalised
 from camkit.machines import lift_curve_study
 from camkit.machines.door_handle import DOOR_HANDLE_SPACE, EXPANDED_SPACE, LIFT_SPACE, PAPER_JUDGEMENTS, stroke_radius
 from camkit.machines.valve_measures import valve_front_study
@@ -32,7 +33,16 @@ from camkit.quantities import Design, quantity
 from camkit.render.artists import artist_of
 from camkit.render.still import draw, layout
 from camkit.search.checkpoint import versions
-from camkit.search.fast_front import Archive, _everywhere, _thinned, _unbeaten, fast_front_steps, quick_front
+from camkit.search.fast_front import (
+    Archive,
+    _each_once,
+    _everywhere,
+    _thinned,
+    _unbeaten,
+    fast_front_steps,
+    quick_front,
+    spread,
+)
 from camkit.search.front import Front, reference_point
 from camkit.search.nsga2 import nsga2_steps
 from camkit.units import mm
@@ -586,3 +596,18 @@ def test_searches_are_compared_in_per_cent():
     draw({"one": [(100, 0.5), (1000, 0.01)], "other": [(200, 0.2)]}, axes, (searches_compared,))
     assert_allclose(artist_of(axes[0], "one").get_data(), [(100, 1000), (50, 1)])
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_rows_are_told_once_and_spread_as_they_always_were(k):
+    """Against ``np.unique`` and the farthest-first choice by its definition; rows that are equal, and ends at once."""
+    f = np.random.default_rng(k).integers(0, 12, (300, k)) / 7.0
+    assert_array_equal(_each_once(f), np.unique(f, axis=0, return_index=True)[1])
+    rows = f[_each_once(f)]
+    size = min(20, len(rows) - 1)
+    shares = normalised(rows)
+    taken = list(dict.fromkeys(shares.argmin(0).tolist()))
+    while len(taken) < size:
+        gap = np.min([((shares - shares[one]) ** 2).sum(-1) for one in taken], axis=0)
+        taken.append(int(gap.argmax()))
+    assert_array_equal(spread(rows, size), np.sort(taken))
