@@ -57,6 +57,8 @@ NEEDS_course := .[report] otter-grader[grading] nbgrader nbconvert nbformat
 # What a tool needs in another version than all others do.
 LOOSE_course := wrapt
 NEEDS_cluster := .[cluster]
+NEEDS_notebook7 := .[lab] notebook playwright
+NEEDS_wheel := . build hatchling
 
 .PHONY: help lab app docs test test-tools lint bench notebooks constraints clean
 
