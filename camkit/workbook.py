@@ -34,7 +34,7 @@ def files() -> Iterator[str]:
     folder = home() / "notebooks"
     for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder)
-        if path.is_file() and not any(part.startswith((".", "__")) for part in inside.parts):
+        if path.is_file() and not any(part.startswith((".", "_")) for part in inside.parts):
             yield inside.as_posix()
 
 
