@@ -337,10 +337,6 @@ SIMPLE: dict[object, Kind] = {
 }
 
 
-WIDE = [{*typing.get_args(wide)} for wide in (Value, ArrayLike)]
-"""What a union of all that a number can be is made of; of ArrayLike nothing where Python knows it as one name."""
-
-
 def _kind(hint: Any) -> Kind | None:
     """What an annotation asks for; ``None`` where anything will do."""
     if hint in (Any, object):
@@ -349,7 +345,7 @@ def _kind(hint: Any) -> Kind | None:
         return SIMPLE[hint]
     origin, parts = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
-        if any(wide and wide <= {*parts} for wide in WIDE):
+        if any(set() < {*typing.get_args(wide)} <= {*parts} for wide in (Value, ArrayLike)):
             return None  # who takes a number or a column says itself what is wrong with it
         kinds = [_kind(part) for part in parts]
         sure = [kind for kind in kinds if kind is not None]
