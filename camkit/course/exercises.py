@@ -12,7 +12,7 @@ import numpy as np
 
 from ..quantities.kinds import number as number_in
 from ..quantities.kinds import refuse_arguments, shown
-from ..quantities.markup import html
+from ..quantities.markup import attribute, html
 from ..units import factor, in_unit
 from .given import Given, drawn, texts
 from .records import Lessons, learning, unread
@@ -119,8 +119,8 @@ class Exercise(ABC):
 
     def _repr_html_(self) -> str:
         said = html("<b>Exercise: {}</b><br>{}", self.name, self.said(self.numbers))
-        style = "border:1px solid #8c959f;border-radius:6px;padding:8px 12px;margin:4px 0"
-        return html("<div style='{}'>{}<br><i>{}</i></div>", style, said, self.asks(self.numbers))
+        style = attribute("style", "border:1px solid #8c959f;border-radius:6px;padding:8px 12px;margin:4px 0")
+        return html("<div {}>{}<br><i>{}</i></div>", style, said, self.asks(self.numbers))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -160,7 +160,8 @@ class NumberExercise(Exercise):
 
     def text(self, value: float) -> str:
         """A number with its unit."""
-        return f"{in_unit(value, self.unit):.4g} {raised(self.unit)}".rstrip()
+        digits = 4 if self.tolerance >= 1e-3 else 6
+        return f"{in_unit(value, self.unit):.{digits}g} {raised(self.unit)}".rstrip()
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

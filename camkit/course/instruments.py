@@ -136,6 +136,7 @@ def bounds(task: DesignExercise | FrontExercise, numbers: SimpleNamespace) -> st
 class FrontExercise(Exercise):
     """One whose answer is a design of a front, and the reason for it: one of ``reasons``, each of which selects one.
 
+    Its ``answer`` is the front, which the panel opens with; another one that was searched there will do.
     A reason is a function of the front and of what was drawn, that gives the place of a design.
     """
 
@@ -149,14 +150,16 @@ class FrontExercise(Exercise):
         return f"Answer: a design of the front, and the reason for it: {reasons}.{f' {limits}.' if limits else ''}"
 
     def key(self, numbers: SimpleNamespace) -> str:
-        return "The design of the front that the reason selects."
+        front = cast(Front, self.answer(numbers))
+        return "; ".join(f"{reason}: design {int(select(front, numbers))}" for reason, select in self.reasons.items())
 
     def judge(self, attempt: object, numbers: SimpleNamespace, **how: object) -> Reply:
         front, design, reason = getattr(attempt, "front", None), design_in(attempt), how.get("reason")
         if how.get("of") != "front" or not isinstance(front, Front) or not hasattr(design, "analyse"):
             return uncounted('The panel with the front is wanted here: check(panel, of="front", reason=...).')
         if not isinstance(reason, str) or reason not in self.reasons:
-            return uncounted(f"{self.asks(numbers)} The reason given is {shown(reason)}.")
+            given = "" if reason in (None, ...) else f" The reason given is {shown(reason)}."
+            return uncounted(f"{self.asks(numbers)}{given}")
         places = np.isclose(front.x, front.study.x_of(cast(Analysable, design)), rtol=SAME, atol=0).all(-1)
         if not places.any():
             return uncounted("The design in the sliders is not one of the front: click on one of its points.")
@@ -170,15 +173,13 @@ class FrontExercise(Exercise):
         return Reply(True, f"Right: design {place} of {len(front)} is the one that the reason {reason!r} selects.")
 
 
-def exercise(
-    name: str, question: str, answer: Answer | None = None, *, lesson: str = "exercises", **more: object
-) -> Exercise:
+def exercise(name: str, question: str, answer: Answer, *, lesson: str = "exercises", **more: object) -> Exercise:
     """A question that checks itself; its kind follows from what is said of it.
 
     - a number: ``unit``, ``tolerance`` (a share of it, 0.01 unless said);
     - words: ``choices``;
     - a design: ``begins`` (what the instrument opens with), ``free`` (paths), ``at_most`` and ``at_least``;
-    - a choice from a front: ``reasons``, perhaps with ``at_most`` and ``at_least``.
+    - a choice from a front, which is the ``answer``: ``reasons``, perhaps with ``at_most`` and ``at_least``.
 
     ``given`` are the numbers that are drawn for each learner, by name; they stand in braces in the texts, and every
     function takes them, SI.  ``mistakes`` are known ones: a sentence, and what it gives.  ``hints`` come one by one,
@@ -203,6 +204,4 @@ def exercise(
     known = {each.name for each in fields(cast(type[NumberExercise], kind))}
     if unknown := sorted(more.keys() - known):
         raise ValueError(f"an exercise knows no {unknown[0]!r}; one of this kind has {', '.join(sorted(known))}")
-    if answer is None and kind is not FrontExercise:
-        raise ValueError(f"the exercise {name!r} has no answer; it must be a function of the numbers that are given")
-    return kind(name=name, question=question, answer=answer or no_limits, lesson=lesson, **more)
+    return kind(name=name, question=question, answer=answer, lesson=lesson, **more)

@@ -198,7 +198,7 @@ def least_of(column):
 
 def test_a_choice_from_a_front_and_its_reason():
     task = exercise(
-        "choice", "Choose.", lesson="a lesson",
+        "choice", "Choose.", lambda p: FRONT, lesson="a lesson",
         reasons={"the flattest": least_of(0), "the smallest": least_of(1)},
         at_most=lambda p: {max_pressure_angle: 40 * deg},
     )  # fmt: skip
@@ -220,7 +220,7 @@ def test_a_choice_from_a_front_and_its_reason():
     ):
         assert not task.check(attempt, **how).counted
     strict = exercise(
-        "strict", "Choose.", lesson="a lesson", reasons={"the flattest": lambda front, p: 0},
+        "strict", "Choose.", lambda p: FRONT, lesson="a lesson", reasons={"the flattest": lambda front, p: 0},
         at_most=lambda p: {max_pressure_angle: 1 * deg},
     )  # fmt: skip
     assert "it must be at most 1 deg" in strict.check(panel, of="front", reason="the flattest").sentence
@@ -243,7 +243,7 @@ def test_names_stay_names_on_the_page():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: exercise("q", "?"), "has no answer"),
+        (lambda: exercise("q", "?", 3.0), "answer is 3; it must be"),
         (lambda: exercise("q", "?", lambda p: 1, wobble=3), "an exercise knows no 'wobble'"),
         (lambda: exercise("q", "{x}?", lambda p: 1), "asks for 'x', which is not given"),
         (lambda: exercise("q", "?", lambda p: 1, unit="furlong"), "furlong"),

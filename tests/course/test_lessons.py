@@ -4,6 +4,7 @@ import ast
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -137,8 +138,25 @@ def test_a_design_is_answered(task, name, somebody):
 
 
 @of(FrontExercise)
-def test_a_choice_from_a_front_has_reasons(task):
-    assert len(task.reasons) >= 2
+@pytest.mark.parametrize("name", FEW)
+def test_a_choice_from_a_front_is_answered(task, name, somebody):
+    somebody(name)
+    front, p = task.solution, task.numbers
+    places = {reason: int(select(front, p)) for reason, select in task.reasons.items()}
+    assert len(set(places.values())) >= 2
+    for reason, place in places.items():
+        for other, at in places.items():
+            reply = task.check(SimpleNamespace(front=front, design=front[at]), of="front", reason=other)
+            assert reply.sentence.startswith(f"Right: design {at} of {len(front)} is the one that the reason {other!r}")
+            reply = task.check(SimpleNamespace(front=front, design=front[place]), of="front", reason=other)
+            assert reply.right == (place == at)
+            agree = f"the reason {other!r} selects design {at}, and design {place} is in the sliders"
+            assert reply.right or agree in reply.sentence
+        assert f"{reason}: design {place}" in task.key(p)
+    panel = SimpleNamespace(front=front, design=front.study.start)
+    assert not task.check(panel, of="front", reason=next(iter(places))).counted
+    assert not task.check(panel, of="front").counted
+    assert not task.check(panel).counted
 
 
 # ---------------------------------------------------------------- the notebooks
