@@ -4,7 +4,8 @@ A program holds numbers and the operations of one table (`operations`), and noth
 place, names stay outside.
 """
 
+from .derivative import derivative
 from .program import Program, record, recorded, unrecorded
 from .record import CannotRecord
 
-__all__ = ["CannotRecord", "Program", "record", "recorded", "unrecorded"]
+__all__ = ["CannotRecord", "Program", "derivative", "record", "recorded", "unrecorded"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -68,6 +68,14 @@ class Program:
             for k in self.needed:
                 results[k] = self.calls[k].result(results)
         return results
+
+    @property
+    def of_numbers(self) -> Program:
+        """The same without its texts and what its inputs would be refused for."""
+        outputs: dict[str | int, Recorded | np.ndarray] = {
+            name: out for name, out in self.outputs.items() if isinstance(name, str)
+        }
+        return replace(self, outputs=outputs, texts={}, refusals={})
 
     @cached_property
     def needed(self) -> list[int]:

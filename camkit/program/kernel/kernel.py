@@ -6,7 +6,6 @@ import os
 import threading
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -25,14 +24,6 @@ from .trial import own_circle
 ALIGNED = 64
 SHARED = 256
 """Up to so many designs are not shared among threads."""
-
-
-def measured(program: Program) -> Program:
-    """A program of its numbers alone, without its texts and what its inputs would be refused for."""
-    outputs: dict[str | int, Recorded | np.ndarray] = {
-        name: out for name, out in program.outputs.items() if isinstance(name, str)
-    }
-    return replace(program, outputs=outputs, texts={}, refusals={})
 
 
 @uncollected()
@@ -81,7 +72,7 @@ class Kernel:
     """
 
     def __init__(self, program: Program, inputs: Sequence[str]) -> None:
-        self.program, self.inputs = measured(program), tuple(inputs)
+        self.program, self.inputs = program.of_numbers, tuple(inputs)
         name = stored.name(self.program, inputs, compiler.processor())
         code = stored.read(name)
         if code is None:
