@@ -19,8 +19,8 @@ import pytest
 from scipy.optimize import minimize as scipy_minimize
 
 from camkit.machines.high_speed_measures import high_speed_study
-from camkit.search.minimax import BAD, STEP
-from camkit.search.minimise import CROWD, EXACT, minimise
+from camkit.search.minimax import BAD, STEP, Epigraph
+from camkit.search.minimise import CROWD, EXACT, ROUGH, minimise
 from camkit.study.study import Evaluation, Study
 from camkit.units import mm
 
@@ -162,3 +162,50 @@ def test_ten_starts_of_the_eleven_variable_problem(benchmark: Any, report: Repor
     report("ten starts, 3 sizes, 8 coefficients", f"{took}, {best.evaluations} designs, {same} ends the same")
     assert same >= 8
     assert worked < 10
+
+
+class InTwoCalls(Epigraph):
+    """As it was once: a design by itself, then its neighbours."""
+
+    one: tuple[bytes, np.ndarray] = b"", np.empty(0)
+
+    def at(self, u: np.ndarray) -> np.ndarray:
+        if self.one[0] != u.tobytes():
+            self.one = u.tobytes(), self.columns(u[None])[0]
+        return self.one[1]
+
+    def slopes(self, u: np.ndarray) -> np.ndarray:
+        self.at(u)
+        super().at(u)
+        return super().slopes(u)
+
+
+STARTS = 6
+WAYS = {
+    "two calls, by numpy": (InTwoCalls, "0"),
+    "one call, by numpy": (Epigraph, "0"),
+    "one call, native": (Epigraph, "1"),
+}
+
+
+def test_a_start_of_the_twelve_variable_problem(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By turns, a start each: all come to the same end, to the last bit."""
+    study = high_speed_study(free_laws=True)
+    answers = Epigraph(study).answers
+    if answers.native:
+        answers.native.make(answers, study.x0 + np.zeros((64, 1)))
+        answers.native.wait()
+    took: dict[str, list[float]] = {name: [] for name in WAYS}
+    for seed in range(1, STARTS + 1):
+        x = np.clip(start_of(study, seed), *study.bounds)
+        size = float(study.evaluate(x).f[0, 0])
+        ends = list[bytes]()
+        for name, (kind, fast) in WAYS.items():
+            monkeypatch.setenv("CAMKIT_FAST", fast)
+            problem = kind(study, size, 2 * ROUGH)
+            begun = time.process_time()
+            ends.append(problem.descend(problem.u(x), ROUGH).u.tobytes())
+            took[name].append(time.process_time() - begun)
+        assert len(set(ends)) == 1
+    for name in WAYS:
+        report(f"a start, 12 free: {name}", f"{1e3 * statistics.mean(took[name]):5.0f} ms")

@@ -31,8 +31,9 @@ def derivative(program: Program, inputs: Sequence[str]) -> Program:
     number where its output is none; texts and refusals are left out.
 
     >>> area = recorded(lambda size: {"area": size["width"] * size["height"]}, {"width": 2.0, "height": 3.0})
-    >>> derivative(area, ["width"])({"width": 4.0, "height": 5.0, "d width": 1.0})
-    {'area': np.float64(20.0), 'd area': np.float64(5.0)}
+    >>> told = derivative(area, ["width"])({"width": 4.0, "height": 5.0, "d width": 1.0})
+    >>> {name: float(value) for name, value in told.items()}
+    {'area': 20.0, 'd area': 5.0}
 
     Raises ``ValueError`` for a name that is no input; `CannotRecord` for an operation that has no slope.
     """

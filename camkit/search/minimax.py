@@ -12,9 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..quantities import CurveMeasure, Measure
+from ..study.native import Answers
 from ..study.slsqp import slsqp
 from ..study.study import KEPT, Study
-from ..study.weighted import parts_of, points_of
+from ..study.weighted import Curve, is_curve, parts_of
 
 STEP = 1e-6
 """Step of a central difference, as a share of the bounds' width."""
@@ -44,6 +46,8 @@ class Epigraph:
     Points of curves and single numbers stand side by side as columns, first those of the objective over ``scale``,
     then those of the limits, which are kept where <= 0.  ``margins`` says for each limit how far inside it, as a
     share of it, the solution shall lie.  ``evaluations`` counts designs.
+
+    A design and its neighbours are asked for in one call: those that no slope needs are not counted.
     """
 
     def __init__(self, study: Study, scale: float = 1.0, margins: float | np.ndarray = 0.0) -> None:
@@ -51,6 +55,7 @@ class Epigraph:
         self.margins = np.broadcast_to(margins, len(study.limits))
         self.evaluations = 0
         self._last: tuple[bytes, np.ndarray] = b"", np.empty(0)
+        self._asked = np.empty(0), np.empty(0)
 
     def tighten(self, margins: np.ndarray) -> None:
         """Tighten the limits further, each by a share of it."""
@@ -66,25 +71,36 @@ class Epigraph:
         low, high = self.study.bounds
         return np.clip((x - low) / (high - low), 0, 1)
 
-    def _blocks(self, u: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """The points of each part of the objective and of each limit, for designs ``(p, n)``."""
-        self.evaluations += len(u)
-        x = self.x(u)
-        p, analysis, heads = len(u), self.study.analysis(x), []
-        for factor, part in parts_of(self.study.minimise[0]):
-            heads.append(points_of(part, analysis, factor / self.scale, p))
-        margins = np.broadcast_to(self.margins + self.study.tightening(x), (p, len(self.study.limits)))
-        limits = [
-            points_of(m, analysis, sense / (abs(v) or 1.0), p) - (sense * np.sign(v) - margin[:, None])
-            for (m, v, sense), margin in zip(self.study.limits, margins.T, strict=True)
+    @cached_property
+    def _seen(self) -> tuple[list[tuple[float, Measure]], list[tuple[float, Measure]]]:
+        """The parts of the objective and the limits, each a factor times a measure."""
+        heads = [(factor / self.scale, part) for factor, part in parts_of(self.study.minimise[0])]
+        return heads, [(sense / (abs(v) or 1.0), measure) for measure, v, sense in self.study.limits]
+
+    @cached_property
+    def answers(self) -> Answers:
+        """What is said of all points, of a curve without its sign; and of each measure, where a search is followed."""
+        seen = [
+            Curve(m) if isinstance(m, CurveMeasure) and is_curve(m, factor) else m
+            for factor, m in (*self._seen[0], *self._seen[1])
         ]
-        return heads, limits
+        more = self.study.measures if hasattr(self.study, "follow") else ()
+        return Answers(self.study, tuple(self.study.free), (*seen, *more))
 
     @cached_property
     def _sizes(self) -> tuple[list[int], list[int]]:
         """How many columns each part of the objective has, and each limit."""
-        heads, limits = self._blocks(np.full((1, len(self.study.free)), 0.5))
-        return [block.shape[1] for block in heads], [block.shape[1] for block in limits]
+        self.evaluations += 1
+        middle = self.study.analysis(self.x(np.full((1, len(self.study.free)), 0.5)))
+        sizes = [each.of(middle, 1).size for each in self.answers.asked]
+        heads, limits = map(len, self._seen)
+        return sizes[:heads], sizes[heads : heads + limits]
+
+    @cached_property
+    def _factors(self) -> np.ndarray:
+        """By what each column is multiplied."""
+        factors = [f * m.sign if is_curve(m, f) else f for f, m in (*self._seen[0], *self._seen[1])]
+        return np.repeat(factors, [*self._sizes[0], *self._sizes[1]])
 
     @cached_property
     def owner(self) -> np.ndarray:
@@ -106,25 +122,43 @@ class Epigraph:
 
     def columns(self, u: np.ndarray) -> np.ndarray:
         """All columns of designs ``(p, n)``; of a design that cannot be built all are ``BAD``."""
-        heads, limits = self._blocks(u)
-        c = np.maximum(np.concatenate([*heads, *limits], axis=-1), -BAD)  # as infinite as a radius can be
+        return self._columns(self.x(u), self.answers(self.x(u)))
+
+    def _columns(self, x: np.ndarray, told: np.ndarray) -> np.ndarray:
+        limits = self.study.limits
+        margins = np.broadcast_to(self.margins + self.study.tightening(x), (len(x), len(limits)))
+        bounds = np.repeat([sense * np.sign(v) for _, v, sense in limits] - margins, self._sizes[1], axis=-1)
+        c = self._factors * told[:, : len(self._factors)]
+        c[:, len(self._factors) - bounds.shape[1] :] -= bounds
+        c = np.maximum(c, -BAD)  # as infinite as a radius can be
         return np.where(np.isfinite(c).all(-1, keepdims=True), c, BAD)
 
     def at(self, u: np.ndarray) -> np.ndarray:
-        """The columns of one design; the last one is remembered."""
+        """The columns of one design."""
         if self._last[0] != u.tobytes():
-            self._last = u.tobytes(), self.columns(u[None])[0]
-        return self._last[1]
+            x = self.x(np.vstack([u, *_beside(u)]))
+            told = self.answers(x)
+            self._last = u.tobytes(), self._columns(x, told)
+            self._asked = x, told
+            self._looked_at(slice(1))
+        return self._last[1][0]
 
     def slopes(self, u: np.ndarray) -> np.ndarray:
-        """Derivatives of the columns by ``u``: central differences within the bounds, all designs in one call."""
-        steps, here = STEP * np.eye(len(u)), self.at(u)
-        up, down = np.clip(u + steps, 0, 1), np.clip(u - steps, 0, 1)
-        above, below = np.split(self.columns(np.concatenate([up, down])), 2)
+        """Derivatives of the columns by ``u``: central differences within the bounds, by what `at` has asked for."""
+        here, (up, down) = self.at(u), _beside(u)
+        above, below = np.split(self._last[1][1:], 2)
+        self._looked_at(slice(1, None))
         up, above = _only_built(above, (up, u), (above, here))
         down, below = _only_built(below, (down, u), (below, here))
         width = (up - down).sum(-1)
         return (above - below).T / np.where(width == 0, 1, width)
+
+    def _looked_at(self, some: slice) -> None:
+        """Count some of the designs that were asked for last, and hand them on to who follows the search."""
+        x, told = (each[some] for each in self._asked)
+        self.evaluations += len(x)
+        if follow := getattr(self.study, "follow", None):
+            follow(self.study.judged_by(x, told[:, len(self._factors) :]))
 
     def tops(self, c: np.ndarray) -> np.ndarray:
         """The least ``t`` that bound the columns."""
@@ -185,6 +219,12 @@ class Epigraph:
 
         whole = np.concatenate([u, t])
         return slsqp(whole, (total, lambda z: slope), (room, room_slopes), precision, STEPS, unbounded=len(t))
+
+
+def _beside(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The neighbours of a design above and below, within the bounds, one for each free value."""
+    steps = STEP * np.eye(len(u))
+    return np.clip(u + steps, 0, 1), np.clip(u - steps, 0, 1)
 
 
 def _only_built(c: np.ndarray, *pairs: tuple[np.ndarray, np.ndarray]) -> list[np.ndarray]:

@@ -86,6 +86,23 @@ def parts_of(measure: Measure) -> list[tuple[float, Measure]]:
     return [(1.0, measure)]
 
 
+def is_curve(measure: Measure, factor: float) -> bool:
+    """Whether ``factor * measure`` is the largest of the points of its curve."""
+    return isinstance(measure, CurveMeasure) and measure.way * factor * measure.sign > 0
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Every point of a measure that is a curve's largest or least value, without its sign."""
+
+    measure: CurveMeasure
+
+    def of(self, analysis: object, p: int) -> np.ndarray:
+        """Of ``p`` designs, ``(p, n)``."""
+        curve = self.measure.curve(analysis)
+        return np.broadcast_to(curve, (p, curve.shape[-1]))
+
+
 def points_of(measure: Measure, analysis: object, factor: float, p: int) -> np.ndarray:
     """``factor * measure`` as points ``(p, n)`` whose largest it is: those of a curve, or the number itself."""
     sided = factor * measure.sign

@@ -12,6 +12,7 @@ from camkit.cam import base_radius, max_pressure_angle, min_convex_radius, peak_
 from camkit.motion import Cycloidal, ModifiedSine
 from camkit.search import trade_off
 from camkit.search.checkpoint import fingerprint
+from camkit.search.minimax import Epigraph
 from camkit.study import native, weighted
 
 pytest.importorskip("llvmlite")
@@ -188,3 +189,19 @@ def test_a_study_has_one_fingerprint_whoever_answers(monkeypatch):
     expected = alone(monkeypatch, lambda: fingerprint(of))
     ready(of)
     assert fingerprint(study()) == expected
+
+
+def test_a_descent_ends_at_the_same_bits_whoever_answers():
+    of = study().replace(minimise=(peak_force,))
+    alone, problem = minimise(of), Epigraph(of)
+    x = rows(of, native.BLOCK)
+    before = problem.answers(x)
+    problem.answers.native.make(problem.answers, x)
+    problem.answers.native.wait()
+    assert problem.answers.native.refused == ""
+    assert before.shape[1] > len(of.measures)
+    for p in (1, 25, native.BLOCK):
+        assert_array_equal(problem.answers(x[:p]), before[:p])
+    both = minimise(of)
+    assert_array_equal(both.x, alone.x)
+    assert (both.f, both.evaluations, both.message) == (alone.f, alone.evaluations, alone.message)
