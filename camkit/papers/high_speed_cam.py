@@ -16,7 +16,7 @@ from ..machines.high_speed_measures import GEOMETRY, high_speed_study, peak_stre
 from ..quantities import Measure
 from ..study.study import Study
 from ..units import cm, deg, mm
-from .published import Comparison, Row
+from .published import Comparison, Row, Table
 
 SOURCE = "Zinchenko, Prokopenko, Krasnokutskiy, Krakhmalyov"
 WAYS = ("rise", "return")
@@ -93,6 +93,15 @@ def table_3() -> Comparison:
         rows += _sizes(name, printed[name], _press(name, printed[name]))
     rows += _rows("initial", printed["initial"], CamLever().analyse(ANGLES), float(np.sqrt(cm / mm)))
     return Comparison("Table 3: cam and lever, stand-in load", SOURCE, rows)
+
+
+def printed_table_3() -> Table:
+    """The sizes of table 3 as they are printed: in which row do they contradict each other?"""
+    head = ("row", "arm l [mm]", "roller r [mm]", "axes L [mm]", "start angle ψ₀ [deg]", "smallest radius r_k1 [mm]")
+    names = ("centre_distance", "start_angle", "min_radius")
+    printed = as_printed("high_speed")["table_3"]
+    rows = [(name, *row["sizes"][:2], *map(row.get, names)) for name, row in printed.items() if "sizes" in row]
+    return Table(head, rows, "Table 3: three cams, as printed")
 
 
 class Problem(NamedTuple):

@@ -33,7 +33,15 @@ from camkit.machines.high_speed_measures import (
 )
 from camkit.motion import LAWS, Cycloidal, Degree9, FreePolynomial, ModifiedSine, Poly345, SplineLaw
 from camkit.motion.families.shaped import SPLINE, ShapedLaw
-from camkit.papers.high_speed_cam import lever_problems, problems, table, table_3, trade_off_studies, with_printed_sizes
+from camkit.papers.high_speed_cam import (
+    lever_problems,
+    printed_table_3,
+    problems,
+    table,
+    table_3,
+    trade_off_studies,
+    with_printed_sizes,
+)
 from camkit.quantities import quantities_of, with_quantities
 from camkit.search.minimise import minimise
 from camkit.units import GPa, cm, deg, mm, rpm
@@ -113,6 +121,19 @@ def test_the_misprints_of_table_3():
         assert CamLever(355.6 * mm, 50 * mm, 110 * mm, lever=x * mm).cam.start_angle / deg == pytest.approx(
             start, abs=5e-3
         )
+
+
+def test_one_row_of_the_printed_sizes_does_not_close_its_triangle():
+    """Cam axis, pivot and roller's centre: the side that the other two and their angle leave, against r_k1 + r."""
+    _, *columns = zip(*printed_table_3().rows, strict=True)
+    arm, roller, axes, start, smallest = (np.asarray(column, dtype=float) for column in columns)
+
+    def miss(axes):
+        return np.sqrt(axes**2 + arm**2 - 2 * axes * arm * np.cos(start * deg)) - (smallest + roller)
+
+    assert (abs(miss(axes)) < [0.1, 6, 0.1]).all()
+    assert miss(axes)[1] < -5
+    assert abs(miss(np.where(axes == 340.4, 370.4, axes))).max() < 0.1
 
 
 def test_reference_values():
