@@ -25,7 +25,7 @@ from ..data import as_printed
 from ..machines.door_handle import DoorHandleAnalysis, DoorHandleCam
 from ..quantities import Measure
 from ..units import deg, mm, percent
-from .published import Comparison, Row
+from .published import Comparison, Row, Table
 
 SOURCE = "Gong, Liu, He 2025"
 PAPER_TORQUE = mm**2
@@ -171,3 +171,10 @@ def text_torques() -> Comparison:
         for when in WHEN
     ]
     return Comparison("Torques in the text", SOURCE, rows)
+
+
+def printed_torques() -> Table:
+    """The lift curve's torques as they are printed, twice: what cannot be right?"""
+    where = {"table 4": _printed("table_4", "lift", "peak_torque"), "text": _printed("text", "peak_torque")}
+    rows = [(place, *(torque[when] for when in WHEN)) for place, torque in where.items()]
+    return Table(("peak torque M [kg mm²/s²]", *WHEN), rows, "Torques of the lift curve, as printed")

@@ -84,3 +84,8 @@ def test_the_papers_choice_is_beaten_in_both_wishes():
     choice = lift_curve_study().evaluate([48.09 * mm, 0.34]).f[0]
     assert_allclose(choice, [0.945, -44.46 * mm], rtol=1e-3)
     assert (np.array(STORED["fronts"]["lift curve"]["f"]) < choice).all(axis=1).mean() > 0.3
+
+
+def test_the_text_halves_what_the_table_prints():
+    table, text = (np.asarray(row[1:], dtype=float) for row in paper.printed_torques().rows)
+    assert abs(table / text - 2).max() < 1e-3
