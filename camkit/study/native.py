@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ..program import record
-from ..quantities import Quantity, quantities_of, unremarked
+from ..program import recorded
+from ..quantities import Quantity, quantities_of, unremarked, value_of, with_quantities
 from ..quantities.tree import Paths
 from ..quantities.types import Array
 
@@ -158,12 +158,13 @@ def made(study: Study[Any], paths: Sequence[str], asked: Sequence[Asked] | None 
     """The code for what a study's measures, or what is ``asked``, say of designs that differ at some paths."""
     from ..program.kernel import Kernel
 
-    def measured(design: object) -> Mapping[str, object]:
-        analysis = study.analysis_of(design)
+    def measured(given: dict[str, Any]) -> Mapping[str, object]:
+        analysis = study.analysis_of(with_quantities(study.start, given))
         return {str(i): each.of(analysis, 1) for i, each in enumerate(study.measures if asked is None else asked)}
 
-    with unremarked():
-        return Kernel(record(measured, study.start), paths)
+    # Columns where designs differ, as numpy has them: of a design that cannot be built these alone become nan.
+    start = {path: value_of(study.start, path) for path in quantities_of(study.start)}
+    return Kernel(recorded(measured, {k: np.full((1, 1), v) if k in paths else v for k, v in start.items()}), paths)
 
 
 def agrees(found: Array, expected: Array) -> None:

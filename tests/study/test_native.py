@@ -9,6 +9,7 @@ from numpy.testing import assert_array_equal
 
 from camkit import DesignMap, Measure, Study, TranslatingRollerCam, deg, minimise, mm, nsga2, quick_front
 from camkit.cam import base_radius, max_pressure_angle, min_convex_radius, peak_force
+from camkit.machines import high_speed_study
 from camkit.motion import Cycloidal, ModifiedSine
 from camkit.search import trade_off
 from camkit.search.checkpoint import fingerprint
@@ -61,6 +62,16 @@ def test_the_same_to_the_last_bit_and_what_cannot_be_built():
     found = of.evaluate(x)
     assert np.isinf(found.f[-5:]).any(-1).all()
     alike(found, by_numpy(of, x))
+
+
+def test_what_does_not_follow_from_that_for_which_a_design_cannot_be_built_is_the_same():
+    of = high_speed_study(free_laws=True).replace(angles=61)
+    x = rows(of, 120)
+    expected = by_numpy(of, x)
+    assert (np.isfinite(expected.g).any(-1) & np.isinf(expected.f[:, 0])).any()
+    with native.made_first():
+        alike(of.evaluate(x), expected)
+    assert native.native(of, tuple(of.free)).refused == ""
 
 
 def test_numpy_answers_first_and_nobody_waits(monkeypatch):
