@@ -1,6 +1,8 @@
 """Programs as native code: what numpy says, at awkward numbers, of expressions at random, of every machine."""
 
+import os
 import re
+import signal
 
 import numpy as np
 import pytest
@@ -220,3 +222,24 @@ def test_no_flag_lets_llvm_change_a_digit(monkeypatch):
     kernel.code_of(program, program.inputs)
     flags = "fast|nnan|ninf|nsz|arcp|contract|afn|reassoc"
     assert not re.search(rf"\b({flags})\b", texts[0].replace("fastcc", ""))
+
+
+def area():
+    return Kernel(recorded(lambda given: {"out": given["a"] * given["b"]}, {"a": 2.0, "b": 3.0}), ["a"])
+
+
+def test_whole_numbers_are_numbers():
+    assert area()({"b": 5.0}, np.array([[4], [6]])).tolist() == [[20.0], [30.0]]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="a system that does not fork")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_forked_process_has_threads_of_its_own(monkeypatch):
+    monkeypatch.setattr(kernel, "threads", lambda: 2)
+    kernel_of, x = area(), np.ones((2 * kernel.SHARED, 1))
+    kernel_of({"b": 5.0}, x)
+    child = os.fork()
+    if not child:
+        signal.alarm(20)
+        os._exit(int((kernel_of({"b": 5.0}, x) != 5).any()))
+    assert os.waitpid(child, 0)[1] == 0

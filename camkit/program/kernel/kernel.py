@@ -86,7 +86,8 @@ class Kernel:
     def __call__(self, others: Mapping[str, float], x: Array) -> Array:
         """The outputs one after the other, ``(p, n)``, of inputs ``(p, n_inputs)`` and all others by name."""
         steady, lanes = self._steady(others), self._code.lanes
-        inputs = np.ascontiguousarray(np.pad(x, ((0, -len(x) % lanes), (0, 0)), mode="edge").T)
+        padded = np.pad(np.asarray(x, dtype=float), ((0, -len(x) % lanes), (0, 0)), mode="edge")
+        inputs = np.ascontiguousarray(padded.T)
         found = np.empty((len(self._code.outputs), inputs.shape[1]))
         if len(x):
             self._run(steady, inputs, found)
@@ -146,3 +147,7 @@ def _processors() -> int:
 @cache
 def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads(), "camkit-kernel")
+
+
+if hasattr(os, "register_at_fork"):  # a process that is forked has none of the threads
+    os.register_at_fork(after_in_child=_pool.cache_clear)
