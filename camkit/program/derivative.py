@@ -138,7 +138,9 @@ def _flat(*_: object, **__: object) -> None:
 
 
 def _by_base(y: Array, a: Array, b: Array) -> Array:
-    return 2 * a if known(b) and np.all(np.equal(b, 2)) else b * a ** (b - 1)
+    if known(b) and np.all(np.equal(b, 2)):
+        return 2 * a
+    return np.where(np.equal(b, 0), 0.0, b * a ** (b - 1))
 
 
 def _in_rows(values: Array, axis: Axis) -> Array:

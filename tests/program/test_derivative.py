@@ -130,6 +130,7 @@ def test_an_expression_at_random(seed):
         (lambda x: np.sqrt(x), 0.0, 0.0, 0.0),
         (lambda x: np.sqrt(x), 0.0, 1.0, np.inf),
         (lambda x: x**1.5, 0.0, 1.0, 0.0),
+        (lambda x: np.sum(x ** np.arange(3.0)), 0.0, 1.0, 1.0),
         (lambda x: np.hypot(x, x), 0.0, 1.0, 0.0),
         (lambda x: np.arccos(np.clip(x, -1.0, 1.0)), 2.0, 1.0, 0.0),
         (lambda x: np.arctan2(0 * x, 0 * x), 1.0, 1.0, 0.0),
