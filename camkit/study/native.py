@@ -23,6 +23,7 @@ from ..program import recorded
 from ..quantities import Quantity, quantities_of, unremarked, value_of, with_quantities
 from ..quantities.tree import Paths
 from ..quantities.types import Array
+from .likeness import foreign, likeness, read_by
 
 if TYPE_CHECKING:
     from ..program.kernel import Kernel
@@ -78,7 +79,7 @@ class Native:
     def make(self, answers: Answers, x: Array) -> None:
         """Begin to make the code, if nobody has begun; it is compared with numpy at designs ``x``."""
         with self._lock:
-            if self._maker is None:
+            if self._maker is None and not _FORKED:
                 self._maker = threading.Thread(target=self._make, args=(answers, x[:BLOCK].copy()), daemon=True)
                 self._maker.start()
 
@@ -109,6 +110,7 @@ class Answers:
         self.study, self.paths = study, paths
         self.asked = study.measures if asked is None else tuple(asked)
         self.native = native(study, paths, self.asked)
+        self._read = self._reads()
 
     def __call__(self, x: Array) -> Array:
         """What they say of values ``(p, n)``, side by side, ``(p, n_measures)``."""
@@ -117,6 +119,8 @@ class Answers:
 
     def by_code(self, x: Array) -> Array | None:
         """The same by native code, if that is there by now."""
+        if self._read and self._reads() != self._read:  # such as a variable of a notebook
+            self.native, self._read = native(self.study, self.paths, self.asked), self._reads()
         if self.native is None or not len(x):
             return None
         if self.native.kernel is None and _MADE_FIRST.get():
@@ -126,6 +130,15 @@ class Answers:
             return self.native.kernel(self.numbers, x)
         self.native.seen(self, x)
         return None
+
+    def __getstate__(self) -> dict[str, object]:
+        return {**vars(self), "_read": self._read and (0,)}  # functions are read anew
+
+    def _reads(self) -> tuple[Hashable, ...]:
+        """What a user's functions read now; nothing where no native code depends on it."""
+        with suppress(TypeError):
+            return () if self.native is None else _read(self.study, self.asked)
+        return (object(),)
 
     @cached_property
     def numbers(self) -> dict[str, float]:
@@ -179,6 +192,10 @@ KNOWN: OrderedDict[Hashable, Native] = OrderedDict()
 """By what studies have in common, what was last asked for last."""
 _LOCK = threading.Lock()
 _MAKING = threading.Lock()
+_FORKED: list[bool] = []
+"""Not empty in a process that was forked while code was made: LLVM may be in the midst of it, so none is made."""
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=lambda: _FORKED.extend([True] * _MAKING.locked()))
 
 
 def native(study: Study[Any], paths: Sequence[str], asked: Sequence[Asked] | None = None) -> Native | None:
@@ -187,7 +204,8 @@ def native(study: Study[Any], paths: Sequence[str], asked: Sequence[Asked] | Non
         return None
     told = study.measures if asked is None else asked
     try:
-        key = (_likeness(study.start), tuple(paths), _likeness(told), study.angles, study.rough)
+        read = _read(study, told)
+        key = (likeness(study.start), tuple(paths), likeness(told), study.angles, study.rough, read)
         hash(key)
     except TypeError:  # who can say what is like it
         return None
@@ -206,23 +224,12 @@ def _installed() -> bool:
     return False
 
 
-def _likeness(thing: object) -> Hashable:
-    """What two things have in common that differ in declared numbers alone."""
-    if isinstance(thing, (tuple, list)):
-        return (type(thing), *map(_likeness, thing))
-    if isinstance(thing, Mapping):
-        return (type(thing), *((key, _likeness(value)) for key, value in thing.items()))
-    if isinstance(thing, np.ndarray):
-        return thing.shape, thing.dtype.str, thing.tobytes()
-    if not dataclasses.is_dataclass(thing) or isinstance(thing, type):
-        return type(thing), thing
-    return (type(thing), *(_likeness_of(f, getattr(thing, f.name)) for f in dataclasses.fields(thing)))
+def _read(study: Study[Any], asked: Sequence[Asked]) -> tuple[Hashable, ...]:
+    """What the functions and the classes of a user read, those of the design and of the study itself too."""
+    own: list[object] = []
+    if foreign(type(study)):
+        from .robust import RobustStudy
 
-
-def _likeness_of(f: dataclasses.Field[Any], value: Any) -> Hashable:
-    """The same of a field: of declared numbers whether they are there."""
-    if isinstance(f.metadata.get("declared"), Quantity):
-        return value is None
-    if "row" in f.metadata:
-        return tuple(each is None for each in value)
-    return _likeness(value)
+        known = {f.name for f in dataclasses.fields(RobustStudy)}
+        own = [type(study), *(getattr(study, f.name) for f in dataclasses.fields(study) if f.name not in known)]
+    return read_by(study.start, *asked, *own)

@@ -22,6 +22,7 @@ pytest.importorskip("llvmlite")
 @pytest.fixture(autouse=True)
 def cache(tmp_path, monkeypatch):
     monkeypatch.setenv("CAMKIT_CACHE", str(tmp_path))
+    monkeypatch.delenv("CAMKIT_FAST", raising=False)
     monkeypatch.setattr(native, "KNOWN", type(native.KNOWN)())
 
 

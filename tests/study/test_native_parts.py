@@ -32,6 +32,7 @@ def both(monkeypatch):
 @pytest.fixture(autouse=True)
 def cache_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("CAMKIT_CACHE", str(tmp_path))
+    monkeypatch.delenv("CAMKIT_FAST", raising=False)
     monkeypatch.setattr(native, "KNOWN", type(native.KNOWN)())
 
 

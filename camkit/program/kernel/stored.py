@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -22,6 +23,8 @@ from ..record import Recorded, key_of, name_of
 MOST = 200
 """So many files are kept, those that were last made."""
 DIGEST = 32
+PART = ".camkit-part"
+"""Ends the name of a file that is being written; other files of the folder are somebody's."""
 
 
 @dataclass(frozen=True)
@@ -108,10 +111,10 @@ def write(file: str, code: Code) -> None:
     """Put a file into the cache, whole or not at all; a cache that cannot be written to is none."""
     with suppress(OSError):
         folder().mkdir(mode=0o700, parents=True, exist_ok=True)
-        handle, made = tempfile.mkstemp(dir=folder())
+        handle, made = tempfile.mkstemp(PART, dir=folder())
         with os.fdopen(handle, "wb") as out:
             out.write(code.packed())
         Path(made).replace(folder() / file)
-        old = sorted(folder().iterdir(), key=lambda each: each.stat().st_mtime)[:-MOST]
-        for each in old:
+        ours = [each for each in folder().iterdir() if re.fullmatch(rf"[0-9a-f]{{64}}|.*{PART}", each.name)]
+        for each in sorted(ours, key=lambda each: each.stat().st_mtime)[:-MOST]:
             each.unlink()
