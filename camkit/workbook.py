@@ -85,7 +85,7 @@ def copy(folder: Path) -> Copied:
 
 def _record(folder: Path) -> dict[str, str]:
     """What was copied before; of a record that cannot be read nothing is known, and every file is the user's."""
-    with suppress(OSError, ValueError):
+    with suppress(OSError, ValueError, RecursionError):
         found = json.loads((folder / RECORD).read_text(encoding="utf-8"))
         return found if isinstance(found, dict) else {}
     return {}

@@ -184,7 +184,7 @@ def test_a_file_of_an_earlier_camkit_that_nobody_changed_is_brought_up_to_date(t
     assert (tmp_path / "01_door_handle_cam.ipynb").read_text(encoding="utf-8") == "mine"
 
 
-@pytest.mark.parametrize("record", ["{", "[1]", '{"00_start_here.ipynb": 1}', None])
+@pytest.mark.parametrize("record", ["{", "[1]", "[" * 100_000, '{"00_start_here.ipynb": 1}', None])
 def test_without_a_readable_record_every_other_file_is_the_users(tmp_path: Path, record: str | None) -> None:
     copy(tmp_path)
     (tmp_path / FIRST).write_text("mine", encoding="utf-8")

@@ -39,6 +39,8 @@ class Exercise(ABC):
     because: str = ""
 
     def __post_init__(self) -> None:
+        if not isinstance(self.hints, (tuple, list)) or not all(isinstance(hint, str) for hint in self.hints):
+            raise ValueError(f"the hints are {shown(self.hints)}; they must be a list of texts")
         OPENED.setdefault(self.lesson, {})[self.name] = self
         self.said(self.numbers)  # a question that names what is not given is refused here
 
@@ -132,6 +134,11 @@ class NumberExercise(Exercise):
 
     def __post_init__(self) -> None:
         factor(self.unit)
+        share = number_in(self.tolerance)
+        if share is None or np.ndim(share) or not 0 <= share < 1:
+            raise ValueError(
+                f"the tolerance is {shown(self.tolerance)}; it must be a share: at least 0 and less than 1"
+            )
         super().__post_init__()
 
     def asks(self, numbers: SimpleNamespace) -> str:
@@ -147,7 +154,7 @@ class NumberExercise(Exercise):
         read = number_in(attempt)
         if read is None or np.ndim(read) or not np.isfinite(read):
             return uncounted(f"A number is wanted here, such as {self.example}; given is {shown(attempt)}.")
-        value, answer = float(read), float(cast(float, self.answer(numbers)))
+        value, answer = float(read), self.answered(numbers)
         if close(value, answer, self.tolerance):
             return Reply(True, f"Right: {self.text(answer)}.")
         if self.unit and (said := wrong_unit(value, answer, self.tolerance)):
@@ -155,8 +162,15 @@ class NumberExercise(Exercise):
         known = self._mistake(numbers, lambda made: close(value, float(cast(float, made)), self.tolerance))
         return known or Reply(False, f"{self.text(value)} is not right.", known=False)
 
+    def answered(self, numbers: SimpleNamespace) -> float:
+        """The answer; ``ValueError`` in a sentence where it is no number, which no attempt can be."""
+        read = number_in(said := self.answer(numbers))
+        if read is None or np.ndim(read) or not np.isfinite(read):
+            raise ValueError(f"the answer of the exercise {self.name!r} is {shown(said)}; it must be a finite number")
+        return float(read)
+
     def key(self, numbers: SimpleNamespace) -> str:
-        return self.text(float(cast(float, self.answer(numbers))))
+        return self.text(self.answered(numbers))
 
     def text(self, value: float) -> str:
         """A number with its unit."""
@@ -170,6 +184,12 @@ class ChoiceExercise(Exercise):
 
     choices: Sequence[str]
 
+    def __post_init__(self) -> None:
+        fits = isinstance(self.choices, (tuple, list)) and all(isinstance(each, str) for each in self.choices)
+        if not fits or len(self.choices) < 2:
+            raise ValueError(f"the choices are {shown(self.choices)}; they must be two texts or more")
+        super().__post_init__()
+
     def asks(self, numbers: SimpleNamespace) -> str:
         *most, last = map(repr, self.choices)
         return f"Answer: {', '.join(most)} or {last}."
@@ -179,7 +199,7 @@ class ChoiceExercise(Exercise):
 
     def judge(self, attempt: object, numbers: SimpleNamespace, **how: object) -> Reply:
         said = " ".join(attempt.lower().split()) if isinstance(attempt, str) else None
-        chosen = next((choice for choice in self.choices if choice.lower() == said), None)
+        chosen = next((choice for choice in self.choices if " ".join(choice.lower().split()) == said), None)
         if chosen is None:
             return uncounted(f"{self.asks(numbers)} Given is {shown(attempt)}.")
         if chosen == self.answer(numbers):

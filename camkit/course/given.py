@@ -7,9 +7,12 @@ from dataclasses import dataclass
 from hashlib import sha256
 from types import SimpleNamespace
 
-from ..quantities.kinds import refuse_kinds
+from ..quantities.kinds import refuse_kinds, shown
 from ..units import factor, in_unit
 from .replies import raised
+
+MOST = 1e9
+"""So many numbers there may be in a range."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Range:
         factor(self.unit)
         if not (self.step > 0 and self.high >= self.low):
             raise ValueError(f"a range from {self.low:g} to {self.high:g} by {self.step:g} has no numbers in it")
+        if not (self.high - self.low) / self.step < MOST:
+            raise ValueError(f"a range from {self.low:g} to {self.high:g} by {self.step:g} has too many numbers in it")
 
     @property
     def count(self) -> int:
@@ -62,6 +67,8 @@ def drawn(given: Given, learner: str, exercise: str) -> SimpleNamespace:
 
 
 def _one(options: Range | Sequence[object], key: str) -> object:
+    if not isinstance(options, Range) and not (isinstance(options, (tuple, list)) and options):
+        raise ValueError(f"what is drawn from is {shown(options)}; it must be a Range, or a list with something in it")
     count = options.count if isinstance(options, Range) else len(options)
     place = int.from_bytes(sha256(key.encode("utf-8", "replace")).digest()[:8], "big") % count
     return options.at(place) if isinstance(options, Range) else options[place]

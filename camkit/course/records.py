@@ -152,7 +152,9 @@ def _sound(found: object) -> bool:
 
 def _is_record(record: object) -> bool:
     kinds = {name: type(value) for name, value in unread().items()}
-    return isinstance(record, dict) and {name: type(value) for name, value in record.items()} == kinds
+    if not isinstance(record, dict) or {name: type(value) for name, value in record.items()} != kinds:
+        return False
+    return all(value >= 0 for value in record.values())
 
 
 NOW = Learner()

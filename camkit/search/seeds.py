@@ -57,10 +57,13 @@ def seeds_of(given: object) -> tuple[int, ...]:
     >>> seeds_of(range(3))
     (0, 1, 2)
     """
-    if not isinstance(given, (range, tuple, list, np.ndarray)) or np.ndim(given) != 1:
+    if not isinstance(given, range) and not (isinstance(given, (tuple, list, np.ndarray)) and np.ndim(given) == 1):
         raise ValueError(f"the seeds are {shown(given)}; they must be whole numbers, such as range(30)")
-    if not 0 < len(given) <= MOST_SEEDS:
-        raise ValueError(f"there are {len(given)} seeds; there must be one or more, up to {MOST_SEEDS}")
+    few = given[: MOST_SEEDS + 1]  # of a range that may be longer than Python counts
+    if not 0 < len(few) <= MOST_SEEDS:
+        raise ValueError(
+            f"there are {'too many' if len(few) else 0} seeds; there must be one or more, up to {MOST_SEEDS}"
+        )
     found = [whole(seed, "one of the seeds", 0, MOST_SEED) for seed in given]
     if twice := [seed for i, seed in enumerate(found) if seed in found[:i]]:
         raise ValueError(f"the seed {twice[0]} is there twice; a search with it would find the same")

@@ -12,6 +12,9 @@ from camkit.course.exercises import OPENED
 from camkit.course.records import NOW
 from camkit.search.front import front_of
 
+TOLERANCES = (-1, 1, np.nan, np.inf, "x", None, True)
+ANSWERS = (np.nan, np.inf, None, "1", np.array([1.0, 2.0]), 10**400)
+
 
 @pytest.fixture(autouse=True)
 def a_new_learner():
@@ -249,6 +252,17 @@ def test_names_stay_names_on_the_page():
         (lambda: exercise("q", "?", lambda p: 1, unit="furlong"), "furlong"),
         (lambda: Range(3, 1, 1), "has no numbers in it"),
         (lambda: Range(1, 3, 0), "has no numbers in it"),
+        (lambda: Range(0, 1e300, 1e-300), "too many numbers"),
+        (lambda: exercise("q", "{x}?", lambda p: 1, given={"x": ()}), "drawn from is .* a list with something in it"),
+        (lambda: exercise("q", "{x}?", lambda p: 1, given={"x": 3}), "drawn from is 3"),
+        (lambda: exercise("q", "?", lambda p: 1, hints="one"), "the hints are 'one'"),
+        (lambda: exercise("q", "?", lambda p: 1, hints=[1]), "the hints are"),
+        *((lambda t=t: exercise("q", "?", lambda p: 1, tolerance=t), "the tolerance is") for t in TOLERANCES),
+        *(
+            (lambda c=c: exercise("q", "?", lambda p: "a", choices=c), "the choices are")
+            for c in ([], ["a"], [1, 2], "ab")
+        ),
+        *((lambda a=a: exercise("q", "?", lambda p: a).check(1.0), "the answer of the exercise 'q'") for a in ANSWERS),
         (lambda: learner("x" * 81), "at most 80 letters"),
         (lambda: learner(2.5), "learner|name"),
     ],
@@ -264,3 +278,11 @@ def test_a_speed_is_read_as_it_is_written():
     )
     assert task.said(task.numbers) == "At 300 rpm."
     assert task.check(300 * rpm).right
+
+
+def test_words_are_known_by_their_letters_alone_and_an_exact_answer_may_be_wanted():
+    task = exercise("q", "?", lambda p: "It  rises", choices=["It  rises", "It falls"], lesson="a lesson")
+    assert task.check("it rises").right
+    exact = exercise("z", "?", lambda p: 0.0, tolerance=0, lesson="a lesson")
+    assert exact.check(0).right
+    assert not exact.check(1e-3).right

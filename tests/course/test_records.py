@@ -83,6 +83,7 @@ def test_kernels_at_the_same_time_lose_nothing(kept):
     "content",
     [b"", b"{", b"\xff\xfe", b"[]", b"null", b'{"now": 3}', b'{"now": "Ada", "learners": []}',
      b'{"now": "Ada", "learners": {"Ada": {"a lesson": {"a task": {"attempts": "many"}}}}}',
+     b'{"now": "Ada", "learners": {"Ada": {"a lesson": {"a task": {"attempts": 1, "hints": -5, "right": false}}}}}',
      b'{"now": "Ada", "learners": {"Ada": {"a lesson": []}}}', b"[" * 100_000, b" " * (2**22 + 1)],
     ids=lambda content: repr(content[:60]),
 )  # fmt: skip

@@ -319,6 +319,7 @@ BAD = {
     "no address": ({"cluster": "nonsense"}, r"the cluster is 'nonsense'; it must be the address of its scheduler"),
     "no text": ({"cluster": 7}, r"the cluster is 7; it must be the address"),
     "both": ({"jobs": 2, "cluster": "tcp://a:1"}, r"there are 2 jobs and a cluster; give one of them"),
+    "an endless range": ({"seeds": range(10**30)}, r"there are too many seeds; .* up to 10000"),
     "no seed": ({"seeds": ()}, r"there are 0 seeds; there must be one or more"),
     "twice": ({"seeds": (1, 2, 1)}, r"the seed 1 is there twice"),
     "one number": ({"seeds": 3}, r"the seeds are 3; they must be whole numbers, such as range\(30\)"),
