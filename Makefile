@@ -32,8 +32,9 @@ BROWSER := $(PYTEST) -n 3 --no-loadscope-reorder
 
 # Coverage is asked of the maths alone, and of doctests and tests that between them go through it: watched, a test takes nearly
 # twice as long.  The tests of a new module of the maths join them.
-WATCHED := camkit tests/course tests/decision tests/dynamics tests/linkage tests/papers tests/study tests/views \
-    tests/machines/test_high_speed.py $(patsubst %,tests/test_%.py,command_line geometry markup package quantities units) \
+WATCHED := camkit $(patsubst %,tests/course/test_%.py,editions exercises records) tests/decision \
+    tests/dynamics tests/linkage tests/papers tests/study tests/views tests/machines/test_high_speed.py \
+    $(patsubst %,tests/test_%.py,command_line geometry markup package quantities units) \
     $(patsubst %,tests/cam/test_%.py,barrel closing followers impacts oscillating_roller outlines pair pins surfaces zones) \
     $(patsubst %,tests/files/test_%.py,blank decisions drawing export faults free_menus gcode hostile_exports motion_tables) \
     $(patsubst %,tests/files/test_%.py,motions outline_files own_laws_in_files report schema sessions_of_old solids to_workshop) \

@@ -17,7 +17,7 @@ from camkit.course.records import NOW
 FOLDER = Path(__file__).parents[2] / "notebooks/course"
 LESSONS = {path.stem: read_lesson(path) for path in sorted(FOLDER.glob("[0-9]*.ipynb"))}
 EXERCISES = {f"{lesson}: {name}": task for lesson, each in LESSONS.items() for name, task in each.exercises.items()}
-LEARNERS = [f"learner {i}" for i in range(200)]
+LEARNERS = [f"learner {i}" for i in range(60)]
 FEW = LEARNERS[:6]
 """For what takes long: designs are analysed."""
 
@@ -63,7 +63,7 @@ def test_no_two_answers_are_the_same_number(task):
 @of(NumberExercise)
 def test_numbers_are_too_many_to_copy(task):
     answers = {f"{task.answer(task.drawn(name)):.6g}" for name in LEARNERS}
-    assert len(answers) > 50
+    assert len(answers) > 30
 
 
 @of(NumberExercise)
