@@ -16,7 +16,7 @@ from test_machines import CAMS, curves, with_law
 from test_studies_and_views import STUDIES
 
 pytest.importorskip("llvmlite")
-from camkit.program.kernel import Kernel, compiler, kernel, stored, trial
+from camkit.program.kernel import Kernel, compiler, kernel, needed, stored, trial
 
 DESIGNS = 200
 
@@ -64,6 +64,47 @@ def test_a_row_of_the_table_at_awkward_numbers(name):
 def test_an_expression_at_random(seed):
     for found, expected in compare(expression(seed), [np.asarray(value) for value in INPUTS.values()]):
         assert_array_equal(found, expected)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_an_expression_at_random_whose_arms_are_all_left_out_where_none_needs_them(seed, monkeypatch):
+    monkeypatch.setattr(needed, "WORTH", 1)
+    for found, expected in compare(expression(seed), [np.asarray(value) for value in INPUTS.values()]):
+        assert_array_equal(found, expected)
+
+
+def seldom(x, y):
+    """A curve that is looked at closely if one number asks for it, still more closely if another does."""
+    row, near, far = np.arange(200.0), x > 1, y < -1
+    closely = np.cumsum(np.sin(x * row), axis=-1)
+    best = np.argmax(closely, axis=-1)[..., None]
+    top = np.take_along_axis(closely, best, -1)
+    once_more = np.sort(np.cos(y * row[:9] + top), axis=-1)[..., 4:5] + (closely / (y + row)).sum(-1, keepdims=True)
+    inner = np.where(far, once_more, top)
+    steps = np.where(top * row > y, top, y)
+    each = np.where(x * row > 300, steps + closely[..., :1], x)
+    return {
+        "nested": np.where(near, inner, y)[..., 0],
+        "shared": np.where(far, np.sqrt(closely).sum(-1, keepdims=True), x)[..., 0],
+        "else": np.where(np.isnan(x) | ~near, x, (np.exp(closely) * each).max(-1, keepdims=True))[..., 0],
+        "row": np.where(np.stack([x, y], axis=-1)[..., 0, :] > 2, np.log1p(row * x).sum(-1, keepdims=True), y)[..., 1],
+    }
+
+
+@pytest.mark.parametrize("worth", [1, 100, 10**9])
+def test_what_some_designs_alone_need_is_there_for_them(worth, monkeypatch):
+    monkeypatch.setattr(needed, "WORTH", worth)
+    made, machine_code = [], compiler.machine_code
+    monkeypatch.setattr(compiler, "machine_code", lambda text: made.append(text) or machine_code(text))
+    program = recorded(lambda given: seldom(*(np.reshape(x, (1,)) for x in given.values())), {"x": 0.5, "y": 0.5})
+    found = Kernel(program, ["x", "y"])
+    draw = np.random.default_rng(4)
+    x = np.vstack([draw.normal(size=(2000, 2)) * scale for scale in (0.2, 1, 3)])
+    x = np.vstack([x, np.repeat(draw.normal(size=(100, 2)) * 3, 8, axis=0), np.full((9, 2), np.nan), x[:200]])
+    with np.errstate(all="ignore"):
+        expected = np.stack([*seldom(x[:, :1], x[:, 1:]).values()], axis=-1)
+    assert_array_equal(found({}, x), expected)
+    assert ("label %needed" in made[0]) == (worth < 10**9)
 
 
 @pytest.mark.slow

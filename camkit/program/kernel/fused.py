@@ -41,11 +41,12 @@ class Step:
 
 @dataclass
 class Group:
-    """Steps that are done together, so many times."""
+    """Steps that are done together, so many times; if they are not always ``needed``, what says so stands there."""
 
     times: int
     alone: bool
     steps: list[Step] = field(default_factory=list)
+    needed: int | None = None
 
 
 class Fused:
@@ -54,11 +55,11 @@ class Fused:
     def __init__(self, loops: Rows) -> None:
         self.loops, self.steady = loops, loops.steady
         self.groups: list[Group] = []
-        self._open: dict[int, list[int]] = {}
+        self._open: dict[tuple[int, int | None], list[int]] = {}
         self._makers: list[Step | None] = [None] * (loops.size - len(loops.constants))
-        for loop in loops.loops:
+        for loop, needed in zip(loops.loops, loops.needed, strict=True):
             for part in _cut(loop, self.steady):
-                self._place(part)
+                self._place(part, needed)
         self.outputs = [at + k - len(loops.constants) for at, size in loops.outputs for k in range(size)]
         """The address of each number of the outputs."""
         for at in self.outputs:
@@ -70,7 +71,7 @@ class Fused:
         """What a constant is."""
         return float(self.loops.constants[address])
 
-    def _place(self, loop: Loop) -> None:
+    def _place(self, loop: Loop, needed: int | None) -> None:
         result, *operands = loop.spans
         folds = loop.times > 1 and (loop.operation in ALONG_ROWS or result[1] == 0)
         if loop.operation == "argmax":
@@ -78,7 +79,9 @@ class Fused:
         step = Step(loop.operation, loop.times, result, operands, folds, folds and len(operands) == 1)
         alone = loop.operation == "sorted" or any(_runs_into(result, span, loop.times) for span in operands)
         makers = [made for k in range(len(operands)) for made in self._makers_of(step, k)]
-        step.group = self._group(step, max((m.group + (not beside) for m, beside in makers), default=0), alone)
+        if needed is not None and (flag := self._makers[needed]):
+            makers.append((flag, False))
+        step.group = self._group(step, needed, max((m.group + (not beside) for m, beside in makers), default=0), alone)
         for maker, beside in makers:
             maker.stored |= not beside or maker.group != step.group
         step.stored = alone or step.fold
@@ -134,6 +137,7 @@ class Fused:
         used = [(self._reach(s, k), number, k < 0) for s, number in steps for k in range(-s.stored, len(s.operands))]
         used += [((k, k), 0, True) for k in range(self.steady, len(self._makers)) if self._makers[k] is None]
         used += [((at, at), len(self.groups), False) for at in self.outputs]
+        used += [((g.needed, g.needed), number, False) for number, g in enumerate(self.groups) if g.needed is not None]
         return [use for use in used if use[0][0] >= self.steady]
 
     def _owners(self, spans: list[Span]) -> np.ndarray:
@@ -151,11 +155,11 @@ class Fused:
         more = int(self.value(step.operands[2][0])) - 1 if step.operation == PICKED and k == 0 else 0
         return min(at[0], at[-1]), max(at[0], at[-1]) + more
 
-    def _group(self, step: Step, first: int, alone: bool) -> int:
-        same = self._open.setdefault(step.times, [])
+    def _group(self, step: Step, needed: int | None, first: int, alone: bool) -> int:
+        same = self._open.setdefault((step.times, needed), [])
         at = bisect_left(same, first)
         if alone or at == len(same):
-            self.groups.append(Group(step.times, alone))
+            self.groups.append(Group(step.times, alone, needed=needed))
             number = len(self.groups) - 1
             if not alone:
                 same.append(number)

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..loops import COPY, Loop, Loops, Place
-from ..operations import EACH
+from ..operations import EACH, FOLDS
 from ..operations import operands as count
 from ..program import Program
 from ..record import Recorded
+from .needed import Reasons, reasons
 
 FEW = 4
 """Rows of so few numbers are folded number by number, all rows at once."""
@@ -35,13 +36,48 @@ class Rows(Loops):
         self.blocks = list[int]()
         """Where each array begins."""
         self.steady = steady
+        self.needed = list[int | None]()
+        """For each loop the address of what says whether it is needed, if it is not always."""
+        self._reasons, self._flags = reasons(program, moving), dict[Reasons, int]()
         super().__init__(program, 0, (given, moving))
+        self.needed += [None] * (len(self.loops) - len(self.needed))
 
     def _new(self, shape: tuple[int, ...]) -> Place:
         self.blocks.append(self._size)
         return super()._new(shape)
 
     def _lowered(self, call: Recorded) -> Place:
+        """Where the result of a call is; whether its loops are needed is found out before them."""
+        flag = self._flag(self._reasons.get(call.number, ()))
+        self.needed += [None] * (len(self.loops) - len(self.needed))
+        place = self._in_order(call)
+        self.needed += [flag] * (len(self.loops) - len(self.needed))
+        return place
+
+    def _flag(self, why: Reasons) -> int | None:
+        """Where it stands whether all reasons are there."""
+        if why and why not in self._flags:
+            before = self._flag(why[:-1])
+            each = [self._anywhere(self._at[number].addresses, wanted) for number, wanted in sorted(why[-1])]
+            there = self._folded(np.logical_or, np.reshape(each, (1, -1)))
+            if before is not None:  # where that does not hold the others were not asked for, and may say anything
+                there = self._folded(np.logical_and, np.array([[before, there]]))
+            self._flags[why] = there
+        return self._flags.get(why)
+
+    def _anywhere(self, condition: np.ndarray, wanted: bool) -> int:
+        """Where it stands whether one number of a condition is as it is wanted."""
+        if not wanted:
+            condition = self._loop(EACH[np.logical_not], self._new(condition.shape), Place(condition)).addresses
+        return self._folded(np.logical_or, condition.reshape(1, -1))
+
+    def _folded(self, function: np.ufunc, row: np.ndarray) -> int:
+        """The address of one number of a row."""
+        found = self._new((1, 1)).addresses
+        self._fold(FOLDS[function.reduce], row, found)
+        return int(found[0, 0])
+
+    def _in_order(self, call: Recorded) -> Place:
         if call.function in (operator.pow, np.power) and call.size:
             return self._power(call)
         if call.function == np.add.reduce and call.size and _last_are_summed(call):

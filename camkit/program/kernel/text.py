@@ -74,7 +74,22 @@ class _Block(Words):
         return self.named(f"load {self.numbers}, ptr {self._row(k, base)}, align 8")
 
     def _done(self, number: int, group: Group) -> None:
+        """A group, if one of the designs side by side needs it."""
         self._here, self._turn = {}, None
+        if group.needed is None:
+            self._all(number, group)
+            return
+        needed = self.is_true(self._loaded(group.needed))
+        some = self.named(f"call i1 @llvm.vector.reduce.or.v{self.lanes}i1({self.truths} {needed})")
+        self.line(f"br i1 {some}, label %needed{number}, label %done{number}")
+        self.lines.append(f"needed{number}:")
+        self._all(number, group)
+        self.line(f"br label %done{number}")
+        self.lines.append(f"done{number}:")
+
+    def _all(self, number: int, group: Group) -> None:
+        """All steps of a group."""
+        self._here = {}
         if group.alone:
             self._alone(number, group.steps[0])
         elif group.times == 1:
