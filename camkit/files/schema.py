@@ -6,6 +6,7 @@ The published one is ``camkit/data/schema.json``, which has the `text` of it.
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, Field, fields
 from types import NoneType, UnionType
@@ -69,7 +70,13 @@ def _kinds() -> dict[str, type]:
     """Every class of camkit that a file may name."""
     from .. import cam, dynamics, linkage, machines, motion  # noqa: F401  whose classes they are
 
-    return {name: kind for name, kind in entries.kinds().items() if kind.__module__.partition(".")[0] == "camkit"}
+    return {name: kind for name, kind in entries.kinds().items() if _is_ours(kind)}
+
+
+def _is_ours(kind: type) -> bool:
+    """Whether it stands in a module of camkit; a class of an example that was run there does not."""
+    ours = kind.__module__.partition(".")[0] == "camkit"
+    return ours and getattr(sys.modules[kind.__module__], kind.__qualname__, None) is kind
 
 
 def _ref(name: str) -> Schema:
