@@ -26,9 +26,8 @@ PYTEST := $(NOTEBOOKS) -p no:nbval
 # Whichever process is done takes over some of the other's tests: none waits while a long file is gone through.
 SPREAD := $(PYTEST) --dist worksteal
 
-# The files in tests/browser as conftest.py there puts them, the slowest first, so that all processes end together; three, since
-# each of them waits for its browser, server and kernel now and then.
-BROWSER := $(PYTEST) -n 3 --no-loadscope-reorder
+# The files in tests/browser as conftest.py there puts them, the slowest first, so that both processes end together.
+BROWSER := $(PYTEST) --no-loadscope-reorder
 
 # Coverage is asked of the maths alone, and of doctests and tests that between them go through it: watched, a test takes nearly
 # twice as long.  The tests of a new module of the maths join them.
