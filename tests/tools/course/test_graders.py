@@ -1,6 +1,7 @@
 """Lessons as two programs grade them: otter 7 and nbgrader make an assignment of each, and grade a submission."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -19,9 +20,9 @@ RIGHT = "harder"
 
 def run(*command, folder):
     """What a program of this environment says."""
-    done = subprocess.run(
-        [sys.executable, "-m", *map(str, command)], cwd=folder, capture_output=True, text=True, check=False
-    )
+    beside = {"PATH": os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))}  # nbgrader calls alembic
+    given, told = [sys.executable, "-m", *map(str, command)], os.environ | beside
+    done = subprocess.run(given, cwd=folder, env=told, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout + done.stderr
 
