@@ -51,13 +51,21 @@ def opened(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterat
 def test_the_first_page_has_a_card_for_each_notebook(opened: Callable[[str], Page]) -> None:
     page = opened("")
     names = sorted(path.name for path in (REPOSITORY / "notebooks").glob("*.ipynb"))[1:]
-    expect(page.locator("li")).to_have_count(len(names) + 1)  # and the one of this test, which has no picture
-    for card, name in zip(page.locator("li").all(), names, strict=False):
+    expect(page.locator("li")).to_have_count(len(names) + 2)  # the course, and the page of this test
+    course, *cards = page.locator("li").all()
+    assert course.locator("a").get_attribute("href").endswith("/tree/course")
+    for card, name in zip(cards, names, strict=False):
         assert card.locator("a").get_attribute("href").endswith(f"/render/{name}")
         assert card.locator("p").inner_text()
         expect(card.locator("img")).to_have_js_property("complete", True)
         assert card.locator("img").evaluate("image => image.naturalWidth") > 100
     screenshot(page, REPOSITORY / ".browser" / "cards.png")
+    course.locator("a").click()
+    lessons = sorted(path.name for path in (REPOSITORY / "notebooks/course").glob("*.ipynb"))
+    expect(page.locator("li")).to_have_count(len(lessons))
+    for card, name in zip(page.locator("li").all(), lessons, strict=True):
+        assert card.locator("a").get_attribute("href").endswith(f"/render/course/{name}")
+    screenshot(page, REPOSITORY / ".browser" / "lessons.png")
 
 
 def test_a_page_says_what_is_loading_and_asks_nothing_from_outside(opened: Callable[[str], Page]) -> None:
